@@ -1,0 +1,22 @@
+ARG BASE_IMAGE=docker.io/library/python:3.12-slim-bookworm
+FROM ${BASE_IMAGE} AS build
+WORKDIR /src
+COPY requirements.lock pyproject.toml README.md LICENSE ./
+RUN python3 -m venv /opt/svsa \
+ && /opt/svsa/bin/pip install --quiet --no-cache-dir --disable-pip-version-check uv
+COPY svsa svsa
+COPY backend backend
+COPY frontend frontend
+RUN /opt/svsa/bin/uv build --quiet --wheel --out-dir /dist --python /opt/svsa/bin/python . \
+ && /opt/svsa/bin/uv pip install --quiet --python /opt/svsa/bin/python --constraint requirements.lock /dist/*.whl \
+ && /opt/svsa/bin/pip uninstall --quiet --yes uv
+
+FROM ${BASE_IMAGE}
+RUN useradd --create-home --uid 1000 svsa
+COPY --from=build /opt/svsa /opt/svsa
+ENV PATH=/opt/svsa/bin:$PATH PYTHONUNBUFFERED=1
+USER svsa
+WORKDIR /home/svsa
+RUN svsa compile
+EXPOSE 8000
+CMD ["svsa", "serve", "--host", "0.0.0.0", "--port", "8000"]

@@ -1,0 +1,60 @@
+# make run     the running lab            make check   format, lint, types, layers
+# make test    every test                 make format  put the code into shape
+PYTHON ?= python3
+BIN := .venv/bin
+PORT ?= 8000
+PAGE := backend/svsa_server/page/index.html
+PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print)
+WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
+
+.PHONY: run test check format page schema lock screenshots bench clean
+
+run: .venv/installed $(PAGE)
+	@$(BIN)/svsa serve --port $(PORT)
+
+test: .venv/installed $(PAGE)
+	$(BIN)/pytest $(ARGS)
+	$(WEB) test
+
+check: .venv/installed $(PAGE)
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/basedpyright
+	$(BIN)/lint-imports
+	$(WEB) run check
+
+format: .venv/installed $(PAGE)
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+	$(WEB) run format
+
+page: $(PAGE)
+
+$(PAGE): .venv/installed $(PAGE_SOURCES)
+	@$(BIN)/python frontend/web/hatch_build.py
+	@touch $@
+
+schema: .venv/installed
+	$(BIN)/svsa openapi > .venv/openapi.json
+	$(WEB) run schema -- "$(CURDIR)/.venv/openapi.json"
+
+screenshots: .venv/installed $(PAGE)
+	$(BIN)/python tests/browser/screenshots.py
+
+bench: .venv/installed
+	$(BIN)/python -m tests.bench
+
+lock: .venv/installed
+	$(BIN)/uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
+	  --no-annotate --group dev pyproject.toml -o requirements.lock --upgrade -q
+
+.venv/installed: requirements.lock pyproject.toml
+	@echo "Preparing the environment (once; a minute or two) …"
+	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	@test -x $(BIN)/uv || $(BIN)/pip install --quiet --disable-pip-version-check uv
+	@$(BIN)/uv pip install --quiet --require-hashes -r requirements.lock
+	@$(BIN)/uv pip install --quiet --no-deps --no-build-isolation --editable .
+	@touch $@
+
+clean:
+	rm -rf .venv backend/svsa_server/page frontend/web/node_modules

@@ -1,0 +1,68 @@
+"""The application: routes, background tasks and guards put together."""
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator
+
+from fastapi import APIRouter, FastAPI
+
+import svsa
+from svsa_server.access import AccessGuard, SharedSecret
+from svsa_server.config import Settings
+from svsa_server.errors import install_error_handlers
+from svsa_server.laboratory import Laboratory
+from svsa_server.page import build_page_routes
+from svsa_server.routes import lab, loads, sessions, settings
+from svsa_server.scene_bridge import SceneBridge
+from svsa_server.viser_proxy import ViserProxy
+
+_DESCRIPTION = (
+    "Position and stiffness control of a serial variable stiffness actuator. SI units; every"
+    " field ends in its unit. A refused request changes nothing and says name, value, unit and"
+    " bound. Where the lab has a shared secret, send it as a bearer token."
+)
+
+
+def build_app(config: Settings | None = None) -> FastAPI:
+    """The lab as an ASGI application; sessions and the 3D view live as long as it runs."""
+    config = config or Settings()
+    secret = SharedSecret(config.secret_text) if config.secret_text else None
+    app = FastAPI(
+        title="SVSA Lab",
+        version=svsa.__version__,
+        description=_DESCRIPTION,
+        lifespan=_live,
+    )
+    app.state.secret = secret
+    app.add_middleware(AccessGuard, secret=secret)
+    install_error_handlers(app)
+    api = APIRouter(prefix="/api/v1")
+    for part in (lab, sessions, settings, loads):
+        api.include_router(part.router)
+    app.include_router(api)
+    app.router.routes.extend(build_page_routes())
+    return app
+
+
+@contextlib.asynccontextmanager
+async def _live(app: FastAPI) -> AsyncIterator[None]:
+    """Start the sessions and the 3D view, and end them with the server."""
+    laboratory = Laboratory()
+    app.state.laboratory = laboratory
+    scene = await asyncio.to_thread(SceneBridge)
+    proxy = ViserProxy(scene.port)
+    routes = list(app.router.routes)
+    app.router.routes.extend(proxy.routes)
+    tasks = [
+        asyncio.create_task(laboratory.run()),
+        asyncio.create_task(scene.run(laboratory.read_pose)),
+    ]
+    try:
+        yield
+    finally:
+        app.router.routes[:] = routes
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        await proxy.close()
+        await asyncio.to_thread(scene.stop)

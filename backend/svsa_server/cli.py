@@ -1,0 +1,26 @@
+"""The commands that the server adds to `svsa`."""
+
+import json
+from typing import Annotated
+
+import typer
+
+
+def serve(
+    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8000,
+) -> None:
+    """Start the lab: the page, the REST interface, the streams and the 3D view.
+
+    Listening beyond this machine needs a shared secret in SVSA_SECRET.
+    """
+    from svsa_server.serve import run_server
+
+    run_server(host, port)
+
+
+def openapi() -> None:
+    """Print the OpenAPI schema of the server."""
+    from svsa_server.app import build_app
+
+    print(json.dumps(build_app().openapi(), indent=2))

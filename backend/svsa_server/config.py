@@ -1,0 +1,48 @@
+"""Where and how the lab is served: read from SVSA_… variables, checked at the start."""
+
+import ipaddress
+
+from pydantic import SecretStr
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+from svsa.errors import SecurityError
+
+SHORTEST_SECRET = 8
+
+
+class Settings(BaseSettings):
+    """Deployment: SVSA_SECRET is the shared secret that everyone who uses the lab knows."""
+
+    model_config = SettingsConfigDict(env_prefix="SVSA_", extra="ignore", frozen=True)
+
+    secret: SecretStr | None = None
+
+    @property
+    def secret_text(self) -> str | None:
+        """The secret, or None where none is set (an empty one is none)."""
+        text = self.secret.get_secret_value() if self.secret else ""
+        return text or None
+
+    def check_exposure(self, host: str) -> None:
+        """Raise `SecurityError` where strangers could reach a lab that has no secret."""
+        if self.secret_text is None:
+            if not is_loopback(host):
+                raise SecurityError(
+                    f"Listening on {host} lets others in: set SVSA_SECRET to a shared secret of at"
+                    f" least {SHORTEST_SECRET} characters, or listen on 127.0.0.1."
+                )
+        elif len(self.secret_text) < SHORTEST_SECRET:
+            raise SecurityError(
+                f"SVSA_SECRET has {len(self.secret_text)} characters: it must have at least"
+                f" {SHORTEST_SECRET}."
+            )
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a host name or address means this machine only."""
+    if host.lower() == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False

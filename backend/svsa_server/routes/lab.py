@@ -1,0 +1,65 @@
+"""The lab itself: health, the paper's figures, login."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Request, Response
+from fastapi.responses import JSONResponse
+
+import svsa
+from svsa.experiment.paper import FIGURES
+from svsa_server.access import COOKIE, SharedSecret
+from svsa_server.errors import ErrorModel
+from svsa_server.routes.depends import REFUSALS
+from svsa_server.schemas import FigureState, Health, LoginRequest
+
+router = APIRouter(tags=["lab"])
+_COOKIE_AGE_S = 30 * 24 * 3600
+
+
+@router.get("/health")
+async def read_health() -> Health:
+    """That the server lives, and its version."""
+    return Health(version=svsa.__version__)
+
+
+@router.get("/figures")
+async def list_figures() -> list[FigureState]:
+    """The paper's simulated figures as data."""
+    return [
+        FigureState(
+            key=figure.key,
+            title=figure.title,
+            position=figure.position,
+            stiffness=figure.stiffness,
+            claim=figure.claim,
+        )
+        for figure in FIGURES.values()
+    ]
+
+
+@router.post(
+    "/login",
+    status_code=204,
+    responses={401: {"model": ErrorModel, "description": "Wrong secret"}, 422: REFUSALS[422]},
+)
+async def log_in(
+    request: Request,
+    credentials: Annotated[LoginRequest, Body(examples=[{"secret": "the shared secret"}])],
+) -> Response:
+    """Trade the shared secret for a cookie; where none is set, everyone is in already."""
+    shared: SharedSecret | None = request.app.state.secret
+    if shared is None:
+        return Response(status_code=204)
+    if not await shared.verify(credentials.secret):
+        refusal = ErrorModel(error="wrong_secret", message="That is not the secret of this lab.")
+        return JSONResponse(refusal.model_dump(), 401)
+    response = Response(status_code=204)
+    response.set_cookie(
+        COOKIE,
+        shared.cookie,
+        max_age=_COOKIE_AGE_S,
+        httponly=True,
+        samesite="strict",
+        secure=request.url.scheme == "https",
+    )
+    return response

@@ -1,0 +1,54 @@
+"""Apply loads and take them off."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body
+
+from svsa.plant.disturbances import Load
+from svsa_server.errors import UnknownError
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.schemas import SessionState
+from svsa_server.state import build_state
+
+router = APIRouter(prefix="/sessions/{session}/loads", tags=["loads"], responses=REFUSALS)
+
+
+@router.post("", status_code=201)
+async def apply_load(
+    session: NamedSession,
+    load: Annotated[
+        Load,
+        Body(
+            examples=[
+                {"kind": "paper"},
+                {"kind": "mass", "mass_kg": 3.0, "arm_m": 0.068},
+                {"kind": "pulse", "torque_nm": [2.0, 0.0, 0.0], "duration_s": 0.5},
+                {"kind": "sine", "torque_nm": [1.0, 0.0, 0.0], "frequency_hz": 1.0},
+                {
+                    "kind": "series",
+                    "time_s": [0.0, 1.0, 2.0],
+                    "torque_nm": [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
+                },
+            ]
+        ),
+    ],
+) -> SessionState:
+    """Apply a load, now or at `start_s`; it is the last of `loads` in the answer."""
+    session.add_load(load)
+    return build_state(session)
+
+
+@router.delete("")
+async def clear_loads(session: NamedSession) -> SessionState:
+    """Take every load off."""
+    session.clear_loads()
+    return build_state(session)
+
+
+@router.delete("/{load_id}")
+async def remove_load(session: NamedSession, load_id: int) -> SessionState:
+    """Take one load off."""
+    if load_id not in (load.number for load in session.run.loads):
+        raise UnknownError(f"There is no load {load_id} in this session.")
+    session.remove_load(load_id)
+    return build_state(session)

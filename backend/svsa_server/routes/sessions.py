@@ -1,0 +1,84 @@
+"""Read a session, and run it: start, pause, reset, step, speed, figure, stream."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Request, WebSocket
+
+from svsa.experiment.paper import get_figure
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.schemas import ExperimentRequest, SessionState, SpeedRequest, StepRequest
+from svsa_server.state import build_state
+from svsa_server.stream import stream_session
+
+router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS)
+
+
+@router.get("")
+async def list_sessions(request: Request) -> list[SessionState]:
+    """Every session of this server."""
+    return [build_state(session) for session in request.app.state.laboratory.sessions.values()]
+
+
+@router.get("/{session}")
+async def read_session(session: NamedSession) -> SessionState:
+    """Where a session is, how it is set, and how well it does."""
+    return build_state(session)
+
+
+@router.post("/{session}/start")
+async def start(session: NamedSession) -> SessionState:
+    """Run on from where it is."""
+    session.start()
+    return build_state(session)
+
+
+@router.post("/{session}/pause")
+async def pause(session: NamedSession) -> SessionState:
+    """Stop time; nothing is lost."""
+    session.pause()
+    return build_state(session)
+
+
+@router.post("/{session}/reset")
+async def reset(session: NamedSession) -> SessionState:
+    """Begin again at t = 0 with everything as it is set now, after a fault too."""
+    session.reset()
+    return build_state(session)
+
+
+@router.post("/{session}/step")
+async def step(
+    session: NamedSession, request: Annotated[StepRequest, Body(examples=[{"ticks": 1}])]
+) -> SessionState:
+    """Run some ticks while paused."""
+    session.step(request.ticks)
+    return build_state(session)
+
+
+@router.put("/{session}/speed")
+async def set_speed(
+    session: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
+) -> SessionState:
+    """Slow motion or fast forward."""
+    session.set_speed(request.factor)
+    return build_state(session)
+
+
+@router.post("/{session}/experiment")
+async def load_experiment(
+    session: NamedSession,
+    request: Annotated[
+        ExperimentRequest, Body(examples=[{"figure": "4a", "controller": "ndobc", "load": True}])
+    ],
+) -> SessionState:
+    """Start one of the paper's figures from t = 0, with its load at 5 s unless told not to."""
+    figure = get_figure(request.figure)
+    session.load(figure.build_configuration(request.controller, request.load))
+    session.start()
+    return build_state(session)
+
+
+@router.websocket("/{session}/stream")
+async def stream(websocket: WebSocket, session: NamedSession) -> None:
+    """Samples as they come; see `svsa_server.stream` for the format."""
+    await stream_session(websocket, session)

@@ -1,0 +1,124 @@
+"""Set what a session follows, how it is controlled, and what it is made of."""
+
+from typing import TYPE_CHECKING, Annotated
+
+from fastapi import APIRouter, Body
+
+from svsa.checked import Checked
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.parameters import ActuatorParameters
+from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.schemas import ControllerRequest, GainsRequest, SessionState, build_patch
+from svsa_server.state import build_state
+
+router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
+
+if TYPE_CHECKING:
+    ActuatorPatch = Checked
+else:
+    ActuatorPatch = build_patch(ActuatorParameters)
+
+
+@router.put("/position")
+async def set_position(
+    session: NamedSession,
+    reference: Annotated[
+        PositionReference,
+        Body(
+            examples=[
+                {"kind": "sine", "amplitude_rad": 1.0472, "frequency_hz": 0.2},
+                {"kind": "constant", "position_rad": 0.5, "transition_s": 2.0},
+            ]
+        ),
+    ],
+) -> SessionState:
+    """Follow another position reference, faded over without a jump in any derivative."""
+    session.set_position(reference)
+    return build_state(session)
+
+
+@router.put("/stiffness")
+async def set_stiffness(
+    session: NamedSession,
+    reference: Annotated[
+        StiffnessReference,
+        Body(
+            examples=[
+                {"kind": "constant", "stiffness_nm_per_rad": 60.0},
+                {
+                    "kind": "sine",
+                    "offset_nm_per_rad": 35.0,
+                    "amplitude_nm_per_rad": 1.0,
+                    "frequency_hz": 0.2,
+                },
+            ]
+        ),
+    ],
+) -> SessionState:
+    """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
+    session.set_stiffness(reference)
+    return build_state(session)
+
+
+@router.put("/controller")
+async def set_controller(
+    session: NamedSession, request: Annotated[ControllerRequest, Body(examples=[{"law": "fl"}])]
+) -> SessionState:
+    """Control with FL or NDOBC."""
+    session.set_law(request.law)
+    return build_state(session)
+
+
+@router.put("/gains")
+async def set_gains(
+    session: NamedSession,
+    request: Annotated[
+        GainsRequest,
+        Body(
+            examples=[
+                {"position_poles_rad_per_s": [-60, -60, [-40, 30], [-40, -30]]},
+                {"stiffness_coefficients": [1600.0, 80.0]},
+            ]
+        ),
+    ],
+) -> SessionState:
+    """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
+    session.set_gains(request.apply_to(session.run.configuration.gains))
+    return build_state(session)
+
+
+@router.put("/observer")
+async def set_observer(
+    session: NamedSession,
+    request: Annotated[
+        ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [60.0, 60.0, 60.0]}])
+    ],
+) -> SessionState:
+    """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
+    session.set_observer(request)
+    return build_state(session)
+
+
+@router.patch("/actuator")
+async def change_actuator(
+    session: NamedSession,
+    patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
+) -> SessionState:
+    """Change parameters of the true plant."""
+    session.set_actuator(_apply(patch, session.run.configuration.actuator))
+    return build_state(session)
+
+
+@router.patch("/nominal")
+async def change_nominal(
+    session: NamedSession,
+    patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
+) -> SessionState:
+    """Change parameters of the model that controller and observer believe in."""
+    session.set_nominal(_apply(patch, session.run.configuration.nominal))
+    return build_state(session)
+
+
+def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:
+    return actuator.changed(**patch.model_dump(exclude_none=True))

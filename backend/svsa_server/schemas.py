@@ -1,0 +1,228 @@
+"""What goes over the wire besides the library's own values."""
+
+from typing import Annotated, Any, Literal, Optional, Self
+
+from pydantic import BaseModel, Field, create_model, model_validator
+
+from svsa.checked import Checked, Number, Whole, quantity
+from svsa.control.gains import FASTEST_POLE_RAD_PER_S, Gains, compute_coefficients
+from svsa.errors import ParameterError, Violation
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.parameters import ActuatorParameters, Limits
+from svsa.plant.disturbances import Load
+from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa.runtime.configuration import Law
+
+_Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_PER_S)]
+Pole = _Part | tuple[_Part, _Part]
+
+
+class ControllerRequest(Checked):
+    """Which law controls."""
+
+    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)")
+
+
+class GainsRequest(Checked):
+    """New gains, as poles or as coefficients of Eq 25; what is left out stays."""
+
+    position_poles_rad_per_s: tuple[Pole, Pole, Pole, Pole] | None = quantity(
+        "rad/s", "Four closed-loop poles of position, each a real part or [re, im]", default=None
+    )
+    stiffness_poles_rad_per_s: tuple[Pole, Pole] | None = quantity(
+        "rad/s", "Two closed-loop poles of stiffness, each a real part or [re, im]", default=None
+    )
+    position_coefficients: tuple[Number, Number, Number, Number] | None = quantity(
+        "s⁻⁴ … s⁻¹", "c0 … c3 of s⁴ + c3 s³ + c2 s² + c1 s + c0", default=None
+    )
+    stiffness_coefficients: tuple[Number, Number] | None = quantity(
+        "s⁻², s⁻¹", "c0, c1 of s² + c1 s + c0", default=None
+    )
+
+    @model_validator(mode="after")
+    def _check_once(self) -> Self:
+        if not any(value is not None for _, value in self):
+            bound = "poles or coefficients of position or stiffness"
+            raise ParameterError(Violation("gains", {}, "", bound))
+        for part in ("position", "stiffness"):
+            poles = getattr(self, f"{part}_poles_rad_per_s")
+            if poles is not None and getattr(self, f"{part}_coefficients") is not None:
+                bound = f"left out where {part}_coefficients is given"
+                raise ParameterError(Violation(f"{part}_poles_rad_per_s", list(poles), "", bound))
+        return self
+
+    def apply_to(self, gains: Gains) -> Gains:
+        """The gains with these changes; raises `ParameterError` with the roots if unstable."""
+        changes: dict[str, Any] = {}
+        for part, order in (("position", 4), ("stiffness", 2)):
+            poles = getattr(self, f"{part}_poles_rad_per_s")
+            coefficients = getattr(self, f"{part}_coefficients")
+            if poles is not None:
+                name = f"{part}_poles_rad_per_s"
+                coefficients = compute_coefficients(name, [_read_pole(p) for p in poles], order)
+            if coefficients is not None:
+                changes[f"{part}_coefficients"] = coefficients
+        return gains.changed(**changes)
+
+
+def _read_pole(pole: float | tuple[float, float]) -> complex:
+    return complex(*pole) if isinstance(pole, tuple) else complex(pole)
+
+
+def build_patch(model: type[ActuatorParameters]) -> type[Checked]:
+    """`model` with every field optional, for PATCH; bounds, units and words stay."""
+    fields: dict[str, Any] = {
+        name: (Optional[field.annotation], field.merge_field_infos(field, default=None))  # noqa: UP045
+        for name, field in model.model_fields.items()
+    }
+    return create_model(f"{model.__name__}Patch", __base__=Checked, **fields)
+
+
+class StepRequest(Checked):
+    """How far to go by hand."""
+
+    ticks: Whole = quantity("ticks", "Control periods to run", ge=1, le=10_000, default=1)
+
+
+class SpeedRequest(Checked):
+    """How fast session time goes."""
+
+    factor: Number = quantity("1", "Session seconds a wall second", ge=0.05, le=20)
+
+
+class ExperimentRequest(Checked):
+    """One of the paper's figures, from t = 0."""
+
+    figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
+    controller: Law = quantity("", "ndobc or fl", default="ndobc")
+    load: Annotated[bool, Field(strict=True)] = quantity(
+        "", "With the paper's 3 kg load at 5 s", default=True
+    )
+
+
+class LoginRequest(Checked):
+    """The shared secret."""
+
+    secret: Annotated[str, Field(max_length=1000)] = quantity("", "The lab's shared secret")
+
+
+class StreamRequest(Checked):
+    """What a stream carries."""
+
+    rate_hz: Number = quantity("Hz", "Samples a second", ge=1, le=10_000, default=200.0)
+    history_s: Number = quantity("s", "Past to send first", ge=0, le=20, default=0.0)
+
+
+class Root(BaseModel):
+    """A root of Eq 25, rad/s."""
+
+    re: float
+    im: float
+
+
+class GainsState(BaseModel):
+    """The gains with the roots they give."""
+
+    position_coefficients: list[float]
+    stiffness_coefficients: list[float]
+    position_roots_rad_per_s: list[Root]
+    stiffness_roots_rad_per_s: list[Root]
+
+
+class ConfigurationState(BaseModel):
+    """Everything that is set."""
+
+    law: Law
+    position: PositionReference
+    stiffness: StiffnessReference
+    gains: GainsState
+    observer: ObserverBandwidth
+    limits: Limits
+    actuator: ActuatorParameters
+    nominal: ActuatorParameters
+
+
+class LoadState(BaseModel):
+    """A load of the session; `end_s` is null for one that stays."""
+
+    id: int
+    start_s: float
+    end_s: float | None
+    active: bool
+    load: Load
+
+
+class EventState(BaseModel):
+    """Something that changed the run."""
+
+    tick: int
+    time_s: float
+    kind: str
+    label: str
+
+
+class FaultState(BaseModel):
+    """Why the run ended, with the values that ended it, SI as named."""
+
+    code: str
+    tick: int
+    time_s: float
+    message: str
+    values: dict[str, float]
+
+
+class MetricsState(BaseModel):
+    """Errors, peaks and recovery over a stretch; recovery is null until it has happened."""
+
+    duration_s: float
+    rms_position_error_rad: float
+    peak_position_error_rad: float
+    rms_stiffness_error_nm_per_rad: float
+    peak_stiffness_error_nm_per_rad: float
+    peak_torque1_nm: float
+    peak_torque2_nm: float
+    recovery_time_s: float | None
+
+
+class SessionMetrics(BaseModel):
+    """Metrics since the start of the run and since the last load came on."""
+
+    since_start: MetricsState | None
+    since_load: MetricsState | None
+
+
+class SessionState(BaseModel):
+    """A session: where it is, how it is set, and how well it does."""
+
+    session: str
+    status: Literal["running", "paused", "fault"]
+    run: int = Field(description="Counts up whenever a run begins anew at t = 0")
+    tick: int
+    time_s: float
+    rate_hz: float
+    speed: float
+    real_time_factor: float = Field(description="Session seconds a wall second, as measured")
+    stretched_s: float = Field(description="Wall time given up because ticks came too late")
+    fault: FaultState | None
+    configuration: ConfigurationState
+    loads: list[LoadState]
+    events: list[EventState]
+    metrics: SessionMetrics
+    sample: dict[str, float] | None = Field(description="The newest sample, by channel")
+
+
+class FigureState(BaseModel):
+    """A figure of the paper as data."""
+
+    key: str
+    title: str
+    position: PositionReference
+    stiffness: StiffnessReference
+    claim: str
+
+
+class Health(BaseModel):
+    """That the server lives."""
+
+    status: Literal["ok"] = "ok"
+    version: str

@@ -1,0 +1,58 @@
+"""Listen, say where, and serve until told to stop."""
+
+import socket
+
+import uvicorn
+from rich.console import Console
+
+from svsa.cli import prepare
+from svsa.errors import SvsaError
+from svsa_server.app import build_app
+from svsa_server.config import Settings, is_loopback
+
+SEND_BUFFER_BYTES = 64 * 1024
+
+
+class ListenError(SvsaError):
+    """The address cannot be listened on."""
+
+
+def listen(host: str, port: int) -> socket.socket:
+    """A listening socket; a small send buffer, so that a slow client is noticed soon.
+
+    Raises `ListenError` with the reason and what to do.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+    try:
+        listener.bind((host.strip("[]"), port))
+        listener.listen(256)
+    except OSError as error:
+        listener.close()
+        raise ListenError(
+            f"Cannot listen on {host}:{port}: {error.strerror or error}. Try another --port."
+        ) from None
+    return listener
+
+
+def run_server(host: str, port: int) -> None:
+    """Serve the lab until a signal ends it; raises `SecurityError` and `ListenError`."""
+    config = Settings()
+    config.check_exposure(host)
+    listener = listen(host, port)
+    prepare()
+    shown = host if is_loopback(host) else socket.gethostname()
+    address = f"http://{shown}:{listener.getsockname()[1]}/"
+    Console().print(f"SVSA Lab is at [bold]{address}[/]  (stop with Ctrl-C)", highlight=False)
+    server = uvicorn.Server(
+        uvicorn.Config(
+            build_app(config),
+            log_level="warning",
+            ws_max_size=65536,
+            ws_per_message_deflate=False,
+            timeout_graceful_shutdown=2,
+        )
+    )
+    server.run(sockets=[listener])

@@ -1,0 +1,88 @@
+"""A session as it is told on the wire."""
+
+import math
+from dataclasses import asdict
+
+from svsa.control.gains import Gains
+from svsa.plant.disturbances import ScheduledLoad
+from svsa.runtime.metrics import RunningMetrics
+from svsa.runtime.session import Session
+from svsa.signals import CHANNEL_NAMES
+from svsa_server.schemas import (
+    ConfigurationState,
+    EventState,
+    FaultState,
+    GainsState,
+    LoadState,
+    MetricsState,
+    Root,
+    SessionMetrics,
+    SessionState,
+)
+
+
+def build_state(session: Session) -> SessionState:
+    """Everything about the session at this instant."""
+    run, clock = session.run, session.clock
+    newest = session.history.read_newest()
+    sample = None
+    if newest is not None:
+        sample = dict(zip(CHANNEL_NAMES, newest.tolist(), strict=True))
+    return SessionState(
+        session=session.name,
+        status=session.status,
+        run=session.run_number,
+        tick=run.tick,
+        time_s=run.time_s,
+        rate_hz=1.0 / run.period_s,
+        speed=clock.speed,
+        real_time_factor=clock.real_time_factor,
+        stretched_s=clock.stretched_s,
+        fault=FaultState(**asdict(run.fault)) if run.fault else None,
+        configuration=_build_configuration(session),
+        loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
+        events=[EventState(**asdict(event)) for event in session.events],
+        metrics=SessionMetrics(
+            since_start=_build_metrics(session.since_start),
+            since_load=_build_metrics(session.since_load),
+        ),
+        sample=sample,
+    )
+
+
+def _build_configuration(session: Session) -> ConfigurationState:
+    configuration = session.run.configuration
+    return ConfigurationState(
+        law=configuration.law,
+        position=configuration.position,
+        stiffness=configuration.stiffness,
+        gains=_build_gains(configuration.gains),
+        observer=configuration.observer,
+        limits=configuration.limits,
+        actuator=configuration.actuator,
+        nominal=configuration.nominal,
+    )
+
+
+def _build_gains(gains: Gains) -> GainsState:
+    return GainsState(
+        position_coefficients=list(gains.position_coefficients),
+        stiffness_coefficients=list(gains.stiffness_coefficients),
+        position_roots_rad_per_s=[Root(re=r.real, im=r.imag) for r in gains.position_roots],
+        stiffness_roots_rad_per_s=[Root(re=r.real, im=r.imag) for r in gains.stiffness_roots],
+    )
+
+
+def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadState:
+    return LoadState(
+        id=scheduled.number,
+        start_s=scheduled.start_tick * period_s,
+        end_s=None if math.isinf(scheduled.end_tick) else scheduled.end_tick * period_s,
+        active=scheduled.start_tick <= tick < scheduled.end_tick,
+        load=scheduled.load,
+    )
+
+
+def _build_metrics(running: RunningMetrics | None) -> MetricsState | None:
+    metrics = running.summarize() if running else None
+    return MetricsState(**asdict(metrics)) if metrics else None

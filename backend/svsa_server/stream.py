@@ -1,0 +1,164 @@
+"""Samples to a client: a greeting, then binary batches; a slow client gets the newest.
+
+A batch is 32 bytes, little-endian — u32 magic "SVSA", u32 run, u64 first tick, u32 stride
+in ticks, u32 count, u32 missed samples, u32 zero — and float32[count][channels].
+"""
+
+import asyncio
+import contextlib
+import json
+import struct
+import time
+
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from svsa.errors import ParameterError, Violation
+from svsa.runtime.session import Session
+from svsa.signals import CHANNEL_INDEX, CHANNELS
+from svsa_server.schemas import StreamRequest
+from svsa_server.state import build_state
+
+BATCH_PERIOD_S = 1.0 / 30.0
+STATE_PERIOD_S = 1.0
+SLOW_AFTER_S = 0.5
+HEADER = struct.Struct("<4sIQIIII")
+MAGIC = b"SVSA"
+
+DEFAULT_CHANNELS = (
+    "position_reference_rad",
+    "position_rad",
+    "position_error_rad",
+    "stiffness_reference_nm_per_rad",
+    "stiffness_nm_per_rad",
+    "torque1_nm",
+    "torque2_nm",
+    "disturbance_link_nm",
+    "disturbance_motor1_nm",
+    "disturbance_motor2_nm",
+    "estimate_link_nm",
+    "estimate_motor1_nm",
+    "estimate_motor2_nm",
+)
+
+
+def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
+    """rate_hz, history_s and channels of a stream's address; raises `ParameterError`."""
+    numbers: dict[str, float] = {}
+    channels = DEFAULT_CHANNELS
+    for name, text in query.items():
+        if name == "channels":
+            channels = tuple(dict.fromkeys(text.split(",")))
+            for channel in channels:
+                if channel not in CHANNEL_INDEX:
+                    bound = "one of " + ", ".join(CHANNEL_INDEX)
+                    raise ParameterError(Violation("channels", channel, "", bound))
+            continue
+        try:
+            numbers[name] = float(text)
+        except ValueError:
+            raise ParameterError(Violation(name, text, "", "a number")) from None
+    return StreamRequest(**numbers), channels
+
+
+class SampleCursor:
+    """Where one client is in the history of a session, and the next batch for it."""
+
+    def __init__(self, session: Session, request: StreamRequest, channels: tuple[str, ...]) -> None:
+        self._session = session
+        self._columns = [CHANNEL_INDEX[channel] for channel in channels]
+        self._stride = max(1, round(1.0 / (session.run.period_s * request.rate_hz)))
+        self._run = session.run_number
+        past = round(request.history_s / session.run.period_s)
+        self._next = self._align(max(session.history.end_tick - past, session.history.first_tick))
+
+    @property
+    def rate_hz(self) -> float:
+        """The rate that is really sent, at speed 1."""
+        return 1.0 / (self._stride * self._session.run.period_s)
+
+    def take_batch(self, slow: bool) -> bytes | None:
+        """The samples since the last batch, or only the newest for a `slow` client."""
+        session, history = self._session, self._session.history
+        missed = 0
+        if session.run_number != self._run:
+            self._run, self._next = session.run_number, 0
+        stride = self._stride * max(1, round(session.clock.speed))
+        oldest = history.first_tick
+        if slow:
+            oldest = max(oldest, history.end_tick - round(stride * self.rate_hz * BATCH_PERIOD_S))
+        if self._next < oldest:
+            skipped_to = self._align(oldest)
+            missed = (skipped_to - self._next) // stride
+            self._next = skipped_to
+        rows = history.read(self._next, stride, self._columns)
+        if not len(rows):
+            return None
+        header = HEADER.pack(MAGIC, self._run, self._next, stride, len(rows), missed, 0)
+        self._next += stride * len(rows)
+        return header + rows.astype("<f4").tobytes()
+
+    def _align(self, tick: int) -> int:
+        return -(-tick // self._stride) * self._stride
+
+
+async def stream_session(websocket: WebSocket, session: Session) -> None:
+    """Serve one client until it leaves."""
+    await websocket.accept()
+    try:
+        request, channels = read_stream_request(dict(websocket.query_params))
+        cursor = SampleCursor(session, request, channels)
+    except ParameterError as error:
+        await websocket.send_json({"type": "error", "message": str(error)})
+        await websocket.close(1008)
+        return
+    sender = asyncio.create_task(_send(websocket, session, cursor, channels))
+    listener = asyncio.create_task(_listen(websocket))
+    try:
+        await asyncio.wait({sender, listener}, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for task in (sender, listener):
+            task.cancel()
+        await asyncio.gather(sender, listener, return_exceptions=True)
+
+
+async def _listen(websocket: WebSocket) -> None:
+    """Wait for the client to leave; what it says is not needed."""
+    while (await websocket.receive())["type"] != "websocket.disconnect":
+        pass
+
+
+async def _send(
+    websocket: WebSocket, session: Session, cursor: SampleCursor, channels: tuple[str, ...]
+) -> None:
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+        await websocket.send_text(_greet(session, cursor, channels))
+        version, told_at = session.version, time.monotonic()
+        slow = False
+        while True:
+            now = time.monotonic()
+            batch = cursor.take_batch(slow)
+            if batch is not None:
+                await websocket.send_bytes(batch)
+            if session.version != version or now - told_at > STATE_PERIOD_S:
+                version, told_at = session.version, now
+                state = build_state(session).model_dump_json()
+                await websocket.send_text(f'{{"type":"state","state":{state}}}')
+            spent = time.monotonic() - now
+            slow = spent > SLOW_AFTER_S
+            await asyncio.sleep(max(0.0, BATCH_PERIOD_S - spent))
+
+
+def _greet(session: Session, cursor: SampleCursor, channels: tuple[str, ...]) -> str:
+    return json.dumps(
+        {
+            "type": "hello",
+            "session": session.name,
+            "period_s": session.run.period_s,
+            "rate_hz": cursor.rate_hz,
+            "channels": [
+                {"name": channel.name, "unit": channel.unit, "label": channel.label}
+                for channel in (CHANNELS[CHANNEL_INDEX[name]] for name in channels)
+            ],
+            "state": build_state(session).model_dump(mode="json"),
+        }
+    )

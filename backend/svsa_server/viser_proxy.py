@@ -1,0 +1,248 @@
+"""viser under the server's own address, at /viser/.
+
+The page is passed through with two changes: its reconnect does not wait for the focus that a
+frame rarely has, and viser's panels are hidden. Of what a browser sends, only its camera gets
+through: viser has no roles, and any browser could otherwise write the scene for all.
+"""
+
+import asyncio
+import contextlib
+import gzip
+import hashlib
+import math
+from typing import NamedTuple
+
+import httpx
+import msgspec
+import websockets
+from starlette.requests import Request
+from starlette.responses import RedirectResponse, Response
+from starlette.routing import BaseRoute, Route, WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+from websockets.asyncio.client import ClientConnection
+from websockets.typing import Subprotocol
+
+from svsa_server.access import is_same_origin
+
+MAX_BROWSER_MESSAGE_BYTES = 4096
+MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
+_CONNECT_TIMEOUT_S = 5.0
+_SEND_TIMEOUT_S = 20.0
+_SUBPROTOCOL_PREFIX = "viser-v"
+_KEPT_HEADERS = ("content-type",)
+_INJECTED = (
+    b"<script>document.hasFocus=()=>true</script>"
+    b"<style>[data-dock-root]>:not(:first-child),.mantine-Paper-root,"
+    b".mantine-Notifications-root{display:none!important}</style>"
+)
+_CONTENT_SECURITY_POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' blob:; worker-src blob:; "
+    "style-src 'unsafe-inline'; img-src data: blob:; font-src data:; "
+    "connect-src 'self' data: blob:; frame-ancestors 'self'"
+)
+
+
+class ViewerCamera(
+    msgspec.Struct, tag="ViewerCameraMessage", tag_field="type", forbid_unknown_fields=True
+):
+    """viser's camera message, the only one that a browser may send."""
+
+    wxyz: tuple[float, float, float, float]
+    position: tuple[float, float, float]
+    fov: float
+    near: float
+    far: float
+    image_height: int
+    image_width: int
+    look_at: tuple[float, float, float]
+    up_direction: tuple[float, float, float]
+
+
+_camera_decoder = msgspec.msgpack.Decoder(ViewerCamera)
+_camera_encoder = msgspec.msgpack.Encoder()
+
+
+def filter_browser_message(message: bytes) -> bytes | None:
+    """The camera message in `message`, written anew, or None for anything else."""
+    try:
+        camera = _camera_decoder.decode(message)
+    except (msgspec.DecodeError, UnicodeDecodeError):
+        return None
+    numbers = (
+        *camera.wxyz,
+        *camera.position,
+        *camera.look_at,
+        *camera.up_direction,
+        camera.fov,
+        camera.near,
+        camera.far,
+    )
+    if not all(map(math.isfinite, numbers)):
+        return None
+    return _camera_encoder.encode(camera)
+
+
+class _Page(NamedTuple):
+    """viser's page as served: plain, compressed, and the tag by which a browser knows it."""
+
+    plain: bytes
+    compressed: bytes
+    etag: str
+
+
+class _Ending(NamedTuple):
+    """How to close a browser's connection: WebSocket close code and reason."""
+
+    code: int
+    reason: str
+
+
+class ViserProxy:
+    """Routes under /viser/ to the viser server on a loopback port."""
+
+    def __init__(self, port: int) -> None:
+        self._authority = f"127.0.0.1:{port}"
+        self._http = httpx.AsyncClient(
+            base_url=f"http://{self._authority}", trust_env=False, timeout=_CONNECT_TIMEOUT_S
+        )
+        self._page: _Page | None = None
+
+    @property
+    def routes(self) -> list[BaseRoute]:
+        """Routes for the application: the page, its files and the WebSocket."""
+        return [
+            Route("/viser", self._redirect, methods=["GET"]),
+            WebSocketRoute("/viser", self._relay),
+            Route("/viser/", self._serve_page, methods=["GET"]),
+            WebSocketRoute("/viser/", self._relay),
+            Route("/viser/{path:path}", self._serve_file, methods=["GET"]),
+        ]
+
+    async def close(self) -> None:
+        """Close the connections to viser that are kept for plain requests."""
+        await self._http.aclose()
+
+    async def _redirect(self, request: Request) -> Response:
+        query = f"?{request.url.query}" if request.url.query else ""
+        return RedirectResponse(f"{request.scope.get('root_path', '')}/viser/{query}")
+
+    async def _serve_page(self, request: Request) -> Response:
+        if self._page is None:
+            try:
+                self._page = await self._load_page()
+            except httpx.HTTPError:
+                return Response("The 3D view is not running.", 503, media_type="text/plain")
+        headers = {
+            "ETag": self._page.etag,
+            "Cache-Control": "no-cache",
+            "Vary": "Accept-Encoding",
+            "Content-Security-Policy": _CONTENT_SECURITY_POLICY,
+        }
+        if request.headers.get("if-none-match") == self._page.etag:
+            return Response(status_code=304, headers=headers)
+        if "gzip" in request.headers.get("accept-encoding", ""):
+            headers["Content-Encoding"] = "gzip"
+            return Response(self._page.compressed, headers=headers, media_type="text/html")
+        return Response(self._page.plain, headers=headers, media_type="text/html")
+
+    async def _load_page(self) -> _Page:
+        answer = await self._http.get("/", headers={"Accept-Encoding": "identity"})
+        answer.raise_for_status()
+        plain = answer.content.replace(b"<head>", b"<head>" + _INJECTED, 1)
+        etag = f'"{hashlib.sha256(plain).hexdigest()[:32]}"'
+        return _Page(plain, await asyncio.to_thread(gzip.compress, plain, 6), etag)
+
+    async def _serve_file(self, request: Request) -> Response:
+        try:
+            answer = await self._http.get(
+                httpx.URL(path="/" + request.path_params["path"]),
+                headers={"Accept-Encoding": "identity"},
+            )
+        except httpx.HTTPError:
+            return Response("The 3D view is not running.", 503, media_type="text/plain")
+        headers = {k: answer.headers[k] for k in _KEPT_HEADERS if k in answer.headers}
+        return Response(answer.content, answer.status_code, headers=headers)
+
+    async def _relay(self, websocket: WebSocket) -> None:
+        offered = websocket.scope.get("subprotocols", [])
+        protocol = next((p for p in offered if p.startswith(_SUBPROTOCOL_PREFIX)), None)
+        if protocol is None or not is_same_origin(websocket.scope):
+            await websocket.close(1008)
+            return
+        try:
+            viser = await websockets.connect(
+                f"ws://{self._authority}/",
+                subprotocols=[Subprotocol(protocol)],
+                compression=None,
+                proxy=None,
+                max_size=MAX_SCENE_MESSAGE_BYTES,
+                max_queue=4,
+                open_timeout=_CONNECT_TIMEOUT_S,
+            )
+        except (OSError, TimeoutError, websockets.WebSocketException):
+            await websocket.close(1013)
+            return
+        async with viser:
+            await websocket.accept(subprotocol=protocol)
+            ending = await _relay_both_ways(websocket, viser)
+            if ending is not None:
+                with contextlib.suppress(RuntimeError, WebSocketDisconnect):
+                    await websocket.close(ending.code, ending.reason)
+
+
+async def _relay_both_ways(websocket: WebSocket, viser: ClientConnection) -> _Ending | None:
+    """Pass messages until either side ends; says how to close the browser, if it is still there.
+
+    Each direction holds one message at a time: a slow browser stops the reading from viser,
+    which keeps only the newest pose of each part for it.
+    """
+    directions = [
+        asyncio.create_task(_pass_scene(websocket, viser)),
+        asyncio.create_task(_pass_camera(websocket, viser)),
+    ]
+    try:
+        done, _ = await asyncio.wait(directions, return_when=asyncio.FIRST_COMPLETED)
+        return next(iter(done)).result()
+    finally:
+        for direction in directions:
+            direction.cancel()
+        await asyncio.gather(*directions, return_exceptions=True)
+
+
+async def _pass_scene(websocket: WebSocket, viser: ClientConnection) -> _Ending | None:
+    """Scene to browser; ends when viser closes or the browser takes nothing for 20 s."""
+    try:
+        while True:
+            message = await viser.recv(decode=False)
+            async with asyncio.timeout(_SEND_TIMEOUT_S):
+                await websocket.send_bytes(message)
+    except websockets.ConnectionClosed as closed:
+        return _describe_ending(closed)
+    except TimeoutError:
+        return _Ending(1008, "too slow")
+    except (WebSocketDisconnect, RuntimeError):
+        return None
+
+
+async def _pass_camera(websocket: WebSocket, viser: ClientConnection) -> _Ending | None:
+    """Camera to viser; ends when the browser closes or sends more than a camera can be."""
+    while True:
+        event = await websocket.receive()
+        if event["type"] != "websocket.receive":
+            return None
+        message = event.get("bytes") or b""
+        if max(len(message), len(event.get("text") or "")) > MAX_BROWSER_MESSAGE_BYTES:
+            return _Ending(1009, "message too big")
+        camera = filter_browser_message(message)
+        if camera is not None:
+            try:
+                await viser.send(camera)
+            except websockets.ConnectionClosed as closed:
+                return _describe_ending(closed)
+
+
+def _describe_ending(closed: websockets.ConnectionClosed) -> _Ending:
+    """A refused client version as viser says it (1002); any other ending as going away."""
+    if closed.rcvd is not None and closed.rcvd.code == 1002:
+        return _Ending(1002, closed.rcvd.reason)
+    return _Ending(1001, "")

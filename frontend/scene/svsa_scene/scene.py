@@ -1,0 +1,186 @@
+"""The actuator in a viser scene: built once, then moved by poses only."""
+
+import math
+from collections.abc import Sequence
+
+import viser
+
+from svsa_scene import appearance as look
+from svsa_scene import mechanism
+from svsa_scene.geometry import join, make_helix, make_sector
+from svsa_scene.linkage import (
+    LOAD_ARM,
+    RADIUS,
+    SPRING_ANCHOR,
+    Linkage,
+    compute_linkage,
+)
+from svsa_scene.pose import ActuatorPose
+
+_SMALLEST_MOVE = 4e-4
+_PAPER_MASS_KG = 3.0
+
+
+class _Moved:
+    """Remembers what was last sent, so that only a visible change is sent again."""
+
+    def __init__(self) -> None:
+        self._sent: dict[str, tuple[float, ...]] = {}
+
+    def is_due(self, key: str, values: Sequence[float]) -> bool:
+        """True, and remembered, when a value differs from the one sent by a visible amount."""
+        before = self._sent.get(key)
+        if before is not None and all(
+            abs(a - b) < _SMALLEST_MOVE for a, b in zip(before, values, strict=True)
+        ):
+            return False
+        self._sent[key] = tuple(values)
+        return True
+
+
+class ActuatorScene:
+    """The serial variable stiffness actuator as every viewer of a viser server sees it."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self._server = server
+        self._moved = _Moved()
+        self._stiffness_step = 0
+        self._load_mass_kg = 0.0
+        look.set_stage(server, ground=-mechanism.AXIS_HEIGHT)
+        self.set_theme(dark=False)
+        self._build()
+
+    def set_theme(self, dark: bool) -> None:
+        """Light or dark background for viewers whose address does not ask for `?darkMode`."""
+        look.set_theme(self._server, dark)
+
+    def update(self, pose: ActuatorPose) -> None:
+        """Move every part to the pose, in one step for the viewer. Non-finite poses are left
+        out: the view keeps the last one.
+        """
+        if not all(math.isfinite(value) for value in vars(pose).values()):
+            return
+        linkage = compute_linkage(pose)
+        with self._server.atomic():
+            self._turn("link", self._link, pose.position_rad)
+            self._turn("connector", self._connector, pose.motor1_position_rad)
+            self._turn("ghost", self._ghost, pose.position_reference_rad)
+            self._move_linkage(linkage)
+            self._move_deflection(linkage.deflection, pose.deflection_limit_rad)
+            self._move_load(pose.position_rad, pose.load_mass_kg)
+            self._color_springs(look.compute_stiffness_step(pose.stiffness_nm_per_rad))
+
+    def _build(self) -> None:
+        scene = self._server.scene
+        half = math.sqrt(0.5)
+        scene.add_frame("/a", show_axes=False, wxyz=(half, 0.0, half, 0.0))
+        self._add("/a/stand", mechanism.build_stand())
+        self._connector = self._add("/a/c", mechanism.build_connector())
+        self._plate = self._add("/a/c/s", mechanism.build_spiral_plate())
+        self._pivot = self._add("/a/c/p", mechanism.build_pivot())
+        self._limits = [
+            self._add(f"/a/c/{name}", mechanism.build_limit_mark()) for name in ("m", "n")
+        ]
+        self._link = self._add("/a/l", mechanism.build_link())
+        self._lever = self._add("/a/l/v", mechanism.build_lever())
+        self._lever.position = (-RADIUS, 0.0, 0.0)
+        self._block = self._add("/a/l/b", mechanism.build_block())
+        self._ghost = self._add("/a/g", mechanism.build_ghost())
+        self._load = self._add("/a/w", mechanism.build_load())
+        self._load.visible = False
+        self._add_springs()
+        self._add_sector()
+        self._add_labels()
+
+    def _add(self, name: str, group: mechanism.Group) -> viser.SceneNodeHandle:
+        scene = self._server.scene
+        frame = scene.add_frame(name, show_axes=False)
+        scene.add_glb(f"{name}/solid", mechanism.export(group))
+        return frame
+
+    def _add_springs(self) -> None:
+        helix = join([make_helix(0.1, 0.022, 7)])
+        self._springs = [
+            self._server.scene.add_mesh_simple(
+                f"/a/l/{name}",
+                helix.vertices,
+                helix.faces,
+                color=look.get_stiffness_color(0),
+                position=(0.0, side * SPRING_ANCHOR, mechanism.SPRING_Z),
+                wxyz=(1.0, 0.0, 0.0, 0.0) if side < 0 else (0.0, 0.0, 0.0, 1.0),
+            )
+            for name, side in (("j", -1.0), ("k", 1.0))
+        ]
+
+    def _add_sector(self) -> None:
+        sector = make_sector(0.96, 1.17)
+        self._sector = self._server.scene.add_mesh_simple(
+            "/a/c/d",
+            sector.vertices,
+            sector.faces,
+            color=look.DEFLECTION,
+            side="double",
+            position=(0.0, 0.0, mechanism.SECTOR_Z),
+            cast_shadow=False,
+        )
+
+    def _add_labels(self) -> None:
+        scene = self._server.scene
+        for name, text, position in (
+            ("/a/t1", "θ₁ principal motor", (-0.8, 0.0, -2.95)),
+            ("/a/t2", "θ₂ stiffness motor", (-1.12, 0.0, -0.8)),
+            ("/a/c/t", "φ", (-1.34, 0.0, mechanism.SECTOR_Z)),
+            ("/a/l/t", "q", (1.4, 0.0, 1.0)),
+            ("/a/g/t", "q_d", (1.68, 0.0, 0.84)),
+        ):
+            scene.add_label(
+                name, text, position=position, anchor="center-center", font_screen_scale=1.0
+            )
+        self._mass_label = scene.add_label(
+            "/a/w/t",
+            "3 kg",
+            position=(1.15, 0.0, mechanism.HOOK_Z + 0.42),
+            anchor="center-center",
+            font_screen_scale=1.0,
+        )
+
+    def _turn(self, key: str, node: viser.SceneNodeHandle, angle: float) -> None:
+        if self._moved.is_due(key, (angle,)):
+            node.wxyz = (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+
+    def _move_linkage(self, linkage: Linkage) -> None:
+        self._turn("plate", self._plate, linkage.plate_angle)
+        self._turn("lever", self._lever, linkage.lever_angle)
+        if self._moved.is_due("pivot", (linkage.pivot_radius,)):
+            self._pivot.position = (-linkage.pivot_radius, 0.0, 0.0)
+        if self._moved.is_due("block", (linkage.block_offset,)):
+            self._block.position = (0.0, linkage.block_offset, 0.0)
+            for spring, length in zip(
+                self._springs, (linkage.spring_left, linkage.spring_right), strict=True
+            ):
+                spring.scale = (1.0, length, 1.0)
+
+    def _move_deflection(self, deflection: float, limit: float) -> None:
+        if self._moved.is_due("deflection", (deflection,)):
+            half = min(max(deflection, -math.pi / 2), math.pi / 2) / 2
+            self._sector.wxyz = (math.cos(half / 2), 0.0, 0.0, math.sin(half / 2))
+            self._sector.scale = (math.cos(half), max(2 * abs(math.sin(half)), 1e-3), 1.0)
+        for key, node, angle in zip("mn", self._limits, (-limit, limit), strict=True):
+            self._turn(key, node, angle)
+
+    def _move_load(self, position: float, mass_kg: float) -> None:
+        if mass_kg > 0.0:
+            hook = (LOAD_ARM * math.cos(position), LOAD_ARM * math.sin(position), 0.0)
+            if self._moved.is_due("load", hook):
+                self._load.position = hook
+        if mass_kg != self._load_mass_kg:
+            self._load_mass_kg = mass_kg
+            self._load.visible = mass_kg > 0.0
+            if mass_kg > 0.0:
+                self._mass_label.text = f"{mass_kg:.3g} kg"
+
+    def _color_springs(self, step: int) -> None:
+        if step != self._stiffness_step:
+            self._stiffness_step = step
+            for spring in self._springs:
+                spring.color = look.get_stiffness_color(step)

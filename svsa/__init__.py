@@ -1,0 +1,75 @@
+"""SVSA Lab: a serial variable stiffness actuator, its control, and the paper's experiment.
+
+    import svsa
+    result = svsa.simulate("4a", "ndobc")
+    result.metrics.rms_position_error_rad
+    result.plot().savefig("run.png")
+
+Units are SI; every name ends in its unit.
+"""
+
+from importlib.metadata import PackageNotFoundError, version
+
+from svsa.control.gains import Gains
+from svsa.errors import FaultError, ParameterError, StateError, SvsaError
+from svsa.experiment import paper
+from svsa.experiment.reproduce import reproduce
+from svsa.experiment.simulate import Result, simulate
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.parameters import ActuatorParameters, Limits
+from svsa.plant.disturbances import (
+    ConstantLoad,
+    MassLoad,
+    PaperLoad,
+    PulseLoad,
+    SeriesLoad,
+    SineLoad,
+)
+from svsa.reference.trajectories import (
+    ConstantPosition,
+    ConstantStiffness,
+    SinePosition,
+    SineStiffness,
+)
+from svsa.runtime.configuration import (
+    Configuration,
+    Design,
+    load_prototype,
+    read_design,
+    write_design,
+)
+
+try:
+    __version__ = version("svsa")
+except PackageNotFoundError:
+    __version__ = "0+uninstalled"
+
+__all__ = [
+    "ActuatorParameters",
+    "Configuration",
+    "ConstantLoad",
+    "ConstantPosition",
+    "ConstantStiffness",
+    "Design",
+    "FaultError",
+    "Gains",
+    "Limits",
+    "MassLoad",
+    "ObserverBandwidth",
+    "PaperLoad",
+    "ParameterError",
+    "PulseLoad",
+    "Result",
+    "SeriesLoad",
+    "SineLoad",
+    "SinePosition",
+    "SineStiffness",
+    "StateError",
+    "SvsaError",
+    "load_prototype",
+    "paper",
+    "read_design",
+    "reproduce",
+    "simulate",
+    "write_design",
+]

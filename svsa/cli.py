@@ -1,0 +1,117 @@
+"""The `svsa` command.
+
+A package above this one adds its commands through the entry point group `svsa.commands`
+(the server adds `serve` and `openapi`), so that the library does not know of it.
+"""
+
+import json
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from svsa.compilation import is_compiled_before
+from svsa.errors import SvsaError
+
+app = typer.Typer(
+    help="SVSA Lab: position and stiffness control of a serial variable stiffness actuator.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+)
+_messages = Console(stderr=True)
+
+
+@app.command()
+def reproduce(
+    figure: Annotated[
+        list[str] | None, typer.Option(help="4a, 4b or 5; again for more. All if left out.")
+    ] = None,
+    output: Annotated[Path, typer.Option(help="Folder for the pictures.")] = Path("figures"),
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the numbers, draw nothing.")
+    ] = False,
+) -> None:
+    """Run the paper's Figures 4A, 4B and 5 with FL and NDOBC."""
+    from svsa.experiment.figures import save_figures
+    from svsa.experiment.paper import FIGURES
+    from svsa.experiment.reproduce import reproduce as run_figures
+
+    prepare()
+    with _messages.status("Running the figures …"):
+        runs = run_figures(tuple(figure) if figure else tuple(FIGURES))
+    if as_json:
+        rows = [{"figure": run.figure, "controller": run.controller, **run.numbers} for run in runs]
+        print(json.dumps({"runs": rows}, indent=2))
+        return
+    Console().print(_build_table(runs))
+    with _messages.status("Drawing …"):
+        paths = save_figures(runs, output)
+    Console().print("Pictures: " + ", ".join(str(path) for path in paths))
+
+
+@app.command("compile")
+def compile_loop() -> None:
+    """Compile the control loop into the cache, so that later starts are quick."""
+    prepare()
+
+
+def prepare() -> None:
+    """Have the control loop compiled, and say so where it takes long."""
+    from svsa.experiment.simulate import simulate
+
+    if is_compiled_before():
+        text = "Loading the compiled control loop …"
+    else:
+        text = "First start: compiling the control loop (about 15 s, once) …"
+        _messages.print(text)
+    with _messages.status(text):
+        for law in ("fl", "ndobc"):
+            simulate("4a", law, duration_s=0.01)
+
+
+def main() -> None:
+    """Entry point: errors of this project are one clear line, not a traceback."""
+    for entry in entry_points(group="svsa.commands"):
+        app.command(entry.name)(entry.load())
+    try:
+        app()
+    except (SvsaError, OSError) as error:
+        _messages.print(f"[bold red]Error:[/] {error}", highlight=False)
+        raise SystemExit(1) from None
+
+
+def _build_table(runs: list) -> Table:
+    table = Table(title="Position error in °, stiffness error in N·m/rad, torque in N·m")
+    names = (
+        "figure",
+        "law",
+        "rms 1–5 s",
+        "peak 5–7 s",
+        "rms 8–20 s",
+        "recovery",
+        "σ rms 1–5 s",
+        "σ peak 5–7 s",
+        "σ rms 8–20 s",
+        "peak u1, u2",
+    )
+    for name in names:
+        table.add_column(name, justify="left" if name in ("figure", "law") else "right")
+    for run in runs:
+        n = run.numbers
+        recovery = f"{n['recovery_s']:.2f} s" if n["recovery_s"] is not None else "never"
+        table.add_row(
+            run.figure,
+            run.controller.upper(),
+            f"{n['rms_position_before_deg']:.4f}",
+            f"{n['peak_position_deg']:.2f}",
+            f"{n['rms_position_steady_deg']:.4f}",
+            recovery,
+            f"{n['rms_stiffness_before_nm_per_rad']:.4f}",
+            f"{n['peak_stiffness_nm_per_rad']:.4f}",
+            f"{n['rms_stiffness_steady_nm_per_rad']:.4f}",
+            ", ".join(f"{torque:.1f}" for torque in n["peak_torque_nm"]),
+        )
+    return table

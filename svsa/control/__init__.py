@@ -1,0 +1,1 @@
+"""The control laws, their gains and the torque limits."""

@@ -1,0 +1,60 @@
+"""The baseline: feedback linearization (FL), Eq 36 with the sign corrected."""
+
+from typing import NamedTuple
+
+from svsa.compilation import compiled
+from svsa.control.gains import Gains
+from svsa.model.linearization import compute_linearization, solve_decoupling
+
+
+class GainConstants(NamedTuple):
+    """p0 … p3: c_k of position; s0, s1: c_k of stiffness (Eq 25)."""
+
+    p0: float
+    p1: float
+    p2: float
+    p3: float
+    s0: float
+    s1: float
+
+
+def build_gains(gains: Gains) -> GainConstants:
+    """The coefficients of Eq 25 as the control laws take them."""
+    return GainConstants(*gains.position_coefficients, *gains.stiffness_coefficients)
+
+
+@compiled
+def compute_linearized_demand(linearization, gains, reference):
+    """B − v of Eq 24 and 36: what A(x) u has to be when nothing disturbs.
+
+    b = (q_d⁗ − L_f⁴h1, σ̈_d − L_f²h2), v1 = −Σ c¹_k e¹_k, v2 = −Σ c²_k e²_k with
+    e¹ = (q_d − q, q̇_d − q̇, q̈_d − a, q⃛_d − j), e² = (σ_d − σ, σ̇_d − σ̇).
+    linearization: `Linearization`. gains: `GainConstants`. reference: `Reference`.
+    Returns (rad/s⁴, N·m/rad/s²).
+    """
+    ξ = linearization
+    y1 = (
+        (reference.ddddq - ξ.ddddq)
+        + gains.p0 * (reference.q - ξ.q)
+        + gains.p1 * (reference.dq - ξ.dq)
+        + gains.p2 * (reference.ddq - ξ.ddq)
+        + gains.p3 * (reference.dddq - ξ.dddq)
+    )
+    y2 = (
+        (reference.ddsigma - ξ.ddsigma)
+        + gains.s0 * (reference.sigma - ξ.sigma)
+        + gains.s1 * (reference.dsigma - ξ.dsigma)
+    )
+    return y1, y2
+
+
+@compiled
+def compute_feedback_linearization(nominal, gains, x, reference):
+    """U = A⁻¹(b − v), N·m, before limits: Eq 36 (printed with the opposite sign).
+
+    nominal: `Actuator` of the nominal model. gains: `GainConstants`. x: `State`.
+    reference: `Reference`. Returns `Torque`.
+    """
+    linearization = compute_linearization(nominal, x)
+    y1, y2 = compute_linearized_demand(linearization, gains, reference)
+    return solve_decoupling(linearization, y1, y2)

@@ -1,0 +1,80 @@
+"""Gains: poles ↔ coefficients of the error polynomials, and their stability (Eq 25)."""
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from pydantic import model_validator
+
+from svsa.checked import Checked, Number, quantity
+from svsa.errors import ParameterError, Violation
+
+FASTEST_POLE_RAD_PER_S = 1000.0
+
+
+class Gains(Checked):
+    """Coefficients of Eq 25. Both polynomials must be Hurwitz; refused with their roots."""
+
+    position_coefficients: tuple[Number, Number, Number, Number] = quantity(
+        "s⁻⁴ … s⁻¹", "c0 … c3 of s⁴ + c3 s³ + c2 s² + c1 s + c0 (Eq 25)"
+    )
+    stiffness_coefficients: tuple[Number, Number] = quantity(
+        "s⁻², s⁻¹", "c0, c1 of s² + c1 s + c0 (Eq 25)"
+    )
+
+    @classmethod
+    def from_poles(cls, position: Sequence[complex], stiffness: Sequence[complex]) -> Self:
+        """The gains with these closed-loop poles: 4 and 2, rad/s, conjugate pairs."""
+        c0, c1, c2, c3 = compute_coefficients("position_poles_rad_per_s", position, 4)
+        s0, s1 = compute_coefficients("stiffness_poles_rad_per_s", stiffness, 2)
+        return cls(position_coefficients=(c0, c1, c2, c3), stiffness_coefficients=(s0, s1))
+
+    @property
+    def position_roots(self) -> list[complex]:
+        """The four roots of the position polynomial, rad/s."""
+        return compute_roots(self.position_coefficients)
+
+    @property
+    def stiffness_roots(self) -> list[complex]:
+        """The two roots of the stiffness polynomial, rad/s."""
+        return compute_roots(self.stiffness_coefficients)
+
+    @model_validator(mode="after")
+    def _check_hurwitz(self) -> Self:
+        for name in ("position_coefficients", "stiffness_coefficients"):
+            coefficients = getattr(self, name)
+            roots = compute_roots(coefficients)
+            listed = ", ".join(f"{root:.4g}" for root in roots)
+            if not all(root.real < 0.0 for root in roots):
+                bound = (
+                    f"Hurwitz: every root left of the imaginary axis; the roots are {listed} rad/s"
+                )
+                raise ParameterError(Violation(name, list(coefficients), "", bound))
+            if max(abs(root) for root in roots) > FASTEST_POLE_RAD_PER_S:
+                bound = (
+                    f"slower than {FASTEST_POLE_RAD_PER_S:g} rad/s; the roots are {listed} rad/s"
+                )
+                raise ParameterError(Violation(name, list(coefficients), "", bound))
+        return self
+
+
+def compute_coefficients(name: str, poles: Sequence[complex], order: int) -> tuple[float, ...]:
+    """c0 … c_{n−1} of the monic polynomial with these roots (Eq 25), lowest power first.
+
+    poles: `order` numbers, rad/s. Raises `ParameterError` under `name` for another count or
+    for a complex pole without its conjugate.
+    """
+    values = np.asarray(poles, dtype=complex)
+    if values.shape != (order,) or not np.all(np.isfinite(values)):
+        raise ParameterError(Violation(name, list(poles), "rad/s", f"{order} finite poles"))
+    polynomial = np.poly(values)
+    if np.iscomplexobj(polynomial):
+        bound = "real, or in conjugate pairs"
+        raise ParameterError(Violation(name, list(poles), "rad/s", bound))
+    return tuple(float(c) for c in polynomial[:0:-1])
+
+
+def compute_roots(coefficients: Sequence[float]) -> list[complex]:
+    """The roots of s^n + c_{n−1} s^{n−1} + … + c0 (Eq 25), rad/s, slowest first."""
+    roots = np.roots([1.0, *coefficients[::-1]])
+    return sorted((complex(root) for root in roots), key=lambda root: (-root.real, root.imag))

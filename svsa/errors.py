@@ -1,0 +1,77 @@
+"""What can go wrong, each with name, value, unit and bound.
+
+One root, `SvsaError`. Bad input is a `ParameterError`; a run that leaves the domain of
+the model ends in a `Fault`, which is data, and a `FaultError` where nobody looks at it.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+
+class SvsaError(Exception):
+    """Root of every error that this project raises on purpose."""
+
+
+@dataclass(frozen=True)
+class Violation:
+    """One refused value: its name, the value as given, its unit and the bound it broke."""
+
+    name: str
+    value: Any
+    unit: str
+    bound: str
+
+    @property
+    def message(self) -> str:
+        """The violation as a sentence; a value of None reads as missing."""
+        if self.value is None:
+            return f"{self.name} is missing: it must be {self.bound}."
+        unit = f" {self.unit}" if self.unit not in ("", "1") and _is_number(self.value) else ""
+        return f"{self.name} is {_shorten(self.value)}{unit}: it must be {self.bound}."
+
+
+class ParameterError(SvsaError, ValueError):
+    """Values that were refused; nothing was changed."""
+
+    def __init__(self, *violations: Violation) -> None:
+        self.violations = violations
+        super().__init__(" ".join(violation.message for violation in violations))
+
+
+class StateError(SvsaError):
+    """A call that does not fit what the session is doing, and what would fit."""
+
+
+class SecurityError(SvsaError):
+    """A deployment that would leave the lab open to strangers."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A run that left the domain of the model: when, why, and the values in it.
+
+    `values` maps channel names (with their unit in the name) to SI values.
+    """
+
+    code: str
+    tick: int
+    time_s: float
+    message: str
+    values: dict[str, float] = field(default_factory=dict)
+
+
+class FaultError(SvsaError):
+    """A run ended in a fault before its time; `fault` has the values."""
+
+    def __init__(self, fault: Fault) -> None:
+        self.fault = fault
+        super().__init__(fault.message)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _shorten(value: Any, longest: int = 80) -> str:
+    text = repr(value)
+    return text if len(text) <= longest else text[: longest - 1] + "…"

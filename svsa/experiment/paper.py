@@ -1,0 +1,89 @@
+"""The paper's simulated experiments as data: Figures 4A, 4B and 5."""
+
+import math
+from typing import NamedTuple
+
+from svsa.errors import ParameterError, Violation
+from svsa.plant.disturbances import PaperLoad
+from svsa.reference.trajectories import (
+    ConstantStiffness,
+    SinePosition,
+    SineStiffness,
+    StiffnessReference,
+)
+from svsa.runtime.configuration import Configuration, Law, load_prototype
+
+LOAD_TIME_S = 5.0
+DURATION_S = 20.0
+BEFORE_S = (1.0, 5.0)
+PEAK_S = (5.0, 7.0)
+STEADY_S = (8.0, 20.0)
+
+
+class Figure(NamedTuple):
+    """One figure: its key, title, references, and what the paper claims of it."""
+
+    key: str
+    title: str
+    position: SinePosition
+    stiffness: StiffnessReference
+    claim: str
+
+    def build_configuration(self, law: Law = "ndobc", load: bool = True) -> Configuration:
+        """The run behind the figure; load: with the paper's 3 kg at 5 s."""
+        loads = (PaperLoad(start_s=LOAD_TIME_S),) if load else ()
+        return Configuration(
+            **dict(load_prototype()),
+            law=law,
+            position=self.position,
+            stiffness=self.stiffness,
+            loads=loads,
+        )
+
+
+_MOTION = SinePosition(amplitude_rad=math.radians(60.0), frequency_hz=0.2)
+_CLAIM_FIXED = (
+    "Both laws track alike for the first 5 s; after the load FL tracks poorly and NDOBC goes"
+    " on; the stiffness has little effect."
+)
+
+FIGURES = {
+    figure.key: figure
+    for figure in (
+        Figure(
+            "4a",
+            "Figure 4A: low stiffness, 15 N·m/rad",
+            _MOTION,
+            ConstantStiffness(stiffness_nm_per_rad=15.0),
+            _CLAIM_FIXED,
+        ),
+        Figure(
+            "4b",
+            "Figure 4B: high stiffness, 60 N·m/rad",
+            _MOTION,
+            ConstantStiffness(stiffness_nm_per_rad=60.0),
+            _CLAIM_FIXED,
+        ),
+        Figure(
+            "5",
+            "Figure 5: variable stiffness, 35 + sin N·m/rad",
+            _MOTION,
+            SineStiffness(
+                offset_nm_per_rad=35.0,
+                amplitude_nm_per_rad=1.0,
+                frequency_hz=0.2,
+                phase_rad=1.5 * math.pi,
+            ),
+            "Both errors are small without the load; after it both grow with FL, and NDOBC"
+            " stays better.",
+        ),
+    )
+}
+
+
+def get_figure(key: str) -> Figure:
+    """A figure of the paper by its key ("4a", "4b", "5"); raises `ParameterError`."""
+    figure = FIGURES.get(str(key).lower())
+    if figure is None:
+        raise ParameterError(Violation("figure", key, "", "one of " + ", ".join(FIGURES)))
+    return figure

@@ -1,0 +1,1 @@
+"""The actuator: lever, spring, dynamics, linearization and the domain they hold in."""

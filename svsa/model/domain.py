@@ -1,0 +1,92 @@
+"""The domain of the model: where σ, A(x) and the mechanism allow a run to go on."""
+
+import math
+from typing import NamedTuple
+
+from svsa.compilation import compiled
+from svsa.model.dynamics import compute_deflection
+from svsa.model.lever import (
+    compute_lever_ratio,
+    compute_lever_ratio_for_stiffness,
+    compute_zero_stiffness_deflection,
+)
+from svsa.model.spring import compute_spring_derivatives
+from svsa.parameters import ActuatorParameters, Limits
+
+INSIDE = 0
+NOT_FINITE = 1
+LEVER_END = 2
+DEFLECTION_LIMIT = 3
+SINGULAR_DECOUPLING = 4
+
+FAULT_CODES = {
+    NOT_FINITE: "not_finite",
+    LEVER_END: "lever_end",
+    DEFLECTION_LIMIT: "deflection_limit",
+    SINGULAR_DECOUPLING: "singular_decoupling",
+}
+
+
+class Domain(NamedTuple):
+    """The bounds of the domain. mu_min, mu_max: 1. deflection_max: rad; fractions: 1."""
+
+    mu_min: float
+    mu_max: float
+    deflection_max: float
+    deflection_fraction: float
+    singularity_fraction: float
+
+
+def build_domain(actuator: ActuatorParameters, limits: Limits) -> Domain:
+    """The domain of a plant: μ between its values at the ends of the stiffness range."""
+    K = actuator.rotational_stiffness_nm_per_rad
+    return Domain(
+        mu_min=compute_lever_ratio_for_stiffness(limits.stiffness_min_nm_per_rad, K)
+        - limits.lever_ratio_margin,
+        mu_max=compute_lever_ratio_for_stiffness(limits.stiffness_max_nm_per_rad, K)
+        + limits.lever_ratio_margin,
+        deflection_max=limits.deflection_max_rad,
+        deflection_fraction=limits.deflection_fraction,
+        singularity_fraction=limits.singularity_fraction,
+    )
+
+
+@compiled
+def compute_deflection_limit(domain, mu):
+    """The |φ| at which a run ends, rad: a share of the zero-stiffness angle of this μ."""
+    return min(
+        domain.deflection_max, domain.deflection_fraction * compute_zero_stiffness_deflection(mu)
+    )
+
+
+@compiled
+def compute_relative_determinant(mu, phi, K):
+    """Det A(x) over its value at φ = 0: (σ σ_μ − τ_e,μ σ_φ)/(σ σ_μ at φ = 0), Eq 18.
+
+    The inertias and μ' are common factors. 1 at φ = 0; 0 where A is singular.
+    """
+    spring = compute_spring_derivatives(mu, phi, K)
+    level = compute_spring_derivatives(mu, 0.0, K)
+    return (spring.sigma * spring.sigma_mu - spring.torque_mu * spring.sigma_phi) / (
+        level.sigma * level.sigma_mu
+    )
+
+
+@compiled
+def check_domain(domain, actuator, x):
+    """`INSIDE`, or the code of the first bound that the state x breaks.
+
+    domain: `Domain`. actuator: `Actuator`. x: `State`.
+    """
+    total = x.q + x.dq + x.theta1 + x.dtheta1 + x.theta2 + x.dtheta2
+    if not math.isfinite(total):
+        return NOT_FINITE
+    mu = compute_lever_ratio(x.theta2, actuator.mu0, actuator.gamma)
+    if not domain.mu_min <= mu <= domain.mu_max:
+        return LEVER_END
+    phi = compute_deflection(x)
+    if abs(phi) > compute_deflection_limit(domain, mu):
+        return DEFLECTION_LIMIT
+    if compute_relative_determinant(mu, phi, actuator.K) < domain.singularity_fraction:
+        return SINGULAR_DECOUPLING
+    return INSIDE

@@ -1,0 +1,1 @@
+"""What the controller believes about what it cannot measure."""

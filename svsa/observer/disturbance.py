@@ -1,0 +1,53 @@
+"""The nonlinear disturbance observer, Eq 10–16, in discrete time."""
+
+import math
+from typing import Annotated
+
+from pydantic import Field
+
+from svsa.checked import Checked, Number, quantity
+from svsa.compilation import compiled
+from svsa.model.dynamics import compute_internal_torque
+from svsa.signals import Disturbance
+
+Bandwidth = Annotated[Number, Field(ge=0.1, le=1000)]
+
+
+class ObserverBandwidth(Checked):
+    """β_i = k_i/J_i: how fast the estimation error decays (Eq 12) on channels 2, 4, 6."""
+
+    bandwidth_rad_per_s: tuple[Bandwidth, Bandwidth, Bandwidth] = quantity(
+        "rad/s", "β of link, motor 1 and motor 2, each from 0.1 to 1000"
+    )
+
+
+@compiled
+def update_disturbance_estimate(nominal, bandwidth, estimate, x_old, x_new, torque, period):
+    """ŵ ← ŵ + (1 − e^(−βT)) [J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ].
+
+    Eq 10 with the gain of Eq 14 and 15 (λ = k x, β = k/J), over one sample with both of
+    its ends; tends to Eq 10 as T → 0. Fed with the torque really applied, it does not
+    wind up in saturation.
+
+    nominal: `Actuator`. bandwidth: β of the three channels, rad/s. estimate: ŵ,
+    `Disturbance`, N·m. x_old, x_new: `State` at the ends of the sample. torque: u applied
+    between them, `Torque`, N·m. period: T, s. Returns `Disturbance`.
+    """
+    F_old = compute_internal_torque(nominal, x_old)
+    F_new = compute_internal_torque(nominal, x_new)
+    seen2 = nominal.M * (x_new.dq - x_old.dq) / period - 0.5 * (F_new.link + F_old.link)
+    seen4 = (
+        nominal.B1 * (x_new.dtheta1 - x_old.dtheta1) / period
+        - 0.5 * (F_new.motor1 + F_old.motor1)
+        - torque.u1
+    )
+    seen6 = (
+        nominal.B2 * (x_new.dtheta2 - x_old.dtheta2) / period
+        - 0.5 * (F_new.motor2 + F_old.motor2)
+        - torque.u2
+    )
+    return Disturbance(
+        estimate.w2 - math.expm1(-bandwidth[0] * period) * (seen2 - estimate.w2),
+        estimate.w4 - math.expm1(-bandwidth[1] * period) * (seen4 - estimate.w4),
+        estimate.w6 - math.expm1(-bandwidth[2] * period) * (seen6 - estimate.w6),
+    )

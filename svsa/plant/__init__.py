@@ -1,0 +1,1 @@
+"""The simulated actuator and what the world does to it."""

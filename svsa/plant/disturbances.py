@@ -1,0 +1,206 @@
+"""Loads: what a student can do to the actuator, and what the plant feels of it."""
+
+import math
+from typing import Annotated, Literal, NamedTuple, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from svsa.checked import Checked, Number, quantity
+from svsa.compilation import compiled
+from svsa.errors import ParameterError, Violation
+from svsa.model.dynamics import ExternalLoad
+
+GRAVITY_M_PER_S2 = 9.81
+PAPER_TORQUE_NM = 2.0
+PAPER_MASS_KG = 3.0
+PAPER_ARM_M = 0.068
+MOST_SERIES_POINTS = 20_000
+
+_Torque = Annotated[Number, Field(ge=-50, le=50)]
+TorqueTriple = tuple[_Torque, _Torque, _Torque]
+_TRIPLE = "(w2, w4, w6) on link, motor 1, motor 2, each from −50 to 50"
+
+
+class _Load(Checked):
+    """A load with the session time at which it comes on; left out, it is now."""
+
+    start_s: Number | None = quantity("s", "Session time of onset", ge=0, le=1e6, default=None)
+
+    def get_duration(self) -> float:
+        """How long it lasts, s; infinite unless the load says otherwise."""
+        return math.inf
+
+
+class PaperLoad(_Load):
+    """The paper's 3 kg: w2 = w4 = w6 = 2 N·m, as printed."""
+
+    kind: Literal["paper"] = "paper"
+
+
+class MassLoad(_Load):
+    """A mass on an arm of the link: adds inertia m r² and gravity m g r sin q."""
+
+    kind: Literal["mass"] = "mass"
+    mass_kg: Number = quantity("kg", "Mass m", gt=0, le=20, default=PAPER_MASS_KG)
+    arm_m: Number = quantity("m", "Arm r", gt=0, le=1, default=PAPER_ARM_M)
+
+
+class ConstantLoad(_Load):
+    """A torque that stays from its onset on: a step."""
+
+    kind: Literal["constant"] = "constant"
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+
+
+class PulseLoad(_Load):
+    """A torque for a while."""
+
+    kind: Literal["pulse"] = "pulse"
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+    duration_s: Number = quantity("s", "Duration", gt=0, le=3600)
+
+    def get_duration(self) -> float:
+        """How long it lasts, s."""
+        return self.duration_s
+
+
+class SineLoad(_Load):
+    """torque · sin(2π f (t − onset) + phase)."""
+
+    kind: Literal["sine"] = "sine"
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+    frequency_hz: Number = quantity("Hz", "Frequency f", gt=0, le=100)
+    phase_rad: Number = quantity("rad", "Phase", ge=-2 * math.pi, le=2 * math.pi, default=0.0)
+
+
+class SeriesLoad(_Load):
+    """A torque of one's own: points in time since the onset, joined by straight lines."""
+
+    kind: Literal["series"] = "series"
+    time_s: Annotated[tuple[Number, ...], Field(min_length=2, max_length=MOST_SERIES_POINTS)] = (
+        quantity("s", "Times since onset, growing from ≥ 0")
+    )
+    torque_nm: Annotated[
+        tuple[TorqueTriple, ...], Field(min_length=2, max_length=MOST_SERIES_POINTS)
+    ] = quantity("N·m", _TRIPLE + ", one for each time")
+
+    @model_validator(mode="after")
+    def _check_points(self) -> Self:
+        times = np.asarray(self.time_s)
+        if len(times) != len(self.torque_nm):
+            bound = f"as long as time_s, which has {len(times)} points"
+            raise ParameterError(Violation("torque_nm", len(self.torque_nm), "points", bound))
+        if times[0] < 0.0 or np.any(np.diff(times) <= 0.0):
+            raise ParameterError(Violation("time_s", list(times[:3]), "s", "growing from ≥ 0 on"))
+        return self
+
+    def get_duration(self) -> float:
+        """How long it lasts, s."""
+        return self.time_s[-1]
+
+
+Load = Annotated[
+    PaperLoad | MassLoad | ConstantLoad | PulseLoad | SineLoad | SeriesLoad,
+    Field(discriminator="kind"),
+]
+
+CONSTANT, SINE, MASS, SERIES = range(4)
+KIND, W2, W4, W6, START, END, OMEGA, PHASE, INERTIA, MOMENT, FIRST, LENGTH = range(12)
+
+
+class LoadTable(NamedTuple):
+    """All loads of a session as arrays for the compiled loop.
+
+    rows: (n, 12) by the column names above, START and END in ticks. points: (m, 4) time
+    since onset (s) and torques (N·m) of every series load, each from FIRST on.
+    """
+
+    rows: np.ndarray
+    points: np.ndarray
+
+
+class ScheduledLoad(NamedTuple):
+    """A load that was asked for: its number in the session and its onset and end in ticks."""
+
+    number: int
+    load: Load
+    start_tick: int
+    end_tick: float
+
+
+def schedule_load(number: int, load: Load, tick: int, period: float) -> ScheduledLoad:
+    """Onset and end in whole ticks of `period` (s); an onset in the past is now (`tick`)."""
+    start = tick if load.start_s is None else max(tick, round(load.start_s / period))
+    duration = load.get_duration()
+    end = math.inf if math.isinf(duration) else start + max(1, round(duration / period))
+    return ScheduledLoad(number, load, start, end)
+
+
+def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
+    """The arrays of `LoadTable` for these loads; they add up where they overlap."""
+    rows = np.zeros((len(loads), 12))
+    series: list[np.ndarray] = [np.zeros((0, 4))]
+    for row, (_, load, start, end) in zip(rows, loads, strict=True):
+        row[START], row[END] = start, end
+        match load:
+            case PaperLoad():
+                row[KIND], row[W2 : W6 + 1] = CONSTANT, PAPER_TORQUE_NM
+            case ConstantLoad() | PulseLoad():
+                row[KIND], row[W2 : W6 + 1] = CONSTANT, load.torque_nm
+            case SineLoad():
+                row[KIND], row[W2 : W6 + 1] = SINE, load.torque_nm
+                row[OMEGA], row[PHASE] = 2.0 * math.pi * load.frequency_hz, load.phase_rad
+            case MassLoad():
+                row[KIND] = MASS
+                row[INERTIA] = load.mass_kg * load.arm_m**2
+                row[MOMENT] = load.mass_kg * GRAVITY_M_PER_S2 * load.arm_m
+            case SeriesLoad():
+                row[KIND] = SERIES
+                row[FIRST], row[LENGTH] = sum(map(len, series)), len(load.time_s)
+                series.append(np.column_stack([load.time_s, load.torque_nm]))
+    return LoadTable(rows, np.vstack(series))
+
+
+@compiled
+def compute_load(table, tick, period, time):
+    """The sum of all active loads at `time`, during the sample that began at `tick`.
+
+    Whether a load is on is decided by the tick, so that a step falls between two samples
+    and never inside one; its shape is taken at `time` (s). table: `LoadTable`. period: T,
+    s. Returns `ExternalLoad`.
+    """
+    w2 = w4 = w6 = inertia = moment = 0.0
+    rows = table.rows
+    for i in range(rows.shape[0]):
+        row = rows[i]
+        if not row[START] <= tick < row[END]:
+            continue
+        since = time - row[START] * period
+        if row[KIND] == MASS:
+            inertia += row[INERTIA]
+            moment += row[MOMENT]
+        elif row[KIND] == SERIES:
+            points = table.points[int(row[FIRST]) : int(row[FIRST] + row[LENGTH])]
+            w2 += interpolate(points, 1, since)
+            w4 += interpolate(points, 2, since)
+            w6 += interpolate(points, 3, since)
+        else:
+            shape = 1.0
+            if row[KIND] == SINE:
+                shape = math.sin(row[OMEGA] * since + row[PHASE])
+            w2 += shape * row[W2]
+            w4 += shape * row[W4]
+            w6 += shape * row[W6]
+    return ExternalLoad(w2, w4, w6, inertia, moment)
+
+
+@compiled
+def interpolate(points, column, time):
+    """The column of `points` at `time` on straight lines; zero before the first point."""
+    times = points[:, 0]
+    if time < times[0]:
+        return 0.0
+    i = min(max(np.searchsorted(times, time, side="right"), 1), len(times) - 1)
+    share = min((time - times[i - 1]) / (times[i] - times[i - 1]), 1.0)
+    return points[i - 1, column] + share * (points[i, column] - points[i - 1, column])

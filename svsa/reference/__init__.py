@@ -1,0 +1,1 @@
+"""What the actuator is asked to follow."""

@@ -1,0 +1,1 @@
+"""The loop, runs, sessions and their clocks."""

@@ -1,0 +1,42 @@
+"""Wall time to ticks: how many are due, at what speed, and what happens when late."""
+
+LONGEST_BACKLOG_S = 0.25
+_SMOOTHING = 0.1
+
+
+class SimulationClock:
+    """Tells how many ticks are due. Wall time (s, any monotonic origin) enters only here.
+
+    A session that cannot keep up stretches time: a backlog of more than 0.25 s is given
+    up, added to `stretched_s`, and no tick is skipped.
+    """
+
+    def __init__(self, period_s: float) -> None:
+        self._period = period_s
+        self._last: float | None = None
+        self._owed_s = 0.0
+        self.stretched_s = 0.0
+        self.speed = 1.0
+        self.real_time_factor = 0.0
+
+    def stop(self) -> None:
+        """Owe nothing, and count again from the next question on."""
+        self._last, self._owed_s, self.real_time_factor = None, 0.0, 0.0
+
+    def take_due_ticks(self, now: float) -> int:
+        """The whole ticks due at `now`; they count as done."""
+        if self._last is None:
+            self._last, self.real_time_factor = now, 1.0
+        elapsed = max(now - self._last, 0.0)
+        self._last = now
+        self._owed_s += elapsed * self.speed
+        longest = max(LONGEST_BACKLOG_S * self.speed, self._period)
+        lost = max(self._owed_s - longest, 0.0)
+        self._owed_s -= lost
+        self.stretched_s += lost / self.speed
+        ticks = int(self._owed_s / self._period)
+        self._owed_s -= ticks * self._period
+        if elapsed > 0.0:
+            factor = (elapsed * self.speed - lost) / elapsed
+            self.real_time_factor += _SMOOTHING * (factor - self.real_time_factor)
+        return ticks

@@ -1,0 +1,91 @@
+"""A run as a value: parameters, design, references and loads; TOML files in and out."""
+
+import tomllib
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal, Self
+
+import tomli_w
+from pydantic import model_validator
+
+from svsa.checked import Checked, Number, quantity
+from svsa.control.gains import Gains
+from svsa.errors import ParameterError, Violation
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.parameters import ActuatorParameters, Limits
+from svsa.plant.disturbances import Load
+from svsa.reference.trajectories import PositionReference, StiffnessReference, get_range
+
+Law = Literal["ndobc", "fl"]
+MOST_LOADS = 16
+
+
+class Sampling(Checked):
+    """The sampling of the loop."""
+
+    period_s: Number = quantity("s", "Control period T, zero-order hold", ge=1e-4, le=0.02)
+
+
+class Design(Checked):
+    """What a parameter file holds: plant, nominal model, gains, observer, limits, sampling."""
+
+    actuator: ActuatorParameters
+    nominal: ActuatorParameters
+    gains: Gains
+    observer: ObserverBandwidth
+    limits: Limits
+    sampling: Sampling
+
+
+class Configuration(Design):
+    """Everything that decides a run, besides the commands given while it runs."""
+
+    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)", default="ndobc")
+    position: PositionReference
+    stiffness: StiffnessReference
+    loads: tuple[Load, ...] = quantity(
+        "", "Loads from the start on", default=(), max_length=MOST_LOADS
+    )
+
+    @model_validator(mode="after")
+    def _check_stiffness_range(self) -> Self:
+        self.limits.check_stiffness("stiffness", *get_range(self.stiffness))
+        return self
+
+
+def read_design(path: Path | str) -> Design:
+    """Read a parameter file written as `prototype.toml` is; a value may stand bare.
+
+    Raises `ParameterError` for a file that cannot be read and for every wrong value.
+    """
+    try:
+        sections = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        violation = Violation("parameter file", str(path), "", f"a readable TOML file ({error})")
+        raise ParameterError(violation) from None
+    return Design(**{name: _strip_sources(section) for name, section in sections.items()})
+
+
+def write_design(path: Path | str, design: Design, source: str) -> None:
+    """Write a parameter file in which every value has `source` as its source."""
+    sections = {
+        name: {key: {"value": value, "source": source} for key, value in section.items()}
+        for name, section in design.model_dump(mode="json").items()
+    }
+    Path(path).write_text(tomli_w.dumps(sections), encoding="utf-8")
+
+
+@cache
+def load_prototype() -> Design:
+    """The paper's prototype with the declared assumptions: `svsa/prototype.toml`."""
+    return read_design(Path(__file__).parent.parent / "prototype.toml")
+
+
+def _strip_sources(section: Any) -> Any:
+    if not isinstance(section, dict):
+        return section
+    plain = {
+        key: entry["value"] if isinstance(entry, dict) and "value" in entry else entry
+        for key, entry in section.items()
+    }
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in plain.items()}

@@ -1,0 +1,89 @@
+"""How good a run is: errors, peaks, recovery and torque, whole or while it goes on."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from svsa.signals import CHANNEL_INDEX
+
+RECOVERY_SHARE = 0.02
+SETTLED_S = 0.5
+
+_COLUMNS = [
+    CHANNEL_INDEX[name]
+    for name in (
+        "position_error_rad",
+        "stiffness_error_nm_per_rad",
+        "torque1_nm",
+        "torque2_nm",
+    )
+]
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """Metrics of a stretch of samples; SI units as named, over `duration_s`.
+
+    recovery_time_s: from the start of the stretch until the position error stays within
+    2 % of its peak (for 0.5 s at least); None while it has not.
+    """
+
+    duration_s: float
+    rms_position_error_rad: float
+    peak_position_error_rad: float
+    rms_stiffness_error_nm_per_rad: float
+    peak_stiffness_error_nm_per_rad: float
+    peak_torque1_nm: float
+    peak_torque2_nm: float
+    recovery_time_s: float | None
+
+
+class RunningMetrics:
+    """Metrics that grow with the samples; nothing is kept but sums and peaks."""
+
+    def __init__(self, period_s: float) -> None:
+        self._period = period_s
+        self._count = 0
+        self._squares = np.zeros(len(_COLUMNS))
+        self._peaks = np.zeros(len(_COLUMNS))
+        self._last_outside = 0
+
+    def update(self, samples: np.ndarray) -> None:
+        """Take in more rows of samples (ticks, channels), in the order of time."""
+        if not len(samples):
+            return
+        sizes = np.abs(samples[:, _COLUMNS])
+        peaks = np.maximum(np.maximum.accumulate(sizes[:, 0]), self._peaks[0])
+        outside = np.flatnonzero(sizes[:, 0] > RECOVERY_SHARE * peaks)
+        if len(outside):
+            self._last_outside = self._count + int(outside[-1]) + 1
+        self._squares += np.sum(sizes**2, axis=0)
+        self._peaks = np.maximum(self._peaks, sizes.max(axis=0))
+        self._count += len(samples)
+
+    def summarize(self) -> Metrics | None:
+        """The metrics so far; None before the first sample."""
+        if not self._count:
+            return None
+        rms = np.sqrt(self._squares / self._count)
+        settled = (self._count - self._last_outside) * self._period >= SETTLED_S
+        return Metrics(
+            duration_s=self._count * self._period,
+            rms_position_error_rad=float(rms[0]),
+            peak_position_error_rad=float(self._peaks[0]),
+            rms_stiffness_error_nm_per_rad=float(rms[1]),
+            peak_stiffness_error_nm_per_rad=float(self._peaks[1]),
+            peak_torque1_nm=float(self._peaks[2]),
+            peak_torque2_nm=float(self._peaks[3]),
+            recovery_time_s=self._last_outside * self._period if settled else None,
+        )
+
+
+def compute_metrics(samples: np.ndarray, period_s: float) -> Metrics:
+    """The metrics of these rows of samples (ticks, channels), at least one."""
+    running = RunningMetrics(period_s)
+    running.update(samples)
+    metrics = running.summarize()
+    if metrics is None:
+        raise ValueError("metrics need at least one sample")
+    return metrics

@@ -1,0 +1,137 @@
+"""One run: a configuration, the state it has reached, and the changes made on the way."""
+
+import numpy as np
+
+from svsa.control.gains import Gains
+from svsa.errors import Fault, StateError
+from svsa.model.domain import INSIDE
+from svsa.model.lever import compute_lever_ratio_for_stiffness
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.parameters import ActuatorParameters
+from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table, schedule_load
+from svsa.reference.trajectories import (
+    PositionReference,
+    StiffnessReference,
+    compute_start_value,
+    get_range,
+)
+from svsa.reference.transition import build_stack, push_trajectory
+from svsa.runtime.configuration import MOST_LOADS, Configuration, Law
+from svsa.runtime.fault import build_fault
+from svsa.runtime.loop import AT_REST, UNDISTURBED, Inputs, advance, build_blocks
+
+
+class Run:
+    """A simulated run, from rest at t = 0, tick by tick.
+
+    `configuration` is the present one; a change takes effect at the next tick. The run
+    starts at x = 0 with the μ0 that makes σ(0) = σ_d(0). steps: Runge–Kutta steps a period.
+    """
+
+    def __init__(self, configuration: Configuration, steps: int = 1) -> None:
+        self.configuration = configuration
+        self.steps = steps
+        self.tick = 0
+        self.state = AT_REST
+        self.estimate = UNDISTURBED
+        self.fault: Fault | None = None
+        self.mu0: float = compute_lever_ratio_for_stiffness(
+            compute_start_value(configuration.stiffness),
+            configuration.actuator.rotational_stiffness_nm_per_rad,
+        )
+        self._load_count = 0
+        self.loads: tuple[ScheduledLoad, ...] = ()
+        self._position = build_stack(configuration.position)
+        self._stiffness = build_stack(configuration.stiffness)
+        for load in configuration.loads:
+            self.add_load(load)
+        self._connect()
+
+    @property
+    def period_s(self) -> float:
+        """T, s."""
+        return self.configuration.sampling.period_s
+
+    @property
+    def time_s(self) -> float:
+        """The time of the next tick, s."""
+        return self.tick * self.period_s
+
+    def advance(self, samples: np.ndarray) -> int:
+        """Run one tick for each row of samples (ticks, channels); how many were done.
+
+        Fewer than asked means that the run has ended: `fault` says why.
+        """
+        if self.fault is not None:
+            return 0
+        self.state, self.estimate, done, code = advance(
+            self._blocks, self._inputs, self.state, self.estimate, self.tick, samples
+        )
+        self.tick += done
+        if code != INSIDE:
+            self.fault = build_fault(code, self.tick, self._blocks, self.state)
+        return done
+
+    def set_position(self, reference: PositionReference) -> None:
+        """Fade over to this position reference, from now on."""
+        self._position = push_trajectory(self._position, reference, self.time_s)
+        self._configure(position=reference)
+
+    def set_stiffness(self, reference: StiffnessReference) -> None:
+        """Fade over to this stiffness reference; raises `ParameterError` outside the range."""
+        self.configuration.limits.check_stiffness("stiffness", *get_range(reference))
+        self._stiffness = push_trajectory(self._stiffness, reference, self.time_s)
+        self._configure(stiffness=reference)
+
+    def set_law(self, law: Law) -> None:
+        """Control with this law from now on."""
+        self._configure(law=law)
+
+    def set_gains(self, gains: Gains) -> None:
+        """Use these gains from now on."""
+        self._configure(gains=gains)
+
+    def set_observer(self, observer: ObserverBandwidth) -> None:
+        """Use these observer bandwidths from now on."""
+        self._configure(observer=observer)
+
+    def set_actuator(self, actuator: ActuatorParameters) -> None:
+        """Change the true plant; μ0, a fact of how it was assembled, stays."""
+        self._configure(actuator=actuator)
+
+    def set_nominal(self, nominal: ActuatorParameters) -> None:
+        """Change the model that controller and observer believe in."""
+        self._configure(nominal=nominal)
+
+    def add_load(self, load: Load) -> ScheduledLoad:
+        """Apply a load now or at its `start_s`; raises `StateError` when there are too many."""
+        lasting = tuple(kept for kept in self.loads if kept.end_tick > self.tick)
+        if len(lasting) >= MOST_LOADS:
+            raise StateError(f"{MOST_LOADS} loads are applied or planned: clear one first.")
+        self._load_count += 1
+        scheduled = schedule_load(self._load_count, load, self.tick, self.period_s)
+        self._set_loads((*lasting, scheduled))
+        return scheduled
+
+    def remove_load(self, number: int) -> ScheduledLoad:
+        """Take a load off; raises `StateError` when there is none of that number."""
+        for load in self.loads:
+            if load.number == number:
+                self._set_loads(tuple(kept for kept in self.loads if kept is not load))
+                return load
+        numbers = ", ".join(str(load.number) for load in self.loads) or "none"
+        raise StateError(f"There is no load {number}; loads here: {numbers}.")
+
+    def _set_loads(self, loads: tuple[ScheduledLoad, ...]) -> None:
+        self.loads = loads
+        self._connect()
+
+    def _configure(self, **changes: object) -> None:
+        self.configuration = self.configuration.changed(**changes)
+        self._connect()
+
+    def _connect(self) -> None:
+        self._blocks = build_blocks(
+            self.configuration.law, self.configuration, self.mu0, self.steps
+        )
+        self._inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))

@@ -1,0 +1,99 @@
+"""A real lab for the tests: `svsa serve` as a process of its own, on a free loopback port."""
+
+import contextlib
+import os
+import re
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import httpx
+
+START_TIMEOUT_S = 120.0
+
+
+class Lab(NamedTuple):
+    """A running lab: its address and a client for it."""
+
+    url: str
+    client: httpx.Client
+    process: subprocess.Popen[str]
+
+    @property
+    def session(self) -> str:
+        """The path of the shared session."""
+        return "/api/v1/sessions/lab"
+
+    @property
+    def stream_url(self) -> str:
+        """The WebSocket of the shared session."""
+        return self.url.replace("http", "ws", 1) + self.session + "/stream"
+
+    def read(self) -> dict:
+        """The session's state."""
+        return self.client.get(self.session).raise_for_status().json()
+
+    def load_figure(
+        self, figure: str = "4a", controller: str = "ndobc", load: bool = False
+    ) -> dict:
+        """Begin anew on a figure of the paper, at normal speed."""
+        self.client.put(self.session + "/speed", json={"factor": 1}).raise_for_status()
+        request = {"figure": figure, "controller": controller, "load": load}
+        answer = self.client.post(self.session + "/experiment", json=request)
+        return answer.raise_for_status().json()
+
+    def jump(self, seconds: float) -> dict:
+        """Pause and run so many seconds of session time at once, or until a fault."""
+        state = self.client.post(self.session + "/pause").raise_for_status().json()
+        for _ in range(round(seconds)):
+            if state["status"] == "fault":
+                break
+            answer = self.client.post(self.session + "/step", json={"ticks": 1000})
+            state = answer.raise_for_status().json()
+        return state
+
+
+@contextlib.contextmanager
+def run_lab(*arguments: str, secret: str | None = None, port: int = 0) -> Iterator[Lab]:
+    """Start a lab, wait until it says where it is, and stop it at the end."""
+    environment = {k: v for k, v in os.environ.items() if k != "SVSA_SECRET"}
+    environment |= {"PYTHONUNBUFFERED": "1", "NO_COLOR": "1", "COLUMNS": "200"}
+    if secret is not None:
+        environment["SVSA_SECRET"] = secret
+    command = [sys.executable, "-c", "from svsa.cli import main; main()", "serve"]
+    process = subprocess.Popen(
+        [*command, "--port", str(port), *arguments],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    guard = threading.Timer(START_TIMEOUT_S, process.kill)
+    guard.start()
+    try:
+        found_port = _wait_for_port(process)
+        guard.cancel()
+        url = f"http://127.0.0.1:{found_port}"
+        headers = {"Authorization": f"Bearer {secret}"} if secret else None
+        with httpx.Client(base_url=url, headers=headers, timeout=30, trust_env=False) as client:
+            yield Lab(url, client, process)
+    finally:
+        guard.cancel()
+        process.terminate()
+        try:
+            process.wait(15)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def _wait_for_port(process: subprocess.Popen[str]) -> str:
+    lines = []
+    assert process.stdout is not None
+    for line in process.stdout:
+        lines.append(line)
+        if found := re.search(r"SVSA Lab is at http://[^:]+:(\d+)/", line):
+            return found.group(1)
+    raise AssertionError("the lab did not start:\n" + "".join(lines))

@@ -1,0 +1,112 @@
+"""Who may come in: loopback without a secret, everyone who knows it with one."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import httpx
+import pytest
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+from tests.lab import Lab, run_lab
+
+SECRET = "correct horse battery"
+
+
+@pytest.fixture(scope="module")
+def guarded_lab() -> Iterator[Lab]:
+    with run_lab(secret=SECRET) as lab:
+        yield lab
+
+
+def serve(*arguments: str, secret: str = "") -> subprocess.CompletedProcess[str]:
+    environment = os.environ | {"SVSA_SECRET": secret, "NO_COLOR": "1", "COLUMNS": "300"}
+    command = [sys.executable, "-c", "from svsa.cli import main; main()", "serve", *arguments]
+    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+
+
+def test_listening_beyond_loopback_without_a_secret_is_refused() -> None:
+    refused = serve("--host", "0.0.0.0", "--port", "0")
+    assert refused.returncode == 1
+    assert "SVSA_SECRET" in refused.stderr
+    assert "Traceback" not in refused.stderr
+
+
+def test_a_short_secret_is_refused() -> None:
+    refused = serve("--port", "0", secret="short")
+    assert refused.returncode == 1
+    assert "at least 8" in refused.stderr
+
+
+def test_a_port_in_use_is_told(shared_lab: Lab) -> None:
+    refused = serve("--port", shared_lab.url.rpartition(":")[2])
+    assert refused.returncode == 1
+    assert "Cannot listen on 127.0.0.1" in refused.stderr
+
+
+def test_requests_from_other_sites_are_refused(lab: Lab) -> None:
+    headers = {"Origin": "http://evil.example"}
+    assert lab.client.post(lab.session + "/pause", headers=headers).status_code == 403
+    assert lab.read()["status"] == "running"
+    with pytest.raises(InvalidStatus) as refusal:
+        connect(lab.stream_url, origin="http://evil.example", proxy=None)  # pyright: ignore
+    assert refusal.value.response.status_code == 403
+
+
+def test_a_name_that_was_pointed_at_this_machine_is_refused(lab: Lab) -> None:
+    assert lab.client.get(lab.session, headers={"Host": "evil.example"}).status_code == 403
+
+
+@pytest.mark.parametrize("path", ["/api/v1/sessions", "/docs", "/openapi.json", "/viser/"])
+def test_nothing_but_the_empty_page_is_seen_without_the_secret(guarded_lab: Lab, path: str) -> None:
+    answer = httpx.get(guarded_lab.url + path, trust_env=False)
+    assert answer.status_code == 401
+    assert "secret" in answer.json()["message"]
+
+
+@pytest.mark.parametrize("path", ["/api/v1/sessions/lab/stream", "/viser/"])
+def test_websockets_need_the_secret(guarded_lab: Lab, path: str) -> None:
+    address = guarded_lab.url.replace("http", "ws", 1) + path
+    with pytest.raises(InvalidStatus) as refusal:
+        connect(address, proxy=None)
+    assert refusal.value.response.status_code == 401
+
+
+def test_scripts_come_in_with_a_bearer_token(guarded_lab: Lab) -> None:
+    assert guarded_lab.read()["status"] == "running"
+    headers = {"Authorization": f"Bearer {SECRET}"}
+    with connect(guarded_lab.stream_url, additional_headers=headers, proxy=None) as stream:
+        assert "hello" in str(stream.recv(timeout=10))
+    wrong = httpx.get(
+        guarded_lab.url + "/api/v1/sessions",
+        headers={"Authorization": "Bearer wrong"},
+        trust_env=False,
+    )
+    assert wrong.status_code == 401
+
+
+def test_a_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
+    with httpx.Client(base_url=guarded_lab.url, trust_env=False) as browser:
+        wrong = browser.post("/api/v1/login", json={"secret": "guess"})
+        assert wrong.status_code == 401
+        assert "not the secret" in wrong.json()["message"]
+        answer = browser.post("/api/v1/login", json={"secret": SECRET})
+        assert answer.status_code == 204
+        cookie = answer.headers["set-cookie"]
+        assert "HttpOnly" in cookie
+        assert "samesite=strict" in cookie.lower()
+        assert SECRET not in cookie
+        assert browser.get("/api/v1/sessions").status_code == 200
+        name, value = next(iter(browser.cookies.items()))
+        with connect(
+            guarded_lab.stream_url, additional_headers={"Cookie": f"{name}={value}"}, proxy=None
+        ) as stream:
+            assert "hello" in str(stream.recv(timeout=10))
+
+
+def test_ctrl_c_ends_the_lab_quickly() -> None:
+    with run_lab() as lab:
+        lab.process.terminate()
+        assert lab.process.wait(15) in (0, -15)

@@ -1,0 +1,104 @@
+"""A session over REST: reading it, and running it."""
+
+import math
+import time
+
+import pytest
+
+from tests.lab import Lab
+
+
+def test_the_lab_starts_running_on_figure_4a(lab: Lab) -> None:
+    state = lab.read()
+    configuration = state["configuration"]
+    assert state["status"] == "running"
+    assert state["rate_hz"] == 1000
+    assert configuration["law"] == "ndobc"
+    assert configuration["position"]["amplitude_rad"] == pytest.approx(math.radians(60))
+    assert configuration["position"]["frequency_hz"] == 0.2
+    assert configuration["stiffness"]["stiffness_nm_per_rad"] == 15
+    assert state["loads"] == []
+
+
+def test_session_time_follows_wall_time_and_speed(lab: Lab) -> None:
+    lab.client.put(lab.session + "/speed", json={"factor": 4})
+    begin, wall = lab.read()["time_s"], time.monotonic()
+    time.sleep(0.5)
+    end, elapsed = lab.read()["time_s"], time.monotonic() - wall
+    assert 0.2 * elapsed < end - begin < 4 * elapsed + 0.3
+
+
+def test_pause_step_and_start(lab: Lab) -> None:
+    paused = lab.client.post(lab.session + "/pause").json()
+    assert paused["status"] == "paused"
+    stepped = lab.client.post(lab.session + "/step", json={"ticks": 7}).json()
+    assert stepped["tick"] == paused["tick"] + 7
+    assert lab.read()["tick"] == stepped["tick"]
+    assert lab.client.post(lab.session + "/start").json()["status"] == "running"
+
+
+def test_step_while_running_is_refused_with_what_to_do(lab: Lab) -> None:
+    answer = lab.client.post(lab.session + "/step", json={"ticks": 1})
+    assert answer.status_code == 409
+    assert "pause it" in answer.json()["message"]
+
+
+def test_reset_begins_a_new_run_with_what_is_set(lab: Lab) -> None:
+    lab.client.put(lab.session + "/controller", json={"law": "fl"})
+    lab.client.post(lab.session + "/loads", json={"kind": "paper"})
+    before = lab.jump(1)
+    after = lab.client.post(lab.session + "/reset").json()
+    assert after["run"] == before["run"] + 1
+    assert after["tick"] == 0
+    assert after["loads"] == []
+    assert after["events"] == []
+    assert after["configuration"]["law"] == "fl"
+
+
+def test_an_experiment_is_the_figure_with_its_load_at_5_s(lab: Lab) -> None:
+    state = lab.load_figure("4b", "fl", load=True)
+    assert state["configuration"]["stiffness"]["stiffness_nm_per_rad"] == 60
+    assert state["loads"][0]["start_s"] == 5.0
+    assert not state["loads"][0]["active"]
+    assert lab.jump(6)["loads"][0]["active"]
+
+
+def test_a_fault_is_named_with_its_values_and_reset_leaves_it(lab: Lab) -> None:
+    load = {"kind": "constant", "torque_nm": [20, 0, 0]}
+    lab.client.post(lab.session + "/loads", json=load)
+    state = lab.jump(2)
+    assert state["status"] == "fault"
+    assert state["fault"]["code"] == "deflection_limit"
+    assert "rad" in state["fault"]["message"]
+    values = state["fault"]["values"]
+    assert abs(values["deflection_rad"]) > values["deflection_limit_rad"]
+    assert all(math.isfinite(value) for value in state["sample"].values())
+    refused = lab.client.post(lab.session + "/start")
+    assert refused.status_code == 409
+    assert "reset" in refused.json()["message"]
+    assert lab.client.post(lab.session + "/reset").json()["fault"] is None
+
+
+def test_unknown_names_are_told(lab: Lab) -> None:
+    answer = lab.client.get("/api/v1/sessions/nowhere")
+    assert answer.status_code == 404
+    assert "lab" in answer.json()["message"]
+    assert lab.client.delete(lab.session + "/loads/99").status_code == 404
+
+
+def test_figures_health_and_documentation(lab: Lab) -> None:
+    assert [figure["key"] for figure in lab.client.get("/api/v1/figures").json()] == [
+        "4a",
+        "4b",
+        "5",
+    ]
+    assert lab.client.get("/api/v1/health").json()["status"] == "ok"
+    schema = lab.client.get("/openapi.json").json()
+    bodies = [
+        operation["requestBody"]["content"]["application/json"]
+        for path in schema["paths"].values()
+        for operation in path.values()
+        if "requestBody" in operation
+    ]
+    assert bodies
+    assert all("examples" in body["schema"] or "examples" in body for body in bodies)

@@ -1,0 +1,148 @@
+"""The stream of samples: greeting, batches, bandwidth, slow clients, new runs."""
+
+import json
+import struct
+import time
+
+import numpy as np
+import pytest
+from websockets.sync.client import ClientConnection, connect
+
+from tests.lab import Lab
+
+HEADER = struct.Struct("<4sIQIIII")
+
+
+class Batch:
+    """One binary message, decoded as the documentation says."""
+
+    def __init__(self, message: bytes, channels: int) -> None:
+        magic, self.run, self.first, self.stride, count, self.missed, _ = HEADER.unpack(
+            message[:32]
+        )
+        assert magic == b"SVSA"
+        self.rows = np.frombuffer(message[32:], "<f4").reshape(count, channels)
+        self.ticks = self.first + self.stride * np.arange(count)
+        self.size = len(message)
+
+
+def open_stream(lab: Lab, query: str = "", **options: object) -> tuple[ClientConnection, dict]:
+    stream = connect(lab.stream_url + query, proxy=None, max_size=None, **options)
+    return stream, json.loads(stream.recv(timeout=10))
+
+
+def read_batches(stream: ClientConnection, hello: dict, count: int) -> list[Batch]:
+    batches: list[Batch] = []
+    while len(batches) < count:
+        message = stream.recv(timeout=10)
+        if isinstance(message, bytes):
+            batches.append(Batch(message, len(hello["channels"])))
+    return batches
+
+
+def test_the_greeting_names_channels_and_units(lab: Lab) -> None:
+    stream, hello = open_stream(lab)
+    with stream:
+        assert hello["type"] == "hello"
+        assert hello["rate_hz"] == 200
+        assert len(hello["channels"]) == 13
+        assert {"name": "position_rad", "unit": "rad", "label": "Position q"} in hello["channels"]
+        assert hello["state"]["session"] == "lab"
+
+
+def test_batches_follow_without_a_gap_and_hold_the_session_values(lab: Lab) -> None:
+    stream, hello = open_stream(lab, "?rate_hz=1000&channels=time_s,position_reference_rad")
+    with stream:
+        batches = read_batches(stream, hello, 10)
+    ticks = np.concatenate([batch.ticks for batch in batches])
+    rows = np.concatenate([batch.rows for batch in batches])
+    assert np.all(np.diff(ticks) == 1)
+    np.testing.assert_allclose(rows[:, 0], ticks * 0.001, rtol=1e-6)
+    np.testing.assert_allclose(
+        rows[:, 1], np.pi / 3 * np.sin(0.4 * np.pi * ticks * 0.001), atol=1e-6
+    )
+
+
+def test_the_default_stream_costs_at_most_15_kb_a_second(lab: Lab) -> None:
+    stream, hello = open_stream(lab)
+    with stream:
+        batches = read_batches(stream, hello, 60)
+    seconds = (batches[-1].ticks[-1] - batches[0].ticks[-1]) * hello["period_s"]
+    size = sum(batch.size for batch in batches[1:])
+    samples = sum(len(batch.rows) for batch in batches[1:])
+    assert samples / seconds == pytest.approx(200, rel=0.02)
+    assert size / seconds < 15_000
+
+
+def test_a_client_that_comes_late_gets_the_past_it_asks_for(lab: Lab) -> None:
+    lab.jump(3)
+    stream, hello = open_stream(lab, "?rate_hz=100&history_s=2")
+    with stream:
+        batch = read_batches(stream, hello, 1)[0]
+    assert len(batch.rows) == 200
+    assert batch.stride == 10
+
+
+def test_a_new_run_begins_at_tick_zero_with_a_new_number(lab: Lab) -> None:
+    stream, hello = open_stream(lab)
+    with stream:
+        old = read_batches(stream, hello, 2)[-1]
+        lab.client.post(lab.session + "/reset")
+        batches = read_batches(stream, hello, 10)
+    fresh = [batch for batch in batches if batch.run == old.run + 1]
+    assert fresh[0].first == 0
+    assert fresh[0].missed == 0
+
+
+def test_changes_are_told_to_every_client(lab: Lab) -> None:
+    first, _ = open_stream(lab)
+    second, _ = open_stream(lab)
+    with first, second:
+        lab.client.put(lab.session + "/controller", json={"law": "fl"})
+        for stream in (first, second):
+            law = None
+            while law != "fl":
+                message = stream.recv(timeout=10)
+                if isinstance(message, str):
+                    law = json.loads(message)["state"]["configuration"]["law"]
+
+
+def test_a_slow_client_gets_the_newest_and_is_told_and_slows_nobody(lab: Lab) -> None:
+    everything = "?rate_hz=1000&channels=" + ",".join(lab.read()["sample"])
+    slow, slow_hello = open_stream(lab, everything, max_queue=1)
+    quick, quick_hello = open_stream(lab, "?rate_hz=200")
+    with slow, quick:
+        lab.client.put(lab.session + "/speed", json={"factor": 1})
+        begin = time.monotonic()
+        batches = []
+        while time.monotonic() - begin < 12:
+            batches += read_batches(quick, quick_hello, 30)
+        assert all(batch.missed == 0 for batch in batches)
+        ticks = np.concatenate([batch.ticks for batch in batches])
+        assert np.all(np.diff(ticks) == 5)
+        missed, newest, rows, first = 0, 0, 0, None
+        while not missed:
+            batch = read_batches(slow, slow_hello, 1)[0]
+            first = batch.first if first is None else first
+            missed, newest = batch.missed, batch.first
+            rows += 0 if missed else len(batch.rows)
+    assert newest == first + rows + missed
+    assert newest > ticks[-1] - 6000
+
+
+@pytest.mark.parametrize(
+    ("query", "word"),
+    [
+        ("?rate_hz=-5", "at least 1 Hz"),
+        ("?rate_hz=nan", "finite"),
+        ("?rate_hz=fast", "a number"),
+        ("?channels=secrets", "one of time_s"),
+        ("?history_s=1e9", "at most 20 s"),
+        ("?colour=1", "no such field"),
+    ],
+)
+def test_a_wrong_question_is_answered_clearly(lab: Lab, query: str, word: str) -> None:
+    stream, answer = open_stream(lab, query)
+    with stream:
+        assert answer["type"] == "error"
+        assert word in answer["message"]
