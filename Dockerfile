@@ -1,5 +1,6 @@
 ARG BASE_IMAGE=docker.io/library/python:3.12-slim-bookworm
 FROM ${BASE_IMAGE} AS build
+ENV UV_SYSTEM_CERTS=1 NODE_OPTIONS=--use-system-ca
 WORKDIR /src
 COPY requirements.lock pyproject.toml README.md LICENSE ./
 RUN python3 -m venv /opt/svsa \
@@ -7,7 +8,7 @@ RUN python3 -m venv /opt/svsa \
 COPY svsa svsa
 COPY backend backend
 COPY frontend frontend
-RUN /opt/svsa/bin/uv build --quiet --wheel --out-dir /dist --python /opt/svsa/bin/python . \
+RUN /opt/svsa/bin/uv build --wheel --out-dir /dist --python /opt/svsa/bin/python . \
  && /opt/svsa/bin/uv pip install --quiet --python /opt/svsa/bin/python --constraint requirements.lock /dist/*.whl \
  && /opt/svsa/bin/pip uninstall --quiet --yes uv
 
@@ -19,4 +20,4 @@ USER svsa
 WORKDIR /home/svsa
 RUN svsa compile
 EXPOSE 8000
-CMD ["svsa", "serve", "--host", "0.0.0.0", "--port", "8000"]
+CMD ["svsa", "serve", "--host", "auto", "--port", "8000"]

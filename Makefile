@@ -39,7 +39,7 @@ schema: .venv/installed
 	$(WEB) run schema -- "$(CURDIR)/.venv/openapi.json"
 
 screenshots: .venv/installed $(PAGE)
-	$(BIN)/python tests/browser/screenshots.py
+	$(BIN)/python -m tests.browser.screenshots
 
 bench: .venv/installed
 	$(BIN)/python -m tests.bench

@@ -23,6 +23,12 @@ class Settings(BaseSettings):
         text = self.secret.get_secret_value() if self.secret else ""
         return text or None
 
+    def choose_host(self, host: str) -> str:
+        """The address for `host`; "auto" is every address, but only where a secret is set."""
+        if host != "auto":
+            return host
+        return "0.0.0.0" if self.secret_text else "127.0.0.1"  # noqa: S104
+
     def check_exposure(self, host: str) -> None:
         """Raise `SecurityError` where strangers could reach a lab that has no secret."""
         if self.secret_text is None:

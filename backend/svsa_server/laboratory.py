@@ -4,12 +4,11 @@ import asyncio
 import logging
 import time
 
-from svsa_scene import ActuatorPose
-
 from svsa.experiment.paper import get_figure
 from svsa.plant.disturbances import PAPER_MASS_KG, MassLoad, PaperLoad
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
+from svsa_scene import ActuatorPose
 from svsa_server.errors import UnknownError
 
 WAKE_PERIOD_S = 1.0 / 120.0

@@ -6,6 +6,7 @@ import io
 from collections.abc import Callable
 
 import viser
+
 from svsa_scene import ActuatorPose, ActuatorScene
 
 UPDATE_RATE_HZ = 30.0

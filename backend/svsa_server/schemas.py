@@ -191,23 +191,28 @@ class SessionMetrics(BaseModel):
     since_load: MetricsState | None
 
 
-class SessionState(BaseModel):
-    """A session: where it is, how it is set, and how well it does."""
+class SessionProgress(BaseModel):
+    """What of a session moves by itself: where it is and how well it does."""
 
-    session: str
     status: Literal["running", "paused", "fault"]
     run: int = Field(description="Counts up whenever a run begins anew at t = 0")
     tick: int
     time_s: float
-    rate_hz: float
     speed: float
     real_time_factor: float = Field(description="Session seconds a wall second, as measured")
     stretched_s: float = Field(description="Wall time given up because ticks came too late")
     fault: FaultState | None
+    metrics: SessionMetrics
+
+
+class SessionState(SessionProgress):
+    """A session: where it is, how well it does, and how it is set."""
+
+    session: str
+    rate_hz: float
     configuration: ConfigurationState
     loads: list[LoadState]
     events: list[EventState]
-    metrics: SessionMetrics
     sample: dict[str, float] | None = Field(description="The newest sample, by channel")
 
 

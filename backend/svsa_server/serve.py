@@ -7,8 +7,7 @@ from rich.console import Console
 
 from svsa.cli import prepare
 from svsa.errors import SvsaError
-from svsa_server.app import build_app
-from svsa_server.config import Settings, is_loopback
+from svsa_server.config import Settings
 
 SEND_BUFFER_BYTES = 64 * 1024
 
@@ -17,8 +16,8 @@ class ListenError(SvsaError):
     """The address cannot be listened on."""
 
 
-def listen(host: str, port: int) -> socket.socket:
-    """A listening socket; a small send buffer, so that a slow client is noticed soon.
+def bind(host: str, port: int) -> socket.socket:
+    """A bound socket; a small send buffer, so that a slow client is noticed soon.
 
     Raises `ListenError` with the reason and what to do.
     """
@@ -28,7 +27,6 @@ def listen(host: str, port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
     try:
         listener.bind((host.strip("[]"), port))
-        listener.listen(256)
     except OSError as error:
         listener.close()
         raise ListenError(
@@ -40,12 +38,19 @@ def listen(host: str, port: int) -> socket.socket:
 def run_server(host: str, port: int) -> None:
     """Serve the lab until a signal ends it; raises `SecurityError` and `ListenError`."""
     config = Settings()
+    asked, host = host, config.choose_host(host)
     config.check_exposure(host)
-    listener = listen(host, port)
+    listener = bind(host, port)
     prepare()
-    shown = host if is_loopback(host) else socket.gethostname()
-    address = f"http://{shown}:{listener.getsockname()[1]}/"
-    Console().print(f"SVSA Lab is at [bold]{address}[/]  (stop with Ctrl-C)", highlight=False)
+    from svsa_server.app import build_app  # late: a refusal above should not wait for it
+
+    everywhere = host in ("0.0.0.0", "::")  # noqa: S104
+    address = f"http://{'localhost' if everywhere else host}:{listener.getsockname()[1]}/"
+    reach = " and on every address of this machine" if everywhere else ""
+    lines = [f"SVSA Lab is at [bold]{address}[/]{reach}  (stop with Ctrl-C)"]
+    if asked == "auto" and not everywhere:
+        lines.append("Only this machine or container reaches it: others need SVSA_SECRET set.")
+    Console(soft_wrap=True).print(*lines, sep="\n", highlight=False)
     server = uvicorn.Server(
         uvicorn.Config(
             build_app(config),

@@ -17,36 +17,42 @@ from svsa_server.schemas import (
     MetricsState,
     Root,
     SessionMetrics,
+    SessionProgress,
     SessionState,
 )
 
 
-def build_state(session: Session) -> SessionState:
-    """Everything about the session at this instant."""
+def build_progress(session: Session) -> SessionProgress:
+    """What of the session moves by itself, at this instant."""
     run, clock = session.run, session.clock
-    newest = session.history.read_newest()
-    sample = None
-    if newest is not None:
-        sample = dict(zip(CHANNEL_NAMES, newest.tolist(), strict=True))
-    return SessionState(
-        session=session.name,
+    return SessionProgress(
         status=session.status,
         run=session.run_number,
         tick=run.tick,
         time_s=run.time_s,
-        rate_hz=1.0 / run.period_s,
         speed=clock.speed,
         real_time_factor=clock.real_time_factor,
         stretched_s=clock.stretched_s,
         fault=FaultState(**asdict(run.fault)) if run.fault else None,
-        configuration=_build_configuration(session),
-        loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
-        events=[EventState(**asdict(event)) for event in session.events],
         metrics=SessionMetrics(
             since_start=_build_metrics(session.since_start),
             since_load=_build_metrics(session.since_load),
         ),
-        sample=sample,
+    )
+
+
+def build_state(session: Session) -> SessionState:
+    """Everything about the session at this instant."""
+    run = session.run
+    newest = session.history.read_newest()
+    return SessionState(
+        **dict(build_progress(session)),
+        session=session.name,
+        rate_hz=1.0 / run.period_s,
+        configuration=_build_configuration(session),
+        loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
+        events=[EventState(**asdict(event)) for event in session.events],
+        sample=None if newest is None else dict(zip(CHANNEL_NAMES, newest.tolist(), strict=True)),
     )
 
 

@@ -10,16 +10,17 @@ import json
 import struct
 import time
 
+from pydantic import BaseModel
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from svsa.errors import ParameterError, Violation
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 from svsa_server.schemas import StreamRequest
-from svsa_server.state import build_state
+from svsa_server.state import build_progress, build_state
 
 BATCH_PERIOD_S = 1.0 / 30.0
-STATE_PERIOD_S = 1.0
+PROGRESS_PERIOD_S = 1.0
 SLOW_AFTER_S = 0.5
 HEADER = struct.Struct("<4sIQIIII")
 MAGIC = b"SVSA"
@@ -139,13 +140,20 @@ async def _send(
             batch = cursor.take_batch(slow)
             if batch is not None:
                 await websocket.send_bytes(batch)
-            if session.version != version or now - told_at > STATE_PERIOD_S:
+            if session.version != version:
                 version, told_at = session.version, now
-                state = build_state(session).model_dump_json()
-                await websocket.send_text(f'{{"type":"state","state":{state}}}')
+                await _tell(websocket, build_state(session))
+            elif now - told_at > PROGRESS_PERIOD_S:
+                told_at = now
+                await _tell(websocket, build_progress(session))
             spent = time.monotonic() - now
             slow = spent > SLOW_AFTER_S
             await asyncio.sleep(max(0.0, BATCH_PERIOD_S - spent))
+
+
+async def _tell(websocket: WebSocket, state: BaseModel) -> None:
+    """The state after a change, or once a second those of its fields that move by themselves."""
+    await websocket.send_text(f'{{"type":"state","state":{state.model_dump_json()}}}')
 
 
 def _greet(session: Session, cursor: SampleCursor, channels: tuple[str, ...]) -> str:

@@ -1,6 +1,7 @@
 """Loads: what a student can do to the actuator, and what the plant feels of it."""
 
 import math
+from collections.abc import Callable, Sequence
 from typing import Annotated, Literal, NamedTuple, Self
 
 import numpy as np
@@ -84,6 +85,20 @@ class SeriesLoad(_Load):
     torque_nm: Annotated[
         tuple[TorqueTriple, ...], Field(min_length=2, max_length=MOST_SERIES_POINTS)
     ] = quantity("N·m", _TRIPLE + ", one for each time")
+
+    @classmethod
+    def from_function(
+        cls,
+        function: Callable[[float], Sequence[float]],
+        duration_s: float,
+        step_s: float = 0.001,
+        start_s: float | None = None,
+    ) -> Self:
+        """A torque (w2, w4, w6) = function(time since onset, s), sampled every `step_s`."""
+        count = max(2, round(duration_s / step_s) + 1)
+        times = tuple(index * step_s for index in range(min(count, MOST_SERIES_POINTS + 1)))
+        torques = tuple(tuple(map(float, function(time))) for time in times)
+        return cls(start_s=start_s, time_s=times, torque_nm=torques)  # pyright: ignore[reportArgumentType]
 
     @model_validator(mode="after")
     def _check_points(self) -> Self:

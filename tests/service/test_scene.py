@@ -14,11 +14,12 @@ import viser
 import websockets
 import zstandard
 from starlette.applications import Starlette
+from websockets.asyncio.client import ClientConnection
+
 from svsa_scene import ActuatorPose
 from svsa_scene.linkage import RADIUS, compute_linkage
 from svsa_server.scene_bridge import SceneBridge
 from svsa_server.viser_proxy import ViserProxy, filter_browser_message
-from websockets.asyncio.client import ClientConnection
 
 SUBPROTOCOL = websockets.Subprotocol(f"viser-v{viser.__version__}")
 LINK = "/a/l"

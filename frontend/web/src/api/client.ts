@@ -1,0 +1,83 @@
+/** The public REST API, one function a call. The page has no other door to the server. */
+import { LockedError, RefusedError, UnreachableError } from "./errors";
+import type {
+  Body,
+  Figure,
+  Law,
+  Load,
+  Method,
+  PositionReference,
+  Refusal,
+  Sent,
+  SessionPath,
+  SessionState,
+  StiffnessReference,
+} from "./types";
+
+const API = new URL("api/v1/", document.baseURI);
+const SESSION = "sessions/lab";
+const LONGEST_WAIT_MS = 6000;
+
+async function request(method: Method, path: string, body?: unknown): Promise<unknown> {
+  const init: RequestInit = {
+    method: method.toUpperCase(),
+    cache: "no-store",
+    signal: AbortSignal.timeout(LONGEST_WAIT_MS),
+  };
+  if (body !== undefined) {
+    init.headers = { "Content-Type": "application/json" };
+    init.body = JSON.stringify(body);
+  }
+  let response: Response;
+  try {
+    response = await fetch(new URL(path, API), init);
+  } catch (cause) {
+    throw new UnreachableError(cause);
+  }
+  const answer: unknown = await response.json().catch(() => null);
+  if (response.ok) return answer;
+  const refusal = answer as Partial<Refusal> | null;
+  const message =
+    refusal?.violations?.[0]?.message ??
+    refusal?.message ??
+    `${response.status} ${response.statusText}`;
+  if (response.status === 401) throw new LockedError(message);
+  throw new RefusedError(response.status, message);
+}
+
+/** One call on the session; path and body are checked against the server's schema. */
+function call<M extends Method, P extends SessionPath>(method: M, path: P, ...body: Body<M, P>) {
+  return request(method, SESSION + path, body[0]) as Promise<SessionState>;
+}
+
+export type GainsRequest = Body<"put", "/gains">[0];
+
+export const readState = () => call("get", "");
+export const putPosition = (reference: Sent<PositionReference>) =>
+  call("put", "/position", reference);
+export const putStiffness = (reference: Sent<StiffnessReference>) =>
+  call("put", "/stiffness", reference);
+export const putController = (law: Law) => call("put", "/controller", { law });
+export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
+export const putObserver = (link: number, motor1: number, motor2: number) =>
+  call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
+export const putSpeed = (factor: number) => call("put", "/speed", { factor });
+export const start = () => call("post", "/start");
+export const pause = () => call("post", "/pause");
+export const reset = () => call("post", "/reset");
+export const step = (ticks: number) => call("post", "/step", { ticks });
+export const runFigure = (figure: Figure, controller: Law) =>
+  call("post", "/experiment", { figure, controller, load: true });
+export const addLoad = (load: Load) => call("post", "/loads", load);
+export const removeLoad = (id: number) =>
+  request("delete", `${SESSION}/loads/${id}`) as Promise<SessionState>;
+export const removeAllLoads = () => call("delete", "/loads");
+export const login = (secret: string) => request("post", "login", { secret });
+
+export function streamAddress(rateHz: number, historyS: number): URL {
+  const address = new URL(`${SESSION}/stream`, API);
+  address.protocol = address.protocol.replace("http", "ws");
+  address.searchParams.set("rate_hz", String(rateHz));
+  address.searchParams.set("history_s", String(historyS));
+  return address;
+}

@@ -1,0 +1,34 @@
+/** The names under which the page uses the server's schema. */
+import type { components, paths } from "./schema";
+
+type Schemas = components["schemas"];
+
+export type SessionState = Schemas["SessionState"];
+export type Configuration = Schemas["ConfigurationState"];
+export type PositionReference = Configuration["position"];
+export type StiffnessReference = Configuration["stiffness"];
+export type Law = Configuration["law"];
+export type LoadRow = Schemas["LoadState"];
+export type SessionEvent = Schemas["EventState"];
+export type Figure = Schemas["ExperimentRequest"]["figure"];
+export type Refusal = Schemas["ErrorModel"];
+
+/** What has a default may be left out of a request. */
+type Defaulted = "transition_s" | "phase_rad" | "offset_rad" | "start_s";
+export type Sent<T> = T extends unknown
+  ? Omit<T, Defaulted> & Partial<Pick<T, Extract<Defaulted, keyof T>>>
+  : never;
+export type Load = Sent<LoadRow["load"]>;
+
+export type Method = "get" | "put" | "post" | "delete";
+type Session = "/api/v1/sessions/{session}";
+type Below<P> = P extends `${Session}${infer Rest}` ? Rest : never;
+/** A path below a session, such as "/position". */
+export type SessionPath = Below<keyof paths>;
+
+type Operation<M extends Method, P extends SessionPath> = paths[`${Session}${P}`][M];
+/** What a request must carry: nothing, or one body. */
+export type Body<M extends Method, P extends SessionPath> =
+  Operation<M, P> extends { requestBody: { content: { "application/json": infer B } } }
+    ? [body: Sent<B>]
+    : [];

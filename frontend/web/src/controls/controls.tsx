@@ -1,0 +1,21 @@
+import type { SessionState } from "../api/types";
+import { isLive } from "../state/session";
+import { text } from "../text/en";
+import { Controller } from "./controller";
+import { Loads } from "./load";
+import { Motion } from "./motion";
+import { Observer } from "./observer";
+import { Stiffness } from "./stiffness";
+
+/** Everything a student sets, in the order of the block diagram. */
+export function Controls({ state }: { state: SessionState }) {
+  return (
+    <fieldset class="controls" disabled={!isLive.value} aria-label={text.controls.heading}>
+      <Motion state={state} />
+      <Stiffness state={state} />
+      <Controller state={state} />
+      <Observer state={state} />
+      <Loads state={state} />
+    </fieldset>
+  );
+}

@@ -1,0 +1,90 @@
+import { useId, useState } from "preact/hooks";
+import { addLoad } from "../api/client";
+import type { Load } from "../api/types";
+import { perform } from "../state/actions";
+import { text } from "../text/en";
+import { Choice } from "./choice";
+import { Problem } from "./problem";
+
+type Kind = "constant" | "pulse" | "sine";
+type Channel = "0" | "1" | "2";
+
+const KINDS = (["constant", "pulse", "sine"] as const).map((value) => ({
+  value,
+  label: text.load.kinds[value],
+}));
+const CHANNELS = (["0", "1", "2"] as const).map((value) => ({
+  value,
+  label: text.channels[Number(value)] as string,
+}));
+
+function loadOf(kind: Kind, channel: Channel, torque: number, detail: number): Load {
+  const torque_nm: [number, number, number] = [0, 0, 0];
+  torque_nm[Number(channel)] = torque;
+  if (kind === "pulse") return { kind, torque_nm, duration_s: detail };
+  if (kind === "sine") return { kind, torque_nm, frequency_hz: detail };
+  return { kind, torque_nm };
+}
+
+interface NumberBoxProps {
+  label: string;
+  unit: string;
+  value: string;
+  onInput: (value: string) => void;
+}
+
+function NumberBox({ label, unit, value, onInput }: NumberBoxProps) {
+  const id = useId();
+  return (
+    <div class="field is-plain">
+      <label for={id}>{label}</label>
+      <input
+        id={id}
+        type="number"
+        step="any"
+        required
+        value={value}
+        onInput={(event) => onInput(event.currentTarget.value)}
+      />
+      <span class="unit">{unit}</span>
+    </div>
+  );
+}
+
+/** A torque of the user's own on one of the three channels. */
+export function CustomLoad() {
+  const [kind, setKind] = useState<Kind>("constant");
+  const [channel, setChannel] = useState<Channel>("0");
+  const [torque, setTorque] = useState("1");
+  const [duration, setDuration] = useState("0.5");
+  const [frequency, setFrequency] = useState("1");
+
+  const submit = (event: Event) => {
+    event.preventDefault();
+    const detail = Number(kind === "pulse" ? duration : frequency);
+    void perform("load.custom", () => addLoad(loadOf(kind, channel, Number(torque), detail)));
+  };
+
+  return (
+    <form class="custom-load" onSubmit={submit}>
+      <Choice label={text.load.customKind} options={KINDS} value={kind} onChoose={setKind} />
+      <Choice
+        label={text.load.customChannel}
+        options={CHANNELS}
+        value={channel}
+        onChoose={setChannel}
+      />
+      <NumberBox label={text.load.torque} unit="N·m" value={torque} onInput={setTorque} />
+      {kind === "pulse" && (
+        <NumberBox label={text.load.duration} unit="s" value={duration} onInput={setDuration} />
+      )}
+      {kind === "sine" && (
+        <NumberBox label={text.load.frequency} unit="Hz" value={frequency} onInput={setFrequency} />
+      )}
+      <button type="submit" class="button">
+        {text.load.apply}
+      </button>
+      <Problem control="load.custom" />
+    </form>
+  );
+}

@@ -1,0 +1,85 @@
+import { removeAllLoads, removeLoad } from "../api/client";
+import type { LoadRow, SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { isWeight, presentLoads, type WeightForm, weightForm } from "../state/load";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
+import { Choice } from "./choice";
+import { CustomLoad } from "./customload";
+import { Group } from "./group";
+import { Problem } from "./problem";
+
+const FORMS: readonly { value: WeightForm; label: string }[] = [
+  { value: "paper", label: text.load.paper },
+  { value: "mass", label: text.load.mass },
+];
+
+function describe({ load }: LoadRow): string {
+  if (load.kind === "paper") return text.load.paperRow;
+  if (load.kind === "mass") return text.load.massRow(formatNumber(load.mass_kg ?? 3));
+  if (load.kind === "series") return text.load.seriesRow;
+  const torques = load.torque_nm.map((torque) => formatNumber(torque)).join(", ");
+  return text.load.torqueRow(text.load.kinds[load.kind], torques);
+}
+
+function LoadRows({ state }: { state: SessionState }) {
+  const rows = presentLoads(state);
+  if (rows.length === 0 || rows.every((row) => row.active && isWeight(row))) return null;
+  return (
+    <ul class="load-rows">
+      {rows.map((row) => (
+        <li key={row.id}>
+          <span>
+            {describe(row)}
+            {!row.active && ` · ${text.load.comesAt(row.start_s)}`}
+          </span>
+          <button
+            type="button"
+            class="quiet"
+            aria-label={text.load.removeThis(describe(row))}
+            onClick={() => void perform("load.rows", () => removeLoad(row.id))}
+          >
+            ✕
+          </button>
+        </li>
+      ))}
+      {rows.length > 1 && (
+        <li>
+          <button
+            type="button"
+            class="quiet"
+            onClick={() => void perform("load.rows", removeAllLoads)}
+          >
+            {text.load.removeAll}
+          </button>
+        </li>
+      )}
+    </ul>
+  );
+}
+
+export function Loads({ state }: { state: SessionState }) {
+  return (
+    <Group
+      title={text.load.title}
+      aside={
+        <Choice
+          label={text.load.form}
+          options={FORMS}
+          value={weightForm.value}
+          onChoose={(form) => {
+            weightForm.value = form;
+          }}
+        />
+      }
+    >
+      <p class="hint">{weightForm.value === "paper" ? text.load.paperDoes : text.load.massDoes}</p>
+      <LoadRows state={state} />
+      <Problem control="load.rows" />
+      <details class="more">
+        <summary>{text.load.custom}</summary>
+        <CustomLoad />
+      </details>
+    </Group>
+  );
+}

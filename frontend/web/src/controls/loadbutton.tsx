@@ -1,0 +1,65 @@
+import { useState } from "preact/hooks";
+import { addLoad, readState, removeLoad } from "../api/client";
+import type { SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { hungWeights, nextWeightAt, weightForm, weightOf } from "../state/load";
+import { isLive } from "../state/session";
+import { text } from "../text/en";
+import { Problem } from "./problem";
+
+function WeightPicture({ isHung }: { isHung: boolean }) {
+  return (
+    <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
+      {isHung && <path class="weight-cord" d="M24 0v16" />}
+      <circle class="weight-ring" cx="24" cy="19" r="4.5" />
+      <path class="weight-body" d="M14.5 24h19l5.5 19a3 3 0 0 1-3 4H12a3 3 0 0 1-3-4z" />
+      <text class="weight-text" x="24" y="41" text-anchor="middle">
+        {text.load.weight}
+      </text>
+    </svg>
+  );
+}
+
+async function removeWeights(state: SessionState): Promise<SessionState> {
+  for (const row of hungWeights(state)) await removeLoad(row.id);
+  return readState();
+}
+
+function caption(state: SessionState, isHung: boolean): string {
+  if (isHung) return text.load.hangs;
+  const next = nextWeightAt(state);
+  if (next !== null) return text.load.comesAt(next);
+  return weightForm.value === "paper" ? text.load.paperShort : text.load.massShort;
+}
+
+/** The one thing to press: hangs 3 kg on the link, or takes them off. */
+export function LoadButton({ state }: { state: SessionState }) {
+  const [isBusy, setBusy] = useState(false);
+  const isHung = hungWeights(state).length > 0;
+
+  const press = async () => {
+    setBusy(true);
+    await perform("load.weight", () =>
+      isHung ? removeWeights(state) : addLoad(weightOf(weightForm.peek())),
+    );
+    setBusy(false);
+  };
+
+  return (
+    <div class="load-place">
+      <button
+        type="button"
+        class={`load-button ${isHung ? "is-hung" : ""}`}
+        disabled={isBusy || !isLive.value || state.status === "fault"}
+        onClick={() => void press()}
+      >
+        <WeightPicture isHung={isHung} />
+        <span class="load-words">
+          <strong>{isHung ? text.load.remove : text.load.hang}</strong>
+          <small>{caption(state, isHung)}</small>
+        </span>
+      </button>
+      <Problem control="load.weight" />
+    </div>
+  );
+}

@@ -1,0 +1,92 @@
+import { useRef } from "preact/hooks";
+import { putPosition } from "../api/client";
+import type { PositionReference, Sent, SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { text } from "../text/en";
+import { toDegrees, toRadians } from "../units";
+import { Choice } from "./choice";
+import { Field } from "./field";
+import { Group } from "./group";
+import { Problem } from "./problem";
+
+type Sine = Extract<PositionReference, { kind: "sine" }>;
+type Kind = PositionReference["kind"];
+
+const FIRST_SINE: Sent<Sine> = { kind: "sine", amplitude_rad: toRadians(60), frequency_hz: 0.2 };
+const KINDS = [
+  { value: "sine", label: text.motion.sine },
+  { value: "constant", label: text.motion.constant },
+] as const;
+
+function SineFields({ reference }: { reference: Sine }) {
+  const send = (change: Partial<Sine>) => putPosition({ ...reference, ...change });
+  return (
+    <>
+      <Field
+        name="motion.amplitude"
+        label={text.motion.amplitude}
+        unit="deg"
+        value={toDegrees(reference.amplitude_rad)}
+        range={{ min: 0, max: 90, step: 1 }}
+        send={(deg) => send({ amplitude_rad: toRadians(deg) })}
+      />
+      <Field
+        name="motion.frequency"
+        label={text.motion.frequency}
+        unit="Hz"
+        value={reference.frequency_hz}
+        range={{ min: 0.02, max: 2, logarithmic: true }}
+        send={(hz) => send({ frequency_hz: hz })}
+      />
+      <Field
+        name="motion.offset"
+        label={text.motion.offset}
+        unit="deg"
+        value={toDegrees(reference.offset_rad)}
+        range={{ min: -60, max: 60, step: 1 }}
+        send={(deg) => send({ offset_rad: toRadians(deg) })}
+      />
+    </>
+  );
+}
+
+export function Motion({ state }: { state: SessionState }) {
+  const reference = state.configuration.position;
+  const lastSine = useRef<Sent<Sine>>(FIRST_SINE);
+  if (reference.kind === "sine") lastSine.current = reference;
+
+  const choose = (kind: Kind) => {
+    const held = reference.kind === "sine" ? reference.offset_rad : reference.position_rad;
+    const next: Sent<PositionReference> =
+      kind === "sine" ? lastSine.current : { kind: "constant", position_rad: held };
+    return perform("motion.kind", () => putPosition(next));
+  };
+
+  return (
+    <Group
+      title={text.motion.title}
+      aside={
+        <Choice
+          label={text.motion.kind}
+          options={KINDS}
+          value={reference.kind}
+          onChoose={(kind) => void choose(kind)}
+        />
+      }
+    >
+      <Problem control="motion.kind" />
+      {reference.kind === "sine" ? (
+        <SineFields reference={reference} />
+      ) : (
+        <Field
+          name="motion.position"
+          label={text.motion.position}
+          unit="deg"
+          value={toDegrees(reference.position_rad)}
+          range={{ min: -90, max: 90, step: 1 }}
+          send={(deg) => putPosition({ kind: "constant", position_rad: toRadians(deg) })}
+        />
+      )}
+    </Group>
+  );
+}

@@ -1,0 +1,48 @@
+import { putObserver } from "../api/client";
+import type { SessionState } from "../api/types";
+import { text } from "../text/en";
+import { Field } from "./field";
+import { Group } from "./group";
+import type { SliderRange } from "./scale";
+
+const UNIT = "rad/s";
+const RANGE: SliderRange = { min: 2, max: 300, logarithmic: true };
+
+export function Observer({ state }: { state: SessionState }) {
+  const { law, observer } = state.configuration;
+  const bandwidth = observer.bandwidth_rad_per_s;
+  const sendOne = (changed: number, beta: number) => {
+    const next: typeof bandwidth = [...bandwidth];
+    next[changed] = beta;
+    return putObserver(...next);
+  };
+  const isSpread = bandwidth.some((beta) => beta !== bandwidth[0]);
+  return (
+    <Group title={text.observer.title}>
+      {law === "fl" && <p class="hint">{text.observer.unused}</p>}
+      <Field
+        name="observer.all"
+        label={text.observer.all}
+        unit={UNIT}
+        value={bandwidth[0]}
+        range={RANGE}
+        send={(beta) => putObserver(beta, beta, beta)}
+      />
+      {isSpread && <p class="hint">{text.observer.spread}</p>}
+      <details class="more">
+        <summary>{text.observer.each}</summary>
+        {bandwidth.map((beta, index) => (
+          <Field
+            key={text.channels[index]}
+            name={`observer.${index}`}
+            label={text.channels[index] as string}
+            unit={UNIT}
+            value={beta}
+            range={RANGE}
+            send={(next) => sendOne(index, next)}
+          />
+        ))}
+      </details>
+    </Group>
+  );
+}

@@ -1,0 +1,28 @@
+/** Where a value stands on a slider of STEPS positions, evenly or by ratio. */
+
+export const STEPS = 400;
+
+export interface SliderRange {
+  min: number;
+  max: number;
+  /** Equal ways on the slider are equal ratios of the value. */
+  logarithmic?: boolean;
+  /** Values the slider stops at; any number can be typed. */
+  step?: number;
+}
+
+export function positionOf(value: number, { min, max, logarithmic }: SliderRange): number {
+  const held = Math.min(max, Math.max(min, value));
+  const share = logarithmic
+    ? Math.log(held / min) / Math.log(max / min)
+    : (held - min) / (max - min);
+  return Math.round(share * STEPS);
+}
+
+export function valueAt(position: number, { min, max, logarithmic, step }: SliderRange): number {
+  if (position <= 0) return min;
+  if (position >= STEPS) return max;
+  const share = position / STEPS;
+  const value = logarithmic ? min * (max / min) ** share : min + (max - min) * share;
+  return step ? Number((Math.round(value / step) * step).toPrecision(12)) : value;
+}

@@ -1,0 +1,102 @@
+import { useRef } from "preact/hooks";
+import { putStiffness } from "../api/client";
+import type { Sent, SessionState, StiffnessReference } from "../api/types";
+import { perform } from "../state/actions";
+import { text } from "../text/en";
+import { Choice } from "./choice";
+import { Field } from "./field";
+import { Group } from "./group";
+import { Problem } from "./problem";
+import type { SliderRange } from "./scale";
+
+type Sine = Extract<StiffnessReference, { kind: "sine" }>;
+type Kind = StiffnessReference["kind"];
+
+/** What the mechanism can reach, N·m/rad. */
+const REACH: SliderRange = { min: 1.7, max: 150.56, logarithmic: true };
+const UNIT = "N·m/rad";
+const KINDS = [
+  { value: "constant", label: text.stiffness.constant },
+  { value: "sine", label: text.stiffness.sine },
+] as const;
+
+function SineFields({ reference }: { reference: Sine }) {
+  const send = (change: Partial<Sine>) => putStiffness({ ...reference, ...change });
+  return (
+    <>
+      <Field
+        name="stiffness.offset"
+        label={text.stiffness.mean}
+        unit={UNIT}
+        value={reference.offset_nm_per_rad}
+        range={REACH}
+        send={(value) => send({ offset_nm_per_rad: value })}
+      />
+      <Field
+        name="stiffness.amplitude"
+        label={text.stiffness.amplitude}
+        unit={UNIT}
+        value={reference.amplitude_nm_per_rad}
+        range={{ min: 0, max: 30, step: 0.5 }}
+        send={(value) => send({ amplitude_nm_per_rad: value })}
+      />
+      <Field
+        name="stiffness.frequency"
+        label={text.stiffness.frequency}
+        unit="Hz"
+        value={reference.frequency_hz}
+        range={{ min: 0.02, max: 2, logarithmic: true }}
+        send={(hz) => send({ frequency_hz: hz })}
+      />
+    </>
+  );
+}
+
+export function Stiffness({ state }: { state: SessionState }) {
+  const reference = state.configuration.stiffness;
+  const lastSine = useRef<Sent<Sine> | null>(null);
+  if (reference.kind === "sine") lastSine.current = reference;
+
+  const choose = (kind: Kind) => {
+    const mean =
+      reference.kind === "sine" ? reference.offset_nm_per_rad : reference.stiffness_nm_per_rad;
+    const next: Sent<StiffnessReference> =
+      kind === "constant"
+        ? { kind: "constant", stiffness_nm_per_rad: mean }
+        : (lastSine.current ?? {
+            kind: "sine",
+            offset_nm_per_rad: mean,
+            amplitude_nm_per_rad: 1,
+            frequency_hz: 0.2,
+          });
+    return perform("stiffness.kind", () => putStiffness(next));
+  };
+
+  return (
+    <Group
+      title={text.stiffness.title}
+      aside={
+        <Choice
+          label={text.stiffness.kind}
+          options={KINDS}
+          value={reference.kind}
+          onChoose={(kind) => void choose(kind)}
+        />
+      }
+    >
+      <Problem control="stiffness.kind" />
+      {reference.kind === "sine" ? (
+        <SineFields reference={reference} />
+      ) : (
+        <Field
+          name="stiffness.level"
+          label={text.stiffness.level}
+          unit={UNIT}
+          value={reference.stiffness_nm_per_rad}
+          range={REACH}
+          send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}
+        />
+      )}
+    </Group>
+  );
+}

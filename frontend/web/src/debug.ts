@@ -1,0 +1,39 @@
+/**
+ * `window.svsa`, a door for the console and for tests: the samples that the plots draw, in SI units.
+ *
+ *     svsa.channels()                          names of the channels in the stream
+ *     svsa.series("position_error_rad")        { time: [s …], value: [rad …] }, oldest first
+ */
+import { samples } from "./state/session";
+
+export interface Series {
+  time: number[];
+  value: number[];
+}
+
+export interface DebugDoor {
+  channels(): string[];
+  series(channel: string): Series;
+}
+
+declare global {
+  interface Window {
+    svsa: DebugDoor;
+  }
+}
+
+function series(channel: string): Series {
+  const { ring } = samples;
+  if (!ring.channels.includes(channel)) {
+    throw new RangeError(`"${channel}" is not streamed: it must be one of ${ring.channels}`);
+  }
+  const time = new Float64Array(ring.length);
+  const value = new Float32Array(ring.length);
+  ring.copyTime(0, time);
+  ring.copyChannel(channel, 0, value);
+  return { time: Array.from(time), value: Array.from(value) };
+}
+
+export function openDebugDoor(): void {
+  window.svsa = { channels: () => [...samples.ring.channels], series };
+}

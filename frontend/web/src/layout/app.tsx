@@ -1,0 +1,32 @@
+import { Controls } from "../controls/controls";
+import { LoadButton } from "../controls/loadbutton";
+import { Plots } from "../plots/plots";
+import { phase, session } from "../state/session";
+import { text } from "../text/en";
+import { Banners } from "./banners";
+import { Login } from "./login";
+import { Readout } from "./readout";
+import { TopBar } from "./topbar";
+import { View } from "./view";
+
+export function App() {
+  const state = session.value;
+  return (
+    <>
+      <TopBar />
+      <Banners />
+      {phase.value === "locked" && <Login />}
+      {state === null ? (
+        <p class="waiting-page">{text.connection.waiting}</p>
+      ) : (
+        <main class="lab">
+          <View />
+          <Readout state={state} />
+          <LoadButton state={state} />
+          <Plots />
+          <Controls state={state} />
+        </main>
+      )}
+    </>
+  );
+}

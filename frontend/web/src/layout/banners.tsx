@@ -1,0 +1,42 @@
+import { reset } from "../api/client";
+import { Problem } from "../controls/problem";
+import { perform } from "../state/actions";
+import { phase, session } from "../state/session";
+import { text } from "../text/en";
+
+/** What must not be overlooked: no connection, a fault, a refused command of the top bar. */
+export function Banners() {
+  const fault = session.value?.fault;
+  const isLost = phase.value === "lost";
+  return (
+    <div class="banners">
+      {isLost && (
+        <div class="banner is-lost" role="alert">
+          <span class="banner-sign" aria-hidden="true" />
+          <p>
+            <strong>{text.connection.lostTitle}</strong> {text.connection.lostText}
+          </p>
+        </div>
+      )}
+      {fault && (
+        <div class="banner is-fault" role="alert">
+          <span class="banner-sign" aria-hidden="true">
+            ▲
+          </span>
+          <p>
+            <strong>{text.fault.title(fault.time_s)}</strong> {fault.message}
+          </p>
+          <button
+            type="button"
+            class="button"
+            disabled={isLost}
+            onClick={() => void perform("session", reset)}
+          >
+            {text.fault.reset}
+          </button>
+        </div>
+      )}
+      <Problem control="session" />
+    </div>
+  );
+}

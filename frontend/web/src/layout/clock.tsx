@@ -1,0 +1,16 @@
+import { samples } from "../state/session";
+import { text } from "../text/en";
+import { formatTime } from "../units";
+import { useLiveText } from "./live";
+
+const readTime = () => formatTime(samples.ring.newestTime || 0);
+
+/** Session time of the newest sample. */
+export function Clock() {
+  const element = useLiveText<HTMLSpanElement>(readTime);
+  return (
+    <span class="clock" title={text.status.timeHint} role="timer" aria-label={text.status.time}>
+      <span ref={element} />
+    </span>
+  );
+}

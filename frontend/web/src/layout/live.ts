@@ -1,0 +1,23 @@
+import type { RefObject } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { received } from "../state/session";
+
+const PERIOD_MS = 100;
+
+/** An element whose text follows the samples, ten times a second, without rendering anything. */
+export function useLiveText<T extends HTMLElement>(read: () => string): RefObject<T | null> {
+  const element = useRef<T>(null);
+  useEffect(() => {
+    let shownCount = -1;
+    const write = () => {
+      if (element.current === null || shownCount === received.count) return;
+      shownCount = received.count;
+      const next = read();
+      if (element.current.textContent !== next) element.current.textContent = next;
+    };
+    write();
+    const timer = setInterval(write, PERIOD_MS);
+    return () => clearInterval(timer);
+  }, [read]);
+  return element;
+}

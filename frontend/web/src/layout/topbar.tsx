@@ -1,0 +1,81 @@
+import { theme, toggleTheme } from "../state/preferences";
+import { isLive, missedSamples, phase, session } from "../state/session";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
+import { Clock } from "./clock";
+import { FigurePicker, Transport } from "./transport";
+
+const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
+const PHASE_SIGNS = { live: "●", connecting: "◌", lost: "○", locked: "○" } as const;
+
+function Status() {
+  const state = session.value;
+  if (state === null) return null;
+  const factor = formatNumber(state.real_time_factor, 3, 2);
+  return (
+    <div class="status">
+      <span class={`pill is-${state.status}`}>
+        <span aria-hidden="true">{STATUS_SIGNS[state.status]}</span> {text.status[state.status]}
+      </span>
+      <Clock />
+      <span class="rate" title={text.status.rateHint}>
+        {text.status.rate(state.rate_hz)}
+        <br />
+        {state.status === "running" && text.status.realTime(factor)}
+      </span>
+    </div>
+  );
+}
+
+function Connection() {
+  const missed = missedSamples.value;
+  return (
+    <span class={`connection ${isLive.value ? "is-live" : ""}`} role="status">
+      <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {text.connection[phase.value]}
+      {missed > 0 && (
+        <small title={text.connection.missedHint}>{text.connection.missed(missed)}</small>
+      )}
+    </span>
+  );
+}
+
+function ThemeButton() {
+  const isDark = theme.value === "dark";
+  return (
+    <button
+      type="button"
+      class="button is-icon"
+      aria-label={isDark ? text.theme.toLight : text.theme.toDark}
+      title={isDark ? text.theme.toLight : text.theme.toDark}
+      onClick={toggleTheme}
+    >
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        {isDark ? (
+          <path d="M8 4.5a3.5 3.5 0 1 1 0 7 3.5 3.5 0 0 1 0-7zM7.3.5h1.4v2.4H7.3zM7.3 13.1h1.4v2.4H7.3zM.5 7.3h2.4v1.4H.5zM13.1 7.3h2.4v1.4h-2.4zM2.2 3.2l1-1 1.7 1.7-1 1zM11.1 12.1l1-1 1.7 1.7-1 1zM12.8 2.2l1 1-1.7 1.7-1-1zM3.9 11.1l1 1-1.7 1.7-1-1z" />
+        ) : (
+          <path d="M6.2 1.2a7 7 0 1 0 8.6 8.6A6 6 0 0 1 6.2 1.2z" />
+        )}
+      </svg>
+    </button>
+  );
+}
+
+export function TopBar() {
+  const state = session.value;
+  return (
+    <header class="topbar">
+      <h1>
+        {text.name} <span>{text.subtitle}</span>
+      </h1>
+      {state && (
+        <fieldset class="topbar-controls" disabled={!isLive.value} aria-label={text.session}>
+          <FigurePicker state={state} />
+          <Transport state={state} />
+        </fieldset>
+      )}
+      <Status />
+      <Connection />
+      <ThemeButton />
+    </header>
+  );
+}

@@ -1,0 +1,111 @@
+import { useState } from "preact/hooks";
+import { pause, putSpeed, reset, runFigure, start, step } from "../api/client";
+import type { Figure, SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { text } from "../text/en";
+
+const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
+const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5];
+const STEPS_MS = [1, 10, 100, 1000];
+
+export function FigurePicker({ state }: { state: SessionState }) {
+  const { law } = state.configuration;
+  return (
+    <fieldset class="figures">
+      <legend>{text.figures.heading}</legend>
+      {FIGURES.map((figure) => (
+        <button
+          key={figure}
+          type="button"
+          class="button"
+          title={text.figures.does[figure]}
+          onClick={() => void perform("session", () => runFigure(figure, law))}
+        >
+          {text.figures.name[figure]}
+        </button>
+      ))}
+    </fieldset>
+  );
+}
+
+function SpeedPicker({ speed }: { speed: number }) {
+  const speeds = SPEEDS.includes(speed) ? SPEEDS : [...SPEEDS, speed].sort((a, b) => a - b);
+  return (
+    <label class="select" title={text.transport.speedHint}>
+      <span class="select-label">{text.transport.speed}</span>
+      <select
+        value={String(speed)}
+        onChange={(event) => {
+          const factor = Number(event.currentTarget.value);
+          void perform("session", () => putSpeed(factor));
+        }}
+      >
+        {speeds.map((factor) => (
+          <option key={factor} value={String(factor)}>
+            {text.transport.times(factor)}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function Stepper({ state }: { state: SessionState }) {
+  const [stepMs, setStepMs] = useState(10);
+  const isPaused = state.status === "paused";
+  const ticks = Math.max(1, Math.round((stepMs / 1000) * state.rate_hz));
+  return (
+    <div class="stepper">
+      <button
+        type="button"
+        class="button"
+        disabled={!isPaused}
+        title={text.transport.stepHint}
+        onClick={() => void perform("session", () => step(ticks))}
+      >
+        {text.transport.step}
+      </button>
+      <select
+        aria-label={text.transport.stepLength}
+        disabled={!isPaused}
+        value={String(stepMs)}
+        onChange={(event) => setStepMs(Number(event.currentTarget.value))}
+      >
+        {STEPS_MS.map((ms) => (
+          <option key={ms} value={String(ms)}>
+            {text.transport.milliseconds(ms)}
+          </option>
+        ))}
+      </select>
+    </div>
+  );
+}
+
+export function Transport({ state }: { state: SessionState }) {
+  const isRunning = state.status === "running";
+  return (
+    <fieldset class="transport" aria-label={text.transport.heading}>
+      <button
+        type="button"
+        class="button is-primary"
+        disabled={state.status === "fault"}
+        onClick={() => void perform("session", isRunning ? pause : start)}
+      >
+        <svg viewBox="0 0 12 12" aria-hidden="true">
+          <path d={isRunning ? "M2 1h3v10H2zM7 1h3v10H7z" : "M2 1l9 5-9 5z"} />
+        </svg>
+        {isRunning ? text.transport.pause : text.transport.run}
+      </button>
+      <button
+        type="button"
+        class="button"
+        title={text.transport.resetHint}
+        onClick={() => void perform("session", reset)}
+      >
+        {text.transport.reset}
+      </button>
+      <Stepper state={state} />
+      <SpeedPicker speed={state.speed} />
+    </fieldset>
+  );
+}

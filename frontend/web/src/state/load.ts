@@ -1,0 +1,29 @@
+/** The 3 kg load: which of the session's loads is it, and in which form it is hung next. */
+import { signal } from "@preact/signals";
+import type { Load, LoadRow, SessionState } from "../api/types";
+
+export type WeightForm = "paper" | "mass";
+
+/** `paper`: 2 N·m on all three channels; `mass`: a mass with inertia and gravity. */
+export const weightForm = signal<WeightForm>("paper");
+
+export const weightOf = (form: WeightForm): Load =>
+  form === "paper" ? { kind: "paper" } : { kind: "mass", mass_kg: 3, arm_m: 0.068 };
+
+export const isWeight = ({ load }: LoadRow): boolean =>
+  load.kind === "paper" || load.kind === "mass";
+
+export const hungWeights = (state: SessionState): LoadRow[] =>
+  state.loads.filter((row) => row.active && isWeight(row));
+
+/** When the next scheduled weight comes, session time in s; null when none is scheduled. */
+export function nextWeightAt(state: SessionState): number | null {
+  const starts = state.loads
+    .filter((row) => !row.active && isWeight(row) && row.start_s > state.time_s)
+    .map((row) => row.start_s);
+  return starts.length === 0 ? null : Math.min(...starts);
+}
+
+/** Loads that act or will act. */
+export const presentLoads = (state: SessionState): LoadRow[] =>
+  state.loads.filter((row) => row.active || row.start_s > state.time_s);

@@ -1,0 +1,53 @@
+/** What this browser remembers: the theme and how much of the past the plots show. */
+import { effect, signal } from "@preact/signals";
+
+export const WINDOWS_S = [10, 20, 60] as const;
+export type WindowS = (typeof WINDOWS_S)[number];
+export type Theme = "light" | "dark";
+
+const systemIsDark = window.matchMedia("(prefers-color-scheme: dark)");
+
+function remembered(key: string): string | null {
+  try {
+    return localStorage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+
+function remember(key: string, value: string): void {
+  try {
+    localStorage.setItem(key, value);
+  } catch {
+    // A browser that keeps nothing still shows the page.
+  }
+}
+
+function firstTheme(): Theme {
+  const chosen = remembered("svsa.theme");
+  if (chosen === "light" || chosen === "dark") return chosen;
+  return systemIsDark.matches ? "dark" : "light";
+}
+
+export const theme = signal<Theme>(firstTheme());
+export const windowS = signal<WindowS>(
+  WINDOWS_S.find((seconds) => String(seconds) === remembered("svsa.window_s")) ?? 20,
+);
+
+export function toggleTheme(): void {
+  theme.value = theme.peek() === "dark" ? "light" : "dark";
+  remember("svsa.theme", theme.peek());
+}
+
+export function chooseWindow(seconds: WindowS): void {
+  windowS.value = seconds;
+  remember("svsa.window_s", String(seconds));
+}
+
+systemIsDark.addEventListener("change", () => {
+  if (remembered("svsa.theme") === null) theme.value = systemIsDark.matches ? "dark" : "light";
+});
+
+effect(() => {
+  document.documentElement.dataset.theme = theme.value;
+});

@@ -1,0 +1,37 @@
+/** SI inside, what people read on screen: conversion and number format, nowhere else. */
+
+export const DEGREES_PER_RADIAN = 180 / Math.PI;
+
+export const toDegrees = (rad: number): number => rad * DEGREES_PER_RADIAN;
+export const toRadians = (deg: number): number => deg / DEGREES_PER_RADIAN;
+
+const MINUS = "\u2212";
+
+/** Number of decimals that show `digits` significant ones, at most `most`. */
+export function decimalsFor(value: number, digits: number, most = 4): number {
+  const size = Math.abs(value);
+  if (!Number.isFinite(size) || size === 0) return Math.min(digits - 1, most);
+  const decimals = digits - 1 - Math.floor(Math.log10(size));
+  return Math.max(0, Math.min(most, decimals));
+}
+
+/** `digits` significant digits, never in exponent form, with a true minus sign. */
+export function formatNumber(value: number | null | undefined, digits = 3, most = 4): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "\u2013";
+  const text = value.toFixed(decimalsFor(value, digits, most));
+  const unsigned = text.replace("-", "");
+  return text.startsWith("-") && Number(unsigned) !== 0 ? MINUS + unsigned : unsigned;
+}
+
+/** A number for an input field: short, with a plain minus sign, nothing lost that matters. */
+export function formatInput(value: number, digits = 5): string {
+  return String(Number(value.toPrecision(digits)));
+}
+
+/** Session time as minutes and seconds: 75.25 is 1:15.2. */
+export function formatTime(seconds: number): string {
+  const tenths = Math.floor(Math.max(0, seconds) * 10 + 1e-6);
+  const minutes = Math.floor(tenths / 600);
+  const rest = (tenths % 600) / 10;
+  return `${minutes}:${rest.toFixed(1).padStart(4, "0")}`;
+}

@@ -1,0 +1,49 @@
+import { describe, expect, it } from "vitest";
+import { bandwidthOf, isAtOnePlace } from "../src/controls/bandwidth";
+import { positionOf, STEPS, valueAt } from "../src/controls/scale";
+import { backoffMs } from "../src/stream/connection";
+
+describe("slider scale", () => {
+  const even = { min: -90, max: 90, step: 1 };
+  const byRatio = { min: 1.7, max: 150.56, logarithmic: true };
+
+  it("reaches both ends exactly", () => {
+    for (const range of [even, byRatio]) {
+      expect(valueAt(0, range)).toBe(range.min);
+      expect(valueAt(STEPS, range)).toBe(range.max);
+    }
+  });
+
+  it("finds a value again", () => {
+    expect(valueAt(positionOf(30, even), even)).toBe(30);
+    expect(valueAt(positionOf(60, byRatio), byRatio)).toBeCloseTo(60, 0);
+  });
+
+  it("holds what lies beyond at the end", () => {
+    expect(positionOf(500, byRatio)).toBe(STEPS);
+    expect(positionOf(-500, even)).toBe(0);
+  });
+});
+
+describe("bandwidth", () => {
+  const position = [60 ** 4, 4 * 60 ** 3, 6 * 60 ** 2, 4 * 60];
+
+  it("is the place of the poles", () => {
+    expect(bandwidthOf(position)).toBeCloseTo(60, 9);
+    expect(bandwidthOf([1600, 80])).toBeCloseTo(40, 9);
+  });
+
+  it("tells poles at one place from others", () => {
+    expect(isAtOnePlace(position)).toBe(true);
+    expect(isAtOnePlace([1600, 80])).toBe(true);
+    expect(isAtOnePlace([1600, 90])).toBe(false);
+  });
+});
+
+describe("reconnecting", () => {
+  it("waits longer each time, up to about four seconds", () => {
+    const waits = [0, 1, 2, 3, 4, 9].map((attempt) => backoffMs(attempt, 0.5));
+    expect(waits).toEqual([500, 1000, 2000, 4000, 4000, 4000]);
+    expect(backoffMs(0, 0)).toBeLessThan(backoffMs(0, 1));
+  });
+});

@@ -1,0 +1,84 @@
+import { describe, expect, it } from "vitest";
+import type { Batch } from "../src/stream/decoder";
+import { SampleRing } from "../src/stream/ring";
+
+/** Samples at the ticks given, 5 apart; channel a is the tick, channel b its negative. */
+function batch(firstTick: number, count: number): Batch {
+  const ticks = Array.from({ length: count }, (_, row) => firstTick + 5 * row);
+  const values = new Float32Array(ticks.flatMap((tick) => [tick, -tick]));
+  return { run: 1, firstTick, stride: 5, count, missed: 0, values };
+}
+
+function contents(ring: SampleRing, first = 0, factor = 1) {
+  const time = new Float64Array(ring.length);
+  const a = new Float32Array(ring.length);
+  const b = new Float32Array(ring.length);
+  const count = ring.copyTime(first, time);
+  ring.copyChannel("a", first, a, factor);
+  ring.copyChannel("b", first, b, factor);
+  return {
+    time: [...time.subarray(0, count)],
+    a: [...a.subarray(0, count)],
+    b: [...b.subarray(0, count)],
+  };
+}
+
+describe("SampleRing", () => {
+  it("gives back what was put in, with time from the ticks", () => {
+    const ring = new SampleRing(10, ["a", "b"]);
+    ring.append(batch(1000, 3), 0.5);
+    expect(contents(ring)).toEqual({
+      time: [500, 502.5, 505],
+      a: [1000, 1005, 1010],
+      b: [-1000, -1005, -1010],
+    });
+    expect(ring.newestTime).toBe(505);
+    expect(ring.newest("b")).toBe(-1010);
+  });
+
+  it("forgets the oldest, and stays in order over its end", () => {
+    const ring = new SampleRing(4, ["a", "b"]);
+    ring.append(batch(0, 3), 1);
+    ring.append(batch(15, 3), 1);
+    expect(contents(ring).a).toEqual([10, 15, 20, 25]);
+    expect(contents(ring, 2).time).toEqual([20, 25]);
+  });
+
+  it("takes the newest part of a batch larger than itself", () => {
+    const ring = new SampleRing(4, ["a", "b"]);
+    ring.append(batch(0, 9), 1);
+    expect(contents(ring).a).toEqual([25, 30, 35, 40]);
+  });
+
+  it("finds the first sample at or after a time", () => {
+    const ring = new SampleRing(4, ["a", "b"]);
+    ring.append(batch(0, 6), 1);
+    expect(ring.firstAt(-1)).toBe(0);
+    expect(ring.firstAt(15)).toBe(1);
+    expect(ring.firstAt(15.5)).toBe(2);
+    expect(ring.firstAt(99)).toBe(4);
+  });
+
+  it("multiplies by a factor on the way out", () => {
+    const ring = new SampleRing(4, ["a", "b"]);
+    ring.append(batch(10, 1), 1);
+    expect(contents(ring, 0, 0.5).a).toEqual([5]);
+  });
+
+  it("is empty at first and after clearing", () => {
+    const ring = new SampleRing(4, ["a", "b"]);
+    expect(ring.newestTime).toBeNaN();
+    ring.append(batch(0, 2), 1);
+    ring.clear();
+    expect(ring.length).toBe(0);
+    expect(ring.newest("a")).toBeNaN();
+  });
+
+  it("shows a channel that is not streamed as no number", () => {
+    const ring = new SampleRing(4, ["a", "b"]);
+    ring.append(batch(0, 2), 1);
+    const out = new Float32Array(2);
+    ring.copyChannel("c", 0, out);
+    expect([...out]).toEqual([Number.NaN, Number.NaN]);
+  });
+});

@@ -1,0 +1,34 @@
+import { describe, expect, it } from "vitest";
+import { formatInput, formatNumber, formatTime, toDegrees, toRadians } from "../src/units";
+
+describe("units", () => {
+  it("turns radians into degrees and back", () => {
+    expect(toDegrees(Math.PI / 3)).toBeCloseTo(60, 12);
+    expect(toRadians(toDegrees(0.7))).toBeCloseTo(0.7, 15);
+  });
+
+  it.each([
+    [12.0834, "12.1"],
+    [-57.46, "−57.5"],
+    [0.0013, "0.0013"],
+    [-0.00001, "0.0000"],
+    [1234.5, "1235"],
+    [0, "0.00"],
+    [null, "–"],
+    [Number.NaN, "–"],
+  ])("writes %s as %s", (value, shown) => {
+    expect(formatNumber(value)).toBe(shown);
+  });
+
+  it("writes input fields short, with a plain minus", () => {
+    expect(formatInput(toDegrees(1.0472))).toBe("60");
+    expect(formatInput(-12.5)).toBe("-12.5");
+    expect(formatInput(12960000)).toBe("12960000");
+  });
+
+  it("writes time as minutes and seconds", () => {
+    expect(formatTime(0)).toBe("0:00.0");
+    expect(formatTime(75.25)).toBe("1:15.2");
+    expect(formatTime(59.999)).toBe("0:59.9");
+  });
+});

@@ -1,0 +1,1 @@
+"""What things cost: not tests, since a busy machine would make them fail."""

@@ -1,0 +1,130 @@
+"""The page in a real browser against a real server, by role and label."""
+
+import math
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.lab import Lab, run_lab
+
+pytestmark = pytest.mark.browser
+
+PATIENCE_MS = 60_000
+ONE_DEGREE = 0.01745
+
+# The newest position errors that the page's plots hold, since a session time, in rad.
+LARGEST_ERROR = """([since]) => {
+    const { time, value } = window.svsa.series("position_error_rad");
+    return Math.max(0, ...value.filter((_, i) => time[i] >= since).map(Math.abs));
+}"""
+LAST_TIME = """() => {
+    const door = window.svsa;
+    if (!door || !door.channels().includes("position_error_rad")) return 0;
+    const { time } = door.series("position_error_rad");
+    return time.length ? time[time.length - 1] : 0;
+}"""
+
+
+def open_page(page: Page, lab: Lab) -> None:
+    page.goto(lab.url)
+    wait_for_samples(page)
+
+
+def wait_for_samples(page: Page, after_s: float = 0.0, before_s: float = math.inf) -> None:
+    """Wait until the newest sample on the page is between two session times."""
+    for _ in range(PATIENCE_MS // 100):
+        if after_s < page.evaluate(LAST_TIME) < before_s:
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError(f"no sample after {after_s} s came to the page")
+
+
+def test_the_load_button_makes_the_error_rise_and_ndobc_brings_it_back(
+    page: Page, lab: Lab
+) -> None:
+    open_page(page, lab)
+    wait_for_samples(page, 1.5)
+    assert page.evaluate(LARGEST_ERROR, [1.0]) < 0.1 * ONE_DEGREE
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    onset = lab.read()["loads"][0]["start_s"]
+    wait_for_samples(page, onset + 2.5)
+    assert page.evaluate(LARGEST_ERROR, [onset]) > 2 * ONE_DEGREE
+    assert page.evaluate(LARGEST_ERROR, [onset + 1.5]) < 0.1 * ONE_DEGREE
+
+
+def test_load_button_plots_and_view_are_seen_together_without_scrolling(
+    page: Page, lab: Lab
+) -> None:
+    open_page(page, lab)
+    parts = [
+        page.get_by_role("button", name=re.compile("Hang 3 kg")),
+        page.get_by_role("heading", name=re.compile("^Position")).first,
+        page.locator("canvas").first,
+        page.locator("iframe"),
+    ]
+    for part in parts:
+        box = part.bounding_box()
+        assert box is not None
+        assert box["x"] >= 0
+        assert box["y"] >= 0
+        assert box["x"] + box["width"] <= 1280
+        assert box["y"] + box["height"] <= 720
+
+
+def test_the_controller_is_switched_from_the_page(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    page.get_by_role("radio", name="FL", exact=True).check(force=True)
+    page.wait_for_timeout(500)
+    assert lab.read()["configuration"]["law"] == "fl"
+
+
+def test_a_refused_value_is_explained_where_it_was_typed_and_taken_back(
+    page: Page, lab: Lab
+) -> None:
+    open_page(page, lab)
+    before = lab.read()["configuration"]["position"]
+    field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
+    field.fill("99")
+    field.press("Enter")
+    expect(page.get_by_text(re.compile("at most 5 Hz"))).to_be_visible()
+    expect(field).to_have_value("0.2")
+    assert lab.read()["configuration"]["position"] == before
+
+
+def test_the_3d_view_shows_the_mechanism(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    canvas = page.frame_locator("iframe").locator("canvas").first
+    expect(canvas).to_be_visible(timeout=PATIENCE_MS)
+
+
+def test_a_lost_server_is_told_and_the_page_recovers_by_itself(page: Page) -> None:
+    with run_lab() as lab:
+        port = int(lab.url.rpartition(":")[2])
+        open_page(page, lab)
+        wait_for_samples(page, after_s=4.0)
+        end = page.evaluate(LAST_TIME)
+    expect(page.get_by_text(re.compile("connection", re.I)).first).to_be_visible(
+        timeout=PATIENCE_MS
+    )
+    with run_lab(port=port) as lab:
+        wait_for_samples(page, before_s=end)
+        before = page.evaluate(LAST_TIME)
+        wait_for_samples(page, before + 0.5)
+
+
+def test_a_lab_with_a_secret_asks_for_it_once(page: Page) -> None:
+    with run_lab(secret="correct horse battery") as lab:
+        page.goto(lab.url)
+        field = page.get_by_label(re.compile("secret", re.I)).first
+        field.fill("wrong wrong")
+        field.press("Enter")
+        expect(page.get_by_text(re.compile("not the secret", re.I))).to_be_visible(
+            timeout=PATIENCE_MS
+        )
+        field.fill("correct horse battery")
+        field.press("Enter")
+        wait_for_samples(page)
+        page.reload()
+        wait_for_samples(page)
