@@ -5,6 +5,7 @@ API, the TOML files, the REST schema and every error message speak from that one
 """
 
 from collections.abc import Sequence
+from numbers import Real
 from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, Strict, ValidationError
@@ -21,7 +22,7 @@ class Checked(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, /, **values: Any) -> None:
         try:
             super().__init__(**values)
         except ValidationError as error:
@@ -36,6 +37,14 @@ def quantity(unit: str, meaning: str, **bounds: Any) -> Any:
     """A field with its unit; bounds are pydantic's gt, ge, lt, le; unit "" has none."""
     text = f"{meaning}, {unit}" if unit else meaning
     return Field(description=text, json_schema_extra={"unit": unit}, **bounds)
+
+
+def check_number(name: str, value: Any, unit: str, least: float, most: float) -> None:
+    """Raise `ParameterError` unless `value` is a number from `least` to `most`."""
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    if not is_number or not least <= float(value) <= most:
+        bound = f"a number from {least:g} to {most:g}{f' {unit}' if unit else ''}"
+        raise ParameterError(Violation(name, value, unit, bound))
 
 
 def explain(error: ValidationError, *models: type[BaseModel]) -> list[Violation]:

@@ -1,6 +1,8 @@
 """Parameters: the physics of the actuator and the limits of a run, frozen and checked."""
 
-from typing import Literal
+from typing import Literal, Self
+
+from pydantic import model_validator
 
 from svsa.checked import Checked, Number, quantity
 from svsa.errors import ParameterError, Violation
@@ -49,6 +51,14 @@ class Limits(Checked):
     lever_ratio_margin: Number = quantity(
         "1", "How far μ may leave its range before the run ends in a fault", ge=0, le=0.1
     )
+
+    @model_validator(mode="after")
+    def _check_order(self) -> Self:
+        least, greatest = self.stiffness_min_nm_per_rad, self.stiffness_max_nm_per_rad
+        if not least < greatest:
+            bound = f"less than stiffness_max_nm_per_rad, {greatest:g} N·m/rad"
+            raise ParameterError(Violation("stiffness_min_nm_per_rad", least, "N·m/rad", bound))
+        return self
 
     def check_stiffness(self, name: str, low: float, high: float) -> None:
         """Raise `ParameterError` unless low … high (N·m/rad) lies in the stiffness range."""

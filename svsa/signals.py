@@ -68,7 +68,7 @@ CHANNELS = (
     Channel("motor2_position_rad", "rad", "Stiffness motor θ2"),
     Channel("motor2_velocity_rad_per_s", "rad/s", "Stiffness motor velocity"),
     Channel("deflection_rad", "rad", "Deflection φ"),
-    Channel("deflection_limit_rad", "rad", "Deflection at zero stiffness"),
+    Channel("deflection_limit_rad", "rad", "Deflection limit"),
     Channel("lever_ratio", "1", "Lever ratio μ"),
     Channel("stiffness_nm_per_rad", "N·m/rad", "Stiffness σ"),
     Channel("position_error_rad", "rad", "Position error q_d − q"),

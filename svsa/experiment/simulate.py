@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from svsa.checked import check_number
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.paper import DURATION_S, get_figure
 from svsa.runtime.configuration import Configuration, Law
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Picture
 
 MOST_TICKS = 5_000_000
+MOST_STEPS = 1000
 
 
 @dataclass(frozen=True)
@@ -50,9 +52,12 @@ class Result:
     def measure(self, start_s: float, end_s: float) -> Metrics:
         """The metrics between two times of the run, s; raises `ParameterError` if empty."""
         period = self.configuration.sampling.period_s
+        end = len(self.samples) * period
+        check_number("start_s", start_s, "s", 0.0, end)
+        check_number("end_s", end_s, "s", start_s, end)
         rows = self.samples[round(start_s / period) : round(end_s / period)]
-        if start_s < 0 or not len(rows):
-            bound = f"a stretch with samples between 0 and {len(self.samples) * period:g} s"
+        if not len(rows):
+            bound = f"a stretch with samples between 0 and {end:g} s"
             raise ParameterError(Violation("(start_s, end_s)", (start_s, end_s), "s", bound))
         return compute_metrics(rows, period)
 
@@ -101,11 +106,10 @@ def simulate(
     if changes:
         configuration = configuration.changed(**changes)
     period = configuration.sampling.period_s
-    if not period <= duration_s <= MOST_TICKS * period:
-        bound = f"from {period:g} to {MOST_TICKS * period:g} s"
-        raise ParameterError(Violation("duration_s", duration_s, "s", bound))
-    if not 1 <= steps <= 1000:
-        raise ParameterError(Violation("steps", steps, "", "from 1 to 1000"))
+    check_number("duration_s", duration_s, "s", period, MOST_TICKS * period)
+    check_number("steps", steps, "", 1, MOST_STEPS)
+    if not isinstance(steps, int):
+        raise ParameterError(Violation("steps", steps, "", "a whole number"))
     run = Run(configuration, steps)
     samples = np.empty((round(duration_s / period), len(CHANNELS)))
     done = run.advance(samples)

@@ -10,7 +10,6 @@ from svsa.model.lever import (
     compute_lever_ratio_for_stiffness,
     compute_zero_stiffness_deflection,
 )
-from svsa.model.spring import compute_spring_derivatives
 from svsa.parameters import ActuatorParameters, Limits
 
 INSIDE = 0
@@ -18,6 +17,8 @@ NOT_FINITE = 1
 LEVER_END = 2
 DEFLECTION_LIMIT = 3
 SINGULAR_DECOUPLING = 4
+
+SMALLEST_LEVER_RATIO = 0.005
 
 FAULT_CODES = {
     NOT_FINITE: "not_finite",
@@ -38,13 +39,16 @@ class Domain(NamedTuple):
 
 
 def build_domain(actuator: ActuatorParameters, limits: Limits) -> Domain:
-    """The domain of a plant: μ between its values at the ends of the stiffness range."""
+    """The domain of a plant: μ between its values at the ends of the stiffness range.
+
+    Never at μ = 0, where A(x) is zero, nor at μ = 1, where the energy is infinite.
+    """
     K = actuator.rotational_stiffness_nm_per_rad
+    mu_min = compute_lever_ratio_for_stiffness(limits.stiffness_min_nm_per_rad, K)
+    mu_max = compute_lever_ratio_for_stiffness(limits.stiffness_max_nm_per_rad, K)
     return Domain(
-        mu_min=compute_lever_ratio_for_stiffness(limits.stiffness_min_nm_per_rad, K)
-        - limits.lever_ratio_margin,
-        mu_max=compute_lever_ratio_for_stiffness(limits.stiffness_max_nm_per_rad, K)
-        + limits.lever_ratio_margin,
+        mu_min=max(mu_min - limits.lever_ratio_margin, SMALLEST_LEVER_RATIO),
+        mu_max=min(mu_max + limits.lever_ratio_margin, 1.0 - SMALLEST_LEVER_RATIO),
         deflection_max=limits.deflection_max_rad,
         deflection_fraction=limits.deflection_fraction,
         singularity_fraction=limits.singularity_fraction,
@@ -60,16 +64,14 @@ def compute_deflection_limit(domain, mu):
 
 
 @compiled
-def compute_relative_determinant(mu, phi, K):
-    """Det A(x) over its value at φ = 0: (σ σ_μ − τ_e,μ σ_φ)/(σ σ_μ at φ = 0), Eq 18.
+def compute_relative_determinant(mu, phi):
+    """Det A(x) over its value at φ = 0: (1 − μ cos³φ)(1 − μ)⁵ / (1 − μ cos φ)⁶, from Eq 18.
 
-    The inertias and μ' are common factors. 1 at φ = 0; 0 where A is singular.
+    det A = 2K²μ³μ'(1 − μ cos³φ) / (M B1 B2 (1 − μ cos φ)⁶): never zero for μ in (0, 1), but
+    small where the spring is soft, and there A⁻¹ asks for torques that no motor has.
     """
-    spring = compute_spring_derivatives(mu, phi, K)
-    level = compute_spring_derivatives(mu, 0.0, K)
-    return (spring.sigma * spring.sigma_mu - spring.torque_mu * spring.sigma_phi) / (
-        level.sigma * level.sigma_mu
-    )
+    c = math.cos(phi)
+    return (1.0 - mu * c**3) * (1.0 - mu) ** 5 / (1.0 - mu * c) ** 6
 
 
 @compiled
@@ -87,6 +89,6 @@ def check_domain(domain, actuator, x):
     phi = compute_deflection(x)
     if abs(phi) > compute_deflection_limit(domain, mu):
         return DEFLECTION_LIMIT
-    if compute_relative_determinant(mu, phi, actuator.K) < domain.singularity_fraction:
+    if not compute_relative_determinant(mu, phi) >= domain.singularity_fraction:
         return SINGULAR_DECOUPLING
     return INSIDE

@@ -51,7 +51,7 @@ def build_fault(code: int, tick: int, blocks: Blocks, x: State) -> Fault:
             f" ±{limit:.4f} rad: at μ = {mu:.4f} the stiffness falls to zero at {zero:.4f} rad."
         )
     else:
-        share = compute_relative_determinant(mu, phi, blocks.plant.K)
+        share = compute_relative_determinant(mu, phi)
         values["relative_determinant"] = share
         message = (
             f"At {time:.3f} s the decoupling matrix A(x) came near singular: det A is"

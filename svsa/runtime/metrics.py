@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from svsa.errors import StateError
 from svsa.signals import CHANNEL_INDEX
 
 RECOVERY_SHARE = 0.02
@@ -80,10 +81,13 @@ class RunningMetrics:
 
 
 def compute_metrics(samples: np.ndarray, period_s: float) -> Metrics:
-    """The metrics of these rows of samples (ticks, channels), at least one."""
+    """The metrics of these rows of samples (ticks, channels).
+
+    Raises `StateError` where there is none.
+    """
     running = RunningMetrics(period_s)
     running.update(samples)
     metrics = running.summarize()
     if metrics is None:
-        raise ValueError("metrics need at least one sample")
+        raise StateError("There are no samples to measure: the run ended before its first tick.")
     return metrics

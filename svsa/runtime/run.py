@@ -105,7 +105,7 @@ class Run:
 
     def add_load(self, load: Load) -> ScheduledLoad:
         """Apply a load now or at its `start_s`; raises `StateError` when there are too many."""
-        lasting = tuple(kept for kept in self.loads if kept.end_tick > self.tick)
+        lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
         if len(lasting) >= MOST_LOADS:
             raise StateError(f"{MOST_LOADS} loads are applied or planned: clear one first.")
         self._load_count += 1

@@ -137,7 +137,7 @@ class Session:
     def remove_load(self, number: int) -> None:
         """See `Run.remove_load`."""
         load = self.run.remove_load(number)
-        if load.start_tick <= self.run.tick < load.end_tick:
+        if load.start_tick < self.run.tick <= load.end_tick:
             self._log("load_off", f"{describe_load(load.load)} off")
         self.version += 1
 

@@ -1,0 +1,39 @@
+"""Gains: poles and coefficients of Eq 25, and the polynomials that are refused."""
+
+import numpy as np
+import pytest
+
+import svsa
+
+
+def test_gains_and_poles_are_two_forms_of_one_thing():
+    """Coefficients of (s+60)⁴ and (s+40)² are those declared; roots give the poles back."""
+    assert svsa.Gains.from_poles([-60.0] * 4, [-40.0] * 2) == svsa.load_prototype().gains
+    other = svsa.Gains.from_poles([-45.0, -80.0, -30.0 + 30.0j, -30.0 - 30.0j], [-20.0, -40.0])
+    poles = [-30.0 - 30.0j, -30.0 + 30.0j, -45.0, -80.0]
+    np.testing.assert_allclose(other.position_roots, poles, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("position", "word"),
+    [
+        ((1.0, 1.0, 1.0, -1.0), "Hurwitz"),
+        ((0.0, 1.0, 1.0, 1.0), "Hurwitz"),
+        ((1e14,) * 4, "slower"),
+    ],
+)
+def test_unstable_and_too_fast_gains_are_refused_with_their_roots(position, word):
+    with pytest.raises(svsa.ParameterError) as refused:
+        svsa.Gains(position_coefficients=position, stiffness_coefficients=(1600.0, 80.0))
+    (violation,) = refused.value.violations
+    assert violation.name == "position_coefficients"
+    assert word in violation.bound
+    assert "roots are" in violation.bound
+
+
+@pytest.mark.parametrize(
+    "poles", [[-60.0] * 3, [-60.0, -60.0, -60.0, -30.0 + 5.0j], [-60.0, -60.0, -60.0, float("nan")]]
+)
+def test_poles_that_make_no_real_polynomial_are_refused(poles):
+    with pytest.raises(svsa.ParameterError, match="position_poles_rad_per_s"):
+        svsa.Gains.from_poles(poles, [-40.0] * 2)

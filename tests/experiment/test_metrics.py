@@ -1,0 +1,109 @@
+"""Metrics against signals whose numbers are known by hand."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from svsa.runtime.metrics import SETTLED_S, RunningMetrics, compute_metrics
+from svsa.signals import CHANNEL_INDEX, CHANNELS
+
+T = 0.001
+
+
+def build_samples(ticks, **channels):
+    """Samples that are zero but for these channels."""
+    samples = np.zeros((ticks, len(CHANNELS)))
+    for name, values in channels.items():
+        samples[:, CHANNEL_INDEX[name]] = values
+    return samples
+
+
+def test_rms_and_peak_of_a_sine():
+    """A sine of amplitude 3 over whole periods: rms 3/√2, peak 3."""
+    t = np.arange(2000) * T
+    wave = 3.0 * np.sin(2.0 * np.pi * 5.0 * t)
+    metrics = compute_metrics(build_samples(2000, position_error_rad=wave), T)
+    assert metrics.duration_s == pytest.approx(2.0)
+    assert metrics.rms_position_error_rad == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-12)
+    assert metrics.peak_position_error_rad == pytest.approx(3.0, rel=1e-12)
+    assert metrics.rms_stiffness_error_nm_per_rad == 0.0
+
+
+def test_each_metric_reads_its_own_channel_and_the_sign_does_not_matter():
+    samples = build_samples(
+        100,
+        position_error_rad=-1.0,
+        stiffness_error_nm_per_rad=-2.0,
+        torque1_nm=-3.0,
+        torque2_nm=-4.0,
+    )
+    metrics = compute_metrics(samples, T)
+    assert metrics.rms_position_error_rad == metrics.peak_position_error_rad == 1.0
+    assert metrics.rms_stiffness_error_nm_per_rad == 2.0
+    assert metrics.peak_stiffness_error_nm_per_rad == 2.0
+    assert (metrics.peak_torque1_nm, metrics.peak_torque2_nm) == (3.0, 4.0)
+
+
+def test_recovery_of_a_decaying_error():
+    """e^(−10 t) falls to 2 % at ln(50)/10 = 0.3912 s: the first sample inside is at 0.392."""
+    error = np.exp(-10.0 * np.arange(1000) * T)
+    metrics = compute_metrics(build_samples(1000, position_error_rad=error), T)
+    assert metrics.recovery_time_s == pytest.approx(0.392)
+
+
+def test_recovery_counts_from_the_start_to_the_last_time_outside():
+    """A second excursion undoes the first recovery; 2 % is of the highest peak."""
+    error = np.zeros(2000)
+    error[100:200] = 1.0
+    error[600:650] = -0.021
+    error[700:710] = 0.019
+    metrics = compute_metrics(build_samples(2000, position_error_rad=error), T)
+    assert metrics.recovery_time_s == pytest.approx(0.65)
+
+
+def test_an_error_that_stays_has_not_recovered():
+    """FL under a load: the error never comes back, and no number pretends that it did."""
+    metrics = compute_metrics(build_samples(3000, position_error_rad=0.2), T)
+    assert metrics.recovery_time_s is None
+
+
+def test_recovery_needs_half_a_second_inside():
+    """An error that has only just come in may go out again."""
+    late = np.zeros(1000)
+    inside = round(SETTLED_S / T)
+    late[: 1000 - inside + 1] = 1.0
+    assert compute_metrics(build_samples(1000, position_error_rad=late), T).recovery_time_s is None
+    late[1000 - inside] = 0.0
+    found = compute_metrics(build_samples(1000, position_error_rad=late), T).recovery_time_s
+    assert found == pytest.approx(0.5)
+
+
+def test_without_any_error_recovery_is_at_once():
+    assert compute_metrics(build_samples(1000), T).recovery_time_s == 0.0
+
+
+def test_no_samples_have_no_metrics():
+    running = RunningMetrics(T)
+    running.update(np.zeros((0, len(CHANNELS))))
+    assert running.summarize() is None
+
+
+@settings(derandomize=True, max_examples=40, deadline=None)
+@given(st.lists(st.integers(0, 400), max_size=12), st.floats(0.0, 30.0))
+def test_taken_in_pieces_the_metrics_are_those_of_the_whole(cuts, rate):
+    """A session updates at every wake: where the wakes fall must not show."""
+    t = np.arange(1500) * T
+    error = np.exp(-rate * t) * np.sin(40.0 * t)
+    samples = build_samples(
+        1500, position_error_rad=error, stiffness_error_nm_per_rad=5.0 * error, torque1_nm=t
+    )
+    whole = compute_metrics(samples, T)
+    running, edges = RunningMetrics(T), np.minimum(np.cumsum([0, *cuts]), 1500)
+    for start, end in zip(edges, [*edges[1:], 1500], strict=True):
+        running.update(samples[start:end])
+    found = running.summarize()
+    assert found is not None
+    numbers, expected = dict(vars(found)), dict(vars(whole))
+    assert numbers.pop("recovery_time_s") == expected.pop("recovery_time_s")
+    assert numbers == pytest.approx(expected, rel=1e-12)
