@@ -1,10 +1,19 @@
 """Fixtures that more than one folder of tests uses."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from tests.lab import Lab, run_lab
+
+TESTS = Path(__file__).parent
+ORDER = ("equations", "experiment", "contract", "service", "browser")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Quick tests first; the browser last, since its driver keeps an event loop running."""
+    items.sort(key=lambda item: ORDER.index(item.path.relative_to(TESTS).parts[0]))
 
 
 @pytest.fixture(scope="session")

@@ -35,23 +35,28 @@ def bind(host: str, port: int) -> socket.socket:
     return listener
 
 
+class AnnouncedServer(uvicorn.Server):
+    """A server that says where it is once it answers there."""
+
+    announcement = ""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Start as uvicorn does, then print the announcement."""
+        await super().startup(sockets)
+        if self.started:
+            Console(soft_wrap=True).print(self.announcement, highlight=False)
+
+
 def run_server(host: str, port: int) -> None:
     """Serve the lab until a signal ends it; raises `SecurityError` and `ListenError`."""
     config = Settings()
-    asked, host = host, config.choose_host(host)
-    config.check_exposure(host)
-    listener = bind(host, port)
+    chosen = config.choose_host(host)
+    config.check_exposure(chosen)
+    listener = bind(chosen, port)
     prepare()
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
 
-    everywhere = host in ("0.0.0.0", "::")  # noqa: S104
-    address = f"http://{'localhost' if everywhere else host}:{listener.getsockname()[1]}/"
-    reach = " and on every address of this machine" if everywhere else ""
-    lines = [f"SVSA Lab is at [bold]{address}[/]{reach}  (stop with Ctrl-C)"]
-    if asked == "auto" and not everywhere:
-        lines.append("Only this machine or container reaches it: others need SVSA_SECRET set.")
-    Console(soft_wrap=True).print(*lines, sep="\n", highlight=False)
-    server = uvicorn.Server(
+    server = AnnouncedServer(
         uvicorn.Config(
             build_app(config),
             log_level="warning",
@@ -60,4 +65,16 @@ def run_server(host: str, port: int) -> None:
             timeout_graceful_shutdown=2,
         )
     )
+    server.announcement = describe_address(host, chosen, listener.getsockname()[1])
     server.run(sockets=[listener])
+
+
+def describe_address(asked: str, host: str, port: int) -> str:
+    """Where the lab is, and who reaches it there."""
+    everywhere = host in ("0.0.0.0", "::")  # noqa: S104
+    name = "localhost" if everywhere else host
+    reach = " and on every address of this machine" if everywhere else ""
+    text = f"SVSA Lab is at [bold]http://{name}:{port}/[/]{reach}  (stop with Ctrl-C)"
+    if asked == "auto" and not everywhere:
+        text += "\nOnly this machine or container reaches it: others need SVSA_SECRET set."
+    return text
