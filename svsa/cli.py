@@ -7,7 +7,7 @@ A package above this one adds its commands through the entry point group `svsa.c
 import json
 from importlib.metadata import entry_points
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -15,6 +15,9 @@ from rich.table import Table
 
 from svsa.compilation import is_compiled_before
 from svsa.errors import SvsaError
+
+if TYPE_CHECKING:
+    from svsa.experiment.reproduce import Reproduction
 
 app = typer.Typer(
     help="SVSA Lab: position and stiffness control of a serial variable stiffness actuator.",
@@ -46,7 +49,7 @@ def reproduce(
         rows = [{"figure": run.figure, "controller": run.controller, **run.numbers} for run in runs]
         print(json.dumps({"runs": rows}, indent=2))
         return
-    Console().print(_build_table(runs))
+    Console().print(*_build_tables(runs))
     with _messages.status("Drawing …"):
         paths = save_figures(runs, output)
     Console().print("Pictures: " + ", ".join(str(path) for path in paths))
@@ -83,35 +86,36 @@ def main() -> None:
         raise SystemExit(1) from None
 
 
-def _build_table(runs: list) -> Table:
-    table = Table(title="Position error in °, stiffness error in N·m/rad, torque in N·m")
-    names = (
-        "figure",
-        "law",
-        "rms 1–5 s",
-        "peak 5–7 s",
-        "rms 8–20 s",
-        "recovery",
-        "σ rms 1–5 s",
-        "σ peak 5–7 s",
-        "σ rms 8–20 s",
-        "peak u1, u2",
-    )
-    for name in names:
-        table.add_column(name, justify="left" if name in ("figure", "law") else "right")
+_POSITION = ("rms 1–5 s", "peak 5–7 s", "rms 8–20 s", "recovery")
+_STIFFNESS = ("rms 1–5 s", "peak 5–7 s", "rms 8–20 s", "peak |u1|", "peak |u2|")
+
+
+def _build_tables(runs: "list[Reproduction]") -> list[Table]:
+    """Position error in one table, stiffness error and torque in the other: 80 columns each."""
+    position = _start_table("Position error [°]", _POSITION)
+    stiffness = _start_table("Stiffness error [N·m/rad], torque [N·m]", _STIFFNESS)
     for run in runs:
-        n = run.numbers
+        n, row = run.numbers, (run.figure.upper(), run.controller.upper())
         recovery = f"{n['recovery_s']:.2f} s" if n["recovery_s"] is not None else "never"
-        table.add_row(
-            run.figure,
-            run.controller.upper(),
+        position.add_row(
+            *row,
             f"{n['rms_position_before_deg']:.4f}",
             f"{n['peak_position_deg']:.2f}",
             f"{n['rms_position_steady_deg']:.4f}",
             recovery,
+        )
+        stiffness.add_row(
+            *row,
             f"{n['rms_stiffness_before_nm_per_rad']:.4f}",
             f"{n['peak_stiffness_nm_per_rad']:.4f}",
             f"{n['rms_stiffness_steady_nm_per_rad']:.4f}",
-            ", ".join(f"{torque:.1f}" for torque in n["peak_torque_nm"]),
+            *(f"{torque:.1f}" for torque in n["peak_torque_nm"]),
         )
+    return [position, stiffness]
+
+
+def _start_table(title: str, columns: tuple[str, ...]) -> Table:
+    table = Table("Figure", "law", title=title, title_justify="left")
+    for column in columns:
+        table.add_column(column, justify="right")
     return table

@@ -11,7 +11,7 @@ from svsa.experiment.paper import LOAD_TIME_S, get_figure
 from svsa.experiment.reproduce import Reproduction
 from svsa.experiment.simulate import Result
 
-REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2}
+REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zorder": 3}
 LAW_STYLES = {
     "fl": {"color": "#D55E00", "linewidth": 1.3, "label": "FL"},
     "ndobc": {"color": "#0072B2", "linewidth": 1.3, "label": "NDOBC"},

@@ -10,7 +10,7 @@ from tests.browser.conftest import ARGUMENTS, find_chromium
 from tests.lab import run_lab
 
 FOLDER = Path(__file__).parents[2] / "frontend" / "screenshots"
-COLORS = 128
+COLORS = 256
 
 
 def take_screenshots() -> None:
