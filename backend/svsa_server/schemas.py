@@ -6,12 +6,14 @@ from pydantic import BaseModel, Field, create_model, model_validator
 
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.control.gains import FASTEST_POLE_RAD_PER_S, Gains, compute_coefficients
-from svsa.errors import ParameterError, Violation
+from svsa.errors import Fault, ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.configuration import Law
+from svsa.runtime.metrics import Metrics
+from svsa.runtime.session import Event
 
 _Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_PER_S)]
 Pole = _Part | tuple[_Part, _Part]
@@ -152,43 +154,11 @@ class LoadState(BaseModel):
     load: Load
 
 
-class EventState(BaseModel):
-    """Something that changed the run."""
-
-    tick: int
-    time_s: float
-    kind: str
-    label: str
-
-
-class FaultState(BaseModel):
-    """Why the run ended, with the values that ended it, SI as named."""
-
-    code: str
-    tick: int
-    time_s: float
-    message: str
-    values: dict[str, float]
-
-
-class MetricsState(BaseModel):
-    """Errors, peaks and recovery over a stretch; recovery is null until it has happened."""
-
-    duration_s: float
-    rms_position_error_rad: float
-    peak_position_error_rad: float
-    rms_stiffness_error_nm_per_rad: float
-    peak_stiffness_error_nm_per_rad: float
-    peak_torque1_nm: float
-    peak_torque2_nm: float
-    recovery_time_s: float | None
-
-
 class SessionMetrics(BaseModel):
     """Metrics since the start of the run and since the last load came on."""
 
-    since_start: MetricsState | None
-    since_load: MetricsState | None
+    since_start: Metrics | None
+    since_load: Metrics | None
 
 
 class SessionProgress(BaseModel):
@@ -201,7 +171,7 @@ class SessionProgress(BaseModel):
     speed: float
     real_time_factor: float = Field(description="Session seconds a wall second, as measured")
     stretched_s: float = Field(description="Wall time given up because ticks came too late")
-    fault: FaultState | None
+    fault: Fault | None
     metrics: SessionMetrics
 
 
@@ -212,7 +182,7 @@ class SessionState(SessionProgress):
     rate_hz: float
     configuration: ConfigurationState
     loads: list[LoadState]
-    events: list[EventState]
+    events: list[Event]
     sample: dict[str, float] | None = Field(description="The newest sample, by channel")
 
 

@@ -1,20 +1,15 @@
 """A session as it is told on the wire."""
 
 import math
-from dataclasses import asdict
 
 from svsa.control.gains import Gains
 from svsa.plant.disturbances import ScheduledLoad
-from svsa.runtime.metrics import RunningMetrics
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.schemas import (
     ConfigurationState,
-    EventState,
-    FaultState,
     GainsState,
     LoadState,
-    MetricsState,
     Root,
     SessionMetrics,
     SessionProgress,
@@ -33,10 +28,10 @@ def build_progress(session: Session) -> SessionProgress:
         speed=clock.speed,
         real_time_factor=clock.real_time_factor,
         stretched_s=clock.stretched_s,
-        fault=FaultState(**asdict(run.fault)) if run.fault else None,
+        fault=run.fault,
         metrics=SessionMetrics(
-            since_start=_build_metrics(session.since_start),
-            since_load=_build_metrics(session.since_load),
+            since_start=session.since_start.summarize(),
+            since_load=session.since_load.summarize() if session.since_load else None,
         ),
     )
 
@@ -51,7 +46,7 @@ def build_state(session: Session) -> SessionState:
         rate_hz=1.0 / run.period_s,
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
-        events=[EventState(**asdict(event)) for event in session.events],
+        events=list(session.events),
         sample=None if newest is None else dict(zip(CHANNEL_NAMES, newest.tolist(), strict=True)),
     )
 
@@ -87,8 +82,3 @@ def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadSta
         active=scheduled.start_tick <= tick < scheduled.end_tick,
         load=scheduled.load,
     )
-
-
-def _build_metrics(running: RunningMetrics | None) -> MetricsState | None:
-    metrics = running.summarize() if running else None
-    return MetricsState(**asdict(metrics)) if metrics else None

@@ -212,3 +212,11 @@ def test_a_refused_load_names_field_value_unit_and_bound(name):
 def test_a_load_takes_finite_numbers_only(wrong):
     with pytest.raises(svsa.ParameterError, match="mass_kg"):
         svsa.MassLoad(mass_kg=wrong)
+
+
+def test_a_series_from_a_function_of_time():
+    load = svsa.SeriesLoad.from_function(lambda t: (math.sin(3.0 * t), 0.0, t), 0.5, start_s=0.1)
+    w2, w4, w6 = read_load([load], 0.35)[:3]
+    assert (w2, w4, w6) == pytest.approx((math.sin(0.75), 0.0, 0.25), abs=1e-6)
+    with pytest.raises(svsa.ParameterError, match="20000"):
+        svsa.SeriesLoad.from_function(lambda t: (t, t, t), 1e6)

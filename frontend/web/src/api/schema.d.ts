@@ -646,10 +646,10 @@ export interface components {
             violations: components["schemas"]["ViolationModel"][];
         };
         /**
-         * EventState
-         * @description Something that changed the run.
+         * Event
+         * @description Something that changed the run: when, of what kind, and in words.
          */
-        EventState: {
+        Event: {
             /** Tick */
             tick: number;
             /** Time S */
@@ -685,10 +685,12 @@ export interface components {
             load: boolean;
         };
         /**
-         * FaultState
-         * @description Why the run ended, with the values that ended it, SI as named.
+         * Fault
+         * @description A run that left the domain of the model: when, why, and the values in it.
+         *
+         *     `values` maps channel names (with their unit in the name) to SI values.
          */
-        FaultState: {
+        Fault: {
             /** Code */
             code: string;
             /** Tick */
@@ -698,7 +700,7 @@ export interface components {
             /** Message */
             message: string;
             /** Values */
-            values: {
+            values?: {
                 [key: string]: number;
             };
         };
@@ -908,10 +910,13 @@ export interface components {
             arm_m: number;
         };
         /**
-         * MetricsState
-         * @description Errors, peaks and recovery over a stretch; recovery is null until it has happened.
+         * Metrics
+         * @description Metrics of a stretch of samples; SI units as named, over `duration_s`.
+         *
+         *     recovery_time_s: from the start of the stretch until the position error stays within
+         *     2 % of its peak (for 0.5 s at least); None while it has not.
          */
-        MetricsState: {
+        Metrics: {
             /** Duration S */
             duration_s: number;
             /** Rms Position Error Rad */
@@ -1035,8 +1040,8 @@ export interface components {
          * @description Metrics since the start of the run and since the last load came on.
          */
         SessionMetrics: {
-            since_start: components["schemas"]["MetricsState"] | null;
-            since_load: components["schemas"]["MetricsState"] | null;
+            since_start: components["schemas"]["Metrics"] | null;
+            since_load: components["schemas"]["Metrics"] | null;
         };
         /**
          * SessionState
@@ -1069,7 +1074,7 @@ export interface components {
              * @description Wall time given up because ticks came too late
              */
             stretched_s: number;
-            fault: components["schemas"]["FaultState"] | null;
+            fault: components["schemas"]["Fault"] | null;
             metrics: components["schemas"]["SessionMetrics"];
             /** Session */
             session: string;
@@ -1079,7 +1084,7 @@ export interface components {
             /** Loads */
             loads: components["schemas"]["LoadState"][];
             /** Events */
-            events: components["schemas"]["EventState"][];
+            events: components["schemas"]["Event"][];
             /**
              * Sample
              * @description The newest sample, by channel

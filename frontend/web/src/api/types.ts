@@ -9,7 +9,7 @@ export type PositionReference = Configuration["position"];
 export type StiffnessReference = Configuration["stiffness"];
 export type Law = Configuration["law"];
 export type LoadRow = Schemas["LoadState"];
-export type SessionEvent = Schemas["EventState"];
+export type SessionEvent = Schemas["Event"];
 export type Figure = Schemas["ExperimentRequest"]["figure"];
 export type Refusal = Schemas["ErrorModel"];
 
