@@ -21,6 +21,8 @@ check: .venv/installed $(PAGE)
 	$(BIN)/ruff check .
 	$(BIN)/basedpyright
 	$(BIN)/lint-imports
+	@$(BIN)/svsa openapi > .venv/openapi.json
+	@$(WEB) run --silent schema -- "$(CURDIR)/.venv/openapi.json" --check
 	$(WEB) run check
 
 format: .venv/installed $(PAGE)
