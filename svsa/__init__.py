@@ -25,6 +25,7 @@ from svsa.plant.disturbances import (
     SeriesLoad,
     SineLoad,
 )
+from svsa.plant.effects import IDEAL, RIG, Effects
 from svsa.reference.trajectories import (
     ConstantPosition,
     ConstantStiffness,
@@ -34,6 +35,7 @@ from svsa.reference.trajectories import (
 from svsa.runtime.configuration import (
     Configuration,
     Design,
+    Lane,
     load_prototype,
     read_design,
     write_design,
@@ -45,14 +47,18 @@ except PackageNotFoundError:
     __version__ = "0+uninstalled"
 
 __all__ = [
+    "IDEAL",
+    "RIG",
     "ActuatorParameters",
     "Configuration",
     "ConstantLoad",
     "ConstantPosition",
     "ConstantStiffness",
     "Design",
+    "Effects",
     "FaultError",
     "Gains",
+    "Lane",
     "Limits",
     "MassLoad",
     "ObserverBandwidth",

@@ -2,7 +2,8 @@
 
 Every equation is a pure function compiled by numba, without the GIL and without
 fast-math (the order of operations is the order written, so that the live loop, the
-batch run and a replay give the same bits).
+batch run and a replay give the same bits). Calls between them are inlined: passing the
+constants of an actuator from one to the next would cost more than the equations.
 
 The compiled code is cached between starts. numba notices a change in the file of a
 function, but not in the files of the functions it calls; the cache folder is therefore
@@ -58,7 +59,7 @@ def _prepare_cache() -> Path | None:
 
 _CACHE = _prepare_cache()
 
-compiled = numba.njit(cache=_CACHE is not None, nogil=True, error_model="numpy")
+compiled = numba.njit(cache=_CACHE is not None, nogil=True, error_model="numpy", forceinline=True)
 
 
 def is_compiled_before() -> bool:

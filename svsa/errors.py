@@ -50,10 +50,11 @@ class SecurityError(SvsaError):
 class Fault:
     """A run that left the domain of the model: when, why, and the values in it.
 
-    `values` maps channel names (with their unit in the name) to SI values.
+    `lane` counts from 0. `values` maps channel names (with their unit in the name) to SI values.
     """
 
     code: str
+    lane: int
     tick: int
     time_s: float
     message: str

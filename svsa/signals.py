@@ -39,6 +39,17 @@ class Torque(NamedTuple):
     u2: float
 
 
+class Measurement(NamedTuple):
+    """What the sensors say: motor angles and deflection, rad; velocities, rad/s, if known."""
+
+    theta1: float
+    theta2: float
+    phi: float
+    dq: float
+    dtheta1: float
+    dtheta2: float
+
+
 class Disturbance(NamedTuple):
     """w of Eq 9 on link, principal motor and stiffness motor, N·m (w1, w3, w5 are zero)."""
 
@@ -63,6 +74,8 @@ CHANNELS = (
     Channel("stiffness_reference_nm_per_rad", "N·m/rad", "Stiffness reference σ_d"),
     Channel("position_rad", "rad", "Position q"),
     Channel("velocity_rad_per_s", "rad/s", "Velocity"),
+    Channel("position_estimate_rad", "rad", "Position as the controller knows it"),
+    Channel("velocity_estimate_rad_per_s", "rad/s", "Velocity as the controller knows it"),
     Channel("motor1_position_rad", "rad", "Principal motor θ1"),
     Channel("motor1_velocity_rad_per_s", "rad/s", "Principal motor velocity"),
     Channel("motor2_position_rad", "rad", "Stiffness motor θ2"),

@@ -10,8 +10,9 @@ from svsa.errors import Fault, ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
+from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import Law
+from svsa.runtime.configuration import MOST_LANES, Lane, Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.session import Event
 
@@ -80,6 +81,12 @@ def build_patch(model: type[ActuatorParameters]) -> type[Checked]:
     return create_model(f"{model.__name__}Patch", __base__=Checked, **fields)
 
 
+class LanesRequest(Checked):
+    """The controllers beside the session's own."""
+
+    rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1)
+
+
 class StepRequest(Checked):
     """How far to go by hand."""
 
@@ -89,7 +96,9 @@ class StepRequest(Checked):
 class SpeedRequest(Checked):
     """How fast session time goes."""
 
-    factor: Number = quantity("1", "Session seconds a wall second", ge=0.05, le=20)
+    factor: Annotated[Number, Field(ge=0.05, le=20)] | Literal["max"] = quantity(
+        "1", "Session seconds a wall second, 0.05 to 20, or max for as fast as it goes"
+    )
 
 
 class ExperimentRequest(Checked):
@@ -112,6 +121,9 @@ class StreamRequest(Checked):
     """What a stream carries."""
 
     rate_hz: Number = quantity("Hz", "Samples a second", ge=1, le=10_000, default=200.0)
+    lanes: tuple[Annotated[Whole, Field(ge=1, le=MOST_LANES)], ...] | None = quantity(
+        "", "Numbers of the lanes, from 1; None is all there are", default=(1,)
+    )
     history_s: Number = quantity("s", "Past to send first", ge=0, le=20, default=0.0)
 
 
@@ -142,6 +154,9 @@ class ConfigurationState(BaseModel):
     limits: Limits
     actuator: ActuatorParameters
     nominal: ActuatorParameters
+    rivals: tuple[Lane, ...]
+    effects: Effects
+    seed: int
 
 
 class LoadState(BaseModel):
@@ -161,6 +176,13 @@ class SessionMetrics(BaseModel):
     since_load: Metrics | None
 
 
+class LaneMetrics(SessionMetrics):
+    """The metrics of one lane; lane 1 is the session's own controller."""
+
+    lane: int
+    law: Law
+
+
 class SessionProgress(BaseModel):
     """What of a session moves by itself: where it is and how well it does."""
 
@@ -168,11 +190,12 @@ class SessionProgress(BaseModel):
     run: int = Field(description="Counts up whenever a run begins anew at t = 0")
     tick: int
     time_s: float
-    speed: float
+    speed: float | Literal["max"]
     real_time_factor: float = Field(description="Session seconds a wall second, as measured")
     stretched_s: float = Field(description="Wall time given up because ticks came too late")
     fault: Fault | None
-    metrics: SessionMetrics
+    metrics: SessionMetrics = Field(description="Of lane 1")
+    lanes: list[LaneMetrics]
 
 
 class SessionState(SessionProgress):

@@ -4,11 +4,13 @@ import math
 
 from svsa.control.gains import Gains
 from svsa.plant.disturbances import ScheduledLoad
+from svsa.runtime.metrics import Metrics
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.schemas import (
     ConfigurationState,
     GainsState,
+    LaneMetrics,
     LoadState,
     Root,
     SessionMetrics,
@@ -25,14 +27,15 @@ def build_progress(session: Session) -> SessionProgress:
         run=session.run_number,
         tick=run.tick,
         time_s=run.time_s,
-        speed=clock.speed,
+        speed="max" if math.isinf(clock.speed) else clock.speed,
         real_time_factor=clock.real_time_factor,
         stretched_s=clock.stretched_s,
         fault=run.fault,
-        metrics=SessionMetrics(
-            since_start=session.since_start.summarize(),
-            since_load=session.since_load.summarize() if session.since_load else None,
-        ),
+        metrics=SessionMetrics(**_summarize(session, 0)),
+        lanes=[
+            LaneMetrics(lane=number + 1, law=lane.law, **_summarize(session, number))
+            for number, lane in enumerate(run.configuration.lanes)
+        ],
     )
 
 
@@ -51,6 +54,14 @@ def build_state(session: Session) -> SessionState:
     )
 
 
+def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
+    since_load = session.since_load
+    return {
+        "since_start": session.since_start[lane].summarize(),
+        "since_load": since_load[lane].summarize() if since_load else None,
+    }
+
+
 def _build_configuration(session: Session) -> ConfigurationState:
     configuration = session.run.configuration
     return ConfigurationState(
@@ -62,6 +73,9 @@ def _build_configuration(session: Session) -> ConfigurationState:
         limits=configuration.limits,
         actuator=configuration.actuator,
         nominal=configuration.nominal,
+        rivals=configuration.rivals,
+        effects=configuration.effects,
+        seed=configuration.seed,
     )
 
 

@@ -1,14 +1,16 @@
 """Samples to a client: a greeting, then binary batches; a slow client gets the newest.
 
 A batch is 32 bytes, little-endian — u32 magic "SVSA", u32 run, u64 first tick, u32 stride
-in ticks, u32 count, u32 missed samples, u32 zero — and float32[count][channels].
+in ticks, u32 count, u32 missed samples, u32 lanes — and float32[count][lanes][channels].
 """
 
 import asyncio
 import contextlib
 import json
+import math
 import struct
 import time
+from typing import Any
 
 from pydantic import BaseModel
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -22,6 +24,7 @@ from svsa_server.state import build_progress, build_state
 BATCH_PERIOD_S = 1.0 / 30.0
 PROGRESS_PERIOD_S = 1.0
 SLOW_AFTER_S = 0.5
+FASTEST_STREAM = 20
 HEADER = struct.Struct("<4sIQIIII")
 MAGIC = b"SVSA"
 
@@ -43,8 +46,11 @@ DEFAULT_CHANNELS = (
 
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
-    """rate_hz, history_s and channels of a stream's address; raises `ParameterError`."""
-    numbers: dict[str, float] = {}
+    """rate_hz, history_s, lanes and channels of an address; raises `ParameterError`.
+
+    lanes: "all", or numbers from 1 with commas; lane 1 if left out.
+    """
+    numbers: dict[str, Any] = {}
     channels = DEFAULT_CHANNELS
     for name, text in query.items():
         if name == "channels":
@@ -55,7 +61,10 @@ def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str
                     raise ParameterError(Violation("channels", channel, "", bound))
             continue
         try:
-            numbers[name] = float(text)
+            if name == "lanes":
+                numbers[name] = None if text == "all" else tuple(map(int, text.split(",")))
+            else:
+                numbers[name] = float(text)
         except ValueError:
             raise ParameterError(Violation(name, text, "", "a number")) from None
     return StreamRequest(**numbers), channels
@@ -68,6 +77,7 @@ class SampleCursor:
         self._session = session
         self._columns = [CHANNEL_INDEX[channel] for channel in channels]
         self._stride = max(1, round(1.0 / (session.run.period_s * request.rate_hz)))
+        self._lanes = request.lanes
         self._run = session.run_number
         past = round(request.history_s / session.run.period_s)
         self._next = self._align(max(session.history.end_tick - past, session.history.first_tick))
@@ -83,7 +93,8 @@ class SampleCursor:
         missed = 0
         if session.run_number != self._run:
             self._run, self._next = session.run_number, 0
-        stride = self._stride * max(1, round(session.clock.speed))
+        speed = session.clock.speed if math.isfinite(session.clock.speed) else FASTEST_STREAM
+        stride = self._stride * max(1, round(speed))
         oldest = history.first_tick
         if slow:
             oldest = max(oldest, history.end_tick - round(stride * self.rate_hz * BATCH_PERIOD_S))
@@ -91,12 +102,17 @@ class SampleCursor:
             skipped_to = self._align(oldest)
             missed = (skipped_to - self._next) // stride
             self._next = skipped_to
-        rows = history.read(self._next, stride, self._columns)
+        rows = history.read(self._next, stride, self._columns, self.read_lanes())
         if not len(rows):
             return None
-        header = HEADER.pack(MAGIC, self._run, self._next, stride, len(rows), missed, 0)
+        header = HEADER.pack(MAGIC, self._run, self._next, stride, len(rows), missed, rows.shape[1])
         self._next += stride * len(rows)
         return header + rows.astype("<f4").tobytes()
+
+    def read_lanes(self) -> list[int]:
+        """The lanes of the next batch, counted from 0: those asked for that there are."""
+        there = range(len(self._session.run.lanes))
+        return [lane for lane in there if self._lanes is None or lane + 1 in self._lanes]
 
     def _align(self, tick: int) -> int:
         return -(-tick // self._stride) * self._stride
@@ -163,6 +179,7 @@ def _greet(session: Session, cursor: SampleCursor, channels: tuple[str, ...]) ->
             "session": session.name,
             "period_s": session.run.period_s,
             "rate_hz": cursor.rate_hz,
+            "lanes": [lane + 1 for lane in cursor.read_lanes()],
             "channels": [
                 {"name": channel.name, "unit": channel.unit, "label": channel.label}
                 for channel in (CHANNELS[CHANNEL_INDEX[name]] for name in channels)

@@ -52,7 +52,7 @@ def plot_run(result: Result) -> Picture:
     """One run: position, its error, stiffness, torques, disturbance true and estimated."""
     picture = Picture(figsize=(8.0, 10.0), layout="constrained")
     position, error, stiffness, torque, disturbance = picture.subplots(5, 1, sharex=True)
-    law, time = LAW_STYLES[result.configuration.law], result.time_s
+    law, time = LAW_STYLES[result.law], result.time_s
     position.plot(
         time, np.degrees(result.position_reference_rad), label="reference", **REFERENCE_STYLE
     )

@@ -1,6 +1,6 @@
 """A whole run at once, as fast as it goes, and what came of it."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,15 +24,18 @@ MOST_STEPS = 1000
 
 @dataclass(frozen=True)
 class Result:
-    """A finished run.
+    """A finished run, one lane of it.
 
     samples: (ticks, channels), float64, SI, columns as `svsa.signals.CHANNELS`. A channel is
     also an attribute: `result.position_error_rad`. fault: why the run ended early, or None.
+    rivals: the results of the controllers that ran beside this one. law: what controlled.
     """
 
     configuration: Configuration
     samples: np.ndarray = field(repr=False)
     fault: Fault | None = None
+    rivals: "tuple[Result, ...]" = field(default=(), repr=False)
+    law: Law = "ndobc"
 
     @property
     def units(self) -> dict[str, str]:
@@ -111,6 +114,10 @@ def simulate(
     if not isinstance(steps, int):
         raise ParameterError(Violation("steps", steps, "", "a whole number"))
     run = Run(configuration, steps)
-    samples = np.empty((round(duration_s / period), len(CHANNELS)))
+    samples = np.empty((len(run.lanes), round(duration_s / period), len(CHANNELS)))
     done = run.advance(samples)
-    return Result(configuration, samples[:done], run.fault)
+    first, *rivals = (
+        Result(configuration, rows[:done], run.fault, law=lane.law)
+        for rows, lane in zip(samples, configuration.lanes, strict=True)
+    )
+    return replace(first, rivals=tuple(rivals))

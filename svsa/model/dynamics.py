@@ -18,7 +18,7 @@ from svsa.model.spring import (
     compute_reaction_torque,
 )
 from svsa.parameters import ActuatorParameters
-from svsa.signals import Disturbance
+from svsa.signals import Disturbance, State
 
 
 class Actuator(NamedTuple):
@@ -125,6 +125,33 @@ def compute_acceleration(actuator, x, u, load):
         (F.link - gravity + load.w2) / (actuator.M + load.inertia),
         (F.motor1 + u.u1 + load.w4) / actuator.B1,
         (F.motor2 + u.u2 + load.w6) / actuator.B2,
+    )
+
+
+@compiled
+def compute_rate(actuator, x, u, load):
+    """ẋ = f(x) + g(x)u + p(x)w of Eq 9, as a `State` of velocities and accelerations."""
+    acceleration = compute_acceleration(actuator, x, u, load)
+    return State(
+        x.dq,
+        acceleration.ddq,
+        x.dtheta1,
+        acceleration.ddtheta1,
+        x.dtheta2,
+        acceleration.ddtheta2,
+    )
+
+
+@compiled
+def shift(x, rate, step):
+    """X + step · ẋ; x and rate: `State`, step: s."""
+    return State(
+        x.q + step * rate.q,
+        x.dq + step * rate.dq,
+        x.theta1 + step * rate.theta1,
+        x.dtheta1 + step * rate.dtheta1,
+        x.theta2 + step * rate.theta2,
+        x.dtheta2 + step * rate.dtheta2,
     )
 
 

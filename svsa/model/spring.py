@@ -44,7 +44,7 @@ def compute_stiffness(mu, phi, K):
     """σ = ∂τ_e/∂φ = K μ² (cos 2φ − μ cos φ) / (1 − μ cos φ)³, N·m/rad, Eq 3."""
     c = math.cos(phi)
     n = 1.0 - mu * c
-    return K * mu * mu * (math.cos(2.0 * phi) - mu * c) / (n * n * n)
+    return K * mu * mu * (2.0 * c * c - 1.0 - mu * c) / (n * n * n)
 
 
 @compiled
@@ -62,11 +62,11 @@ def compute_elastic_energy(mu, phi, K):
 def compute_reaction_torque(mu, phi, K, gamma):
     """τ_r = ∂V/∂θ2 = K μ [1/(1−μ)² − cos²φ/n²] / (2πγ) ≥ 0, N·m; replaces Eq 5.
 
-    Written with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n), so that nothing cancels.
-    gamma: reduction γ of the spiral.
+    Written with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n) and 1 − cos φ = sin²φ/(1 + cos φ),
+    so that nothing cancels; |φ| < π. gamma: reduction γ of the spiral.
     """
-    c = math.cos(phi)
-    d = 2.0 * math.sin(0.5 * phi) ** 2
+    s, c = math.sin(phi), math.cos(phi)
+    d = s * s / (1.0 + c)
     n = 1.0 - mu * c
     return K * mu * d * (1.0 / (1.0 - mu) + c / n) / ((1.0 - mu) * n * 2.0 * math.pi * gamma)
 
@@ -95,8 +95,8 @@ def compute_spring_derivatives(mu, phi, K):
     """
     s, c = math.sin(phi), math.cos(phi)
     S = s * c
-    S1 = math.cos(2.0 * phi)
-    S2 = -2.0 * math.sin(2.0 * phi)
+    S1 = c * c - s * s
+    S2 = -4.0 * S
     n = 1.0 - mu * c
     n1 = mu * s
     n2 = mu * c

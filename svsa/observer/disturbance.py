@@ -21,15 +21,22 @@ class ObserverBandwidth(Checked):
     )
 
 
+def compute_shares(observer: ObserverBandwidth, period: float) -> tuple[float, float, float]:
+    """1 − e^(−βT) of the three channels: how much of the error one sample takes away."""
+    b2, b4, b6 = (-math.expm1(-beta * period) for beta in observer.bandwidth_rad_per_s)
+    return b2, b4, b6
+
+
 @compiled
-def update_disturbance_estimate(nominal, bandwidth, estimate, x_old, x_new, torque, period):
+def update_disturbance_estimate(nominal, shares, estimate, x_old, x_new, torque, period):
     """ŵ ← ŵ + (1 − e^(−βT)) [J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ].
 
     Eq 10 with the gain of Eq 14 and 15 (λ = k x, β = k/J), over one sample with both of
     its ends; tends to Eq 10 as T → 0. Fed with the torque really applied, it does not
     wind up in saturation.
 
-    nominal: `Actuator`. bandwidth: β of the three channels, rad/s. estimate: ŵ,
+    nominal: `Actuator`. shares: 1 − e^(−βT) of the
+    three channels (`compute_shares`). estimate: ŵ,
     `Disturbance`, N·m. x_old, x_new: `State` at the ends of the sample. torque: u applied
     between them, `Torque`, N·m. period: T, s. Returns `Disturbance`.
     """
@@ -47,7 +54,7 @@ def update_disturbance_estimate(nominal, bandwidth, estimate, x_old, x_new, torq
         - torque.u2
     )
     return Disturbance(
-        estimate.w2 - math.expm1(-bandwidth[0] * period) * (seen2 - estimate.w2),
-        estimate.w4 - math.expm1(-bandwidth[1] * period) * (seen4 - estimate.w4),
-        estimate.w6 - math.expm1(-bandwidth[2] * period) * (seen6 - estimate.w6),
+        estimate.w2 + shares[0] * (seen2 - estimate.w2),
+        estimate.w4 + shares[1] * (seen4 - estimate.w4),
+        estimate.w6 + shares[2] * (seen6 - estimate.w6),
     )

@@ -8,16 +8,18 @@ from typing import Any, Literal, Self
 import tomli_w
 from pydantic import model_validator
 
-from svsa.checked import Checked, Number, quantity
+from svsa.checked import Checked, Number, Whole, quantity
 from svsa.control.gains import Gains
 from svsa.errors import ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
+from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference, get_range
 
 Law = Literal["ndobc", "fl"]
 MOST_LOADS = 16
+MOST_LANES = 4
 
 
 class Sampling(Checked):
@@ -37,10 +39,28 @@ class Design(Checked):
     sampling: Sampling
 
 
+class Lane(Checked):
+    """A controller with a plant of its own: same references, loads and noise as the others."""
+
+    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)")
+    gains: Gains | None = quantity("", "Its gains; left out, those of the run", default=None)
+    observer: ObserverBandwidth | None = quantity(
+        "", "Its observer; left out, that of the run", default=None
+    )
+
+
 class Configuration(Design):
     """Everything that decides a run, besides the commands given while it runs."""
 
     law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)", default="ndobc")
+    rivals: tuple[Lane, ...] = quantity(
+        "",
+        "Controllers that run beside the first, each on a plant of its own",
+        default=(),
+        max_length=MOST_LANES - 1,
+    )
+    effects: Effects = quantity("", "What separates the simulation from a bench", default=IDEAL)
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
     position: PositionReference
     stiffness: StiffnessReference
     loads: tuple[Load, ...] = quantity(
@@ -51,6 +71,11 @@ class Configuration(Design):
     def _check_stiffness_range(self) -> Self:
         self.limits.check_stiffness("stiffness", *get_range(self.stiffness))
         return self
+
+    @property
+    def lanes(self) -> tuple[Lane, ...]:
+        """The run's own controller and its rivals."""
+        return (Lane(law=self.law), *self.rivals)
 
 
 def read_design(path: Path | str) -> Design:

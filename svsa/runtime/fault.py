@@ -16,9 +16,15 @@ from svsa.runtime.loop import Blocks
 from svsa.signals import State
 
 
-def build_fault(code: int, tick: int, blocks: Blocks, x: State) -> Fault:
+def build_fault(code: int, lane: int, tick: int, blocks: Blocks, x: State) -> Fault:
     """The fault of the domain code `code` at the state x, with the values that broke it."""
-    time = tick * blocks.period
+    values, message = _describe(code, tick * blocks.period, blocks, x)
+    if lane > 0:
+        message = f"Lane {lane + 1}: {message}"
+    return Fault(FAULT_CODES[code], lane, tick, tick * blocks.period, message, values)
+
+
+def _describe(code: int, time: float, blocks: Blocks, x: State) -> tuple[dict[str, float], str]:
     values = {
         "position_rad": x.q,
         "velocity_rad_per_s": x.dq,
@@ -29,7 +35,7 @@ def build_fault(code: int, tick: int, blocks: Blocks, x: State) -> Fault:
     }
     if code == NOT_FINITE:
         message = f"At {time:.3f} s a torque or a state was not a finite number: the run ended."
-        return Fault(FAULT_CODES[code], tick, time, message, _keep_finite(values))
+        return _keep_finite(values), message
     mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
     phi = compute_deflection(x)
     domain = blocks.domain
@@ -40,7 +46,7 @@ def build_fault(code: int, tick: int, blocks: Blocks, x: State) -> Fault:
             f"At {time:.3f} s the lever ratio μ = {mu:.4f} reached the end of the spiral: it must"
             f" stay between {domain.mu_min:.4f} and {domain.mu_max:.4f}."
         )
-        return Fault(FAULT_CODES[code], tick, time, message, values)
+        return values, message
     values["stiffness_nm_per_rad"] = compute_stiffness(mu, phi, blocks.plant.K)
     if code == DEFLECTION_LIMIT:
         limit = compute_deflection_limit(domain, mu)
@@ -58,7 +64,7 @@ def build_fault(code: int, tick: int, blocks: Blocks, x: State) -> Fault:
             f" {share:.4f} of its value at φ = 0, at least {domain.singularity_fraction:g} is"
             " needed."
         )
-    return Fault(FAULT_CODES[code], tick, time, message, values)
+    return values, message
 
 
 def _keep_finite(values: dict[str, float]) -> dict[str, float]:

@@ -39,33 +39,42 @@ from svsa.model.dynamics import (
 )
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
-from svsa.observer.disturbance import update_disturbance_estimate
-from svsa.plant.disturbances import LoadTable, compute_load
-from svsa.plant.integration import integrate_period
+from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
+from svsa.observer.state import build_measured_state, update_state_estimate
+from svsa.plant.disturbances import LoadTable
+from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
+from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench, build_bench
+from svsa.plant.integration import compute_plant_load, integrate_period
+from svsa.plant.sensors import read_sensors
 from svsa.reference.transition import compute_trajectory
-from svsa.runtime.configuration import Design
-from svsa.signals import Disturbance, Reference, State
+from svsa.runtime.configuration import Configuration, Lane
+from svsa.signals import Disturbance, Reference, State, Torque
 
 LAWS = {"fl": 0, "ndobc": 1}
 NDOBC = LAWS["ndobc"]
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
+NO_TORQUE = Torque(0.0, 0.0)
 
 
 class Blocks(NamedTuple):
     """The blocks of the diagram as constants of the compiled loop.
 
-    law: a value of `LAWS`. plant, nominal: `Actuator`. bandwidth: β of three channels,
-    rad/s. torque1_max, torque2_max: N·m. period: s. steps: Runge–Kutta steps a period.
+    law: a value of `LAWS`. plant, nominal: `Actuator`. shares: of the observer,
+    see `compute_shares`. torque1_max, torque2_max: N·m, infinite where not limited. decay:
+    e^(−ωT) of the state estimator, 0 where velocities are known. period: s. steps:
+    Runge–Kutta steps a period.
     """
 
     law: int
     plant: Actuator
     nominal: Actuator
     gains: GainConstants
-    bandwidth: tuple[float, float, float]
+    shares: tuple[float, float, float]
     torque1_max: float
     torque2_max: float
+    bench: Bench
+    decay: float
     domain: Domain
     period: float
     steps: int
@@ -79,18 +88,41 @@ class Inputs(NamedTuple):
     loads: LoadTable
 
 
-def build_blocks(law: str, design: Design, mu0: float, steps: int = 1) -> Blocks:
-    """The blocks of a checked design. mu0: lever ratio at θ2 = 0. steps: RK4 steps a period."""
+class LaneState(NamedTuple):
+    """What one lane, a controller and its plant, carries from tick to tick.
+
+    x: the plant's state. known: x̂, what the controller knows of it. estimate: ŵ, N·m.
+    torque: what the motors make now, N·m. asked: the torques asked for in the last samples,
+    newest first, (u1, u2) one after the other, for the delay.
+    """
+
+    x: State
+    known: State
+    estimate: Disturbance
+    torque: Torque
+    asked: tuple[float, ...]
+
+
+INITIAL = LaneState(AT_REST, AT_REST, UNDISTURBED, NO_TORQUE, (0.0,) * (2 * MOST_DELAY_SAMPLES + 2))
+
+
+def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: int = 1) -> Blocks:
+    """The blocks of one lane. mu0: lever ratio at θ2 = 0. steps: RK4 steps a period."""
+    c = configuration
+    limited = c.effects.torque_limits
+    estimation = c.effects.estimation
     return Blocks(
-        law=LAWS[law],
-        plant=build_actuator(design.actuator, mu0),
-        nominal=build_actuator(design.nominal, mu0),
-        gains=build_gains(design.gains),
-        bandwidth=design.observer.bandwidth_rad_per_s,
-        torque1_max=design.limits.torque1_nm,
-        torque2_max=design.limits.torque2_nm,
-        domain=build_domain(design.actuator, design.limits),
-        period=design.sampling.period_s,
+        law=LAWS[lane.law],
+        plant=build_actuator(c.actuator, mu0),
+        nominal=build_actuator(c.nominal, mu0),
+        gains=build_gains(lane.gains or c.gains),
+        shares=compute_shares(lane.observer or c.observer, c.sampling.period_s),
+        torque1_max=c.limits.torque1_nm if limited else math.inf,
+        torque2_max=c.limits.torque2_nm if limited else math.inf,
+        bench=build_bench(c.effects, c.seed, c.actuator, c.sampling.period_s),
+        decay=math.exp(-estimation.corner_rad_per_s * c.sampling.period_s) if estimation else 0.0,
+        domain=build_domain(c.actuator, c.limits),
+        period=c.sampling.period_s,
         steps=steps,
     )
 
@@ -114,11 +146,31 @@ def compute_control(blocks, x, reference, estimate):
 
 
 @compiled
-def publish(blocks, reference, x, torque, estimate, load, time, sample):
+def delay(bench, asked, torque):
+    """The queue of asked torques with this one in front, and the torque that is due now."""
+    asked = (torque.u1, torque.u2) + asked[:-2]  # noqa: RUF005  numba knows no unpacking here
+    return asked, Torque(asked[2 * bench.delay], asked[2 * bench.delay + 1])
+
+
+@compiled
+def read_state(blocks, known, estimate, applied, x, tick):
+    """x̂ at the start of `tick`: measured, and estimated where velocities are not known."""
+    measurement = read_sensors(blocks.bench, x, tick)
+    if blocks.decay > 0.0:
+        return update_state_estimate(
+            blocks.nominal, blocks.decay, known, estimate, applied, measurement, blocks.period
+        )
+    return build_measured_state(measurement)
+
+
+@compiled
+def publish(blocks, reference, lane, target, load, time, sample):
     """Write one sample, in the order of `CHANNELS`."""
+    x, known, estimate = lane.x, lane.known, lane.estimate
     phi = compute_deflection(x)
     mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
     sigma = compute_stiffness(mu, phi, blocks.plant.K)
+    torque = compute_lagged_torque(lane.torque, target, blocks.bench.lag, 0.0)
     acceleration = compute_acceleration(blocks.plant, x, torque, load)
     w = compute_disturbance(blocks.nominal, x, torque, acceleration)
     sample[:] = (
@@ -128,6 +180,8 @@ def publish(blocks, reference, x, torque, estimate, load, time, sample):
         reference.sigma,
         x.q,
         x.dq,
+        known.q,
+        known.dq,
         x.theta1,
         x.dtheta1,
         x.theta2,
@@ -150,30 +204,45 @@ def publish(blocks, reference, x, torque, estimate, load, time, sample):
 
 
 @compiled
-def advance(blocks, inputs, x, estimate, first, samples):
-    """Run one tick for each row of `samples`, from the tick `first` on.
+def advance_tick(blocks, inputs, lane, tick, sample):
+    """One tick of the loop: reference, controller, write, plant, read, observer, publish.
 
-    x: `State` and estimate: ŵ (`Disturbance`) at the start of the first tick. samples:
-    (ticks, channels), written. Returns (x, estimate, ticks done, code): a code other than
-    `INSIDE` says why the run ended at the tick first + ticks done, whose state is x.
+    lane: `LaneState` at the start of the tick. sample: (channels,), written. Returns
+    (lane, code): at a code other than `INSIDE` nothing was done.
+    """
+    code = check_domain(blocks.domain, blocks.plant, lane.x)
+    if code != INSIDE:
+        return lane, code
+    bench, period, time = blocks.bench, blocks.period, tick * blocks.period
+    reference = read_reference(inputs, time)
+    torque = compute_control(blocks, lane.known, reference, lane.estimate)
+    if not math.isfinite(torque.u1 + torque.u2):
+        return lane, NOT_FINITE
+    asked, target = delay(bench, lane.asked, torque)
+    load = compute_plant_load(bench, inputs.loads, lane.x, tick, period, time)
+    publish(blocks, reference, lane, target, load, time, sample)
+    x = integrate_period(
+        blocks.plant, bench, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
+    )
+    made = compute_lagged_torque(lane.torque, target, bench.lag, period)
+    applied = compute_mean_torque(lane.torque, target, bench.lag, period)
+    known = read_state(blocks, lane.known, lane.estimate, applied, x, tick + 1)
+    estimate = update_disturbance_estimate(
+        blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period
+    )
+    return LaneState(x, known, estimate, made, asked), INSIDE
+
+
+@compiled
+def advance(blocks, inputs, lane, first, samples):
+    """Many ticks in one call that does not hold the GIL: one for each row of `samples`.
+
+    lane: `LaneState` at the tick `first`. samples: (ticks, channels), written. Returns
+    (lane, ticks done, code): a code other than `INSIDE` says why the lane ended at the tick
+    first + ticks done.
     """
     for k in range(samples.shape[0]):
-        tick = first + k
-        code = check_domain(blocks.domain, blocks.plant, x)
+        lane, code = advance_tick(blocks, inputs, lane, first + k, samples[k])
         if code != INSIDE:
-            return x, estimate, k, code
-        time = tick * blocks.period
-        reference = read_reference(inputs, time)
-        torque = compute_control(blocks, x, reference, estimate)
-        if not math.isfinite(torque.u1 + torque.u2):
-            return x, estimate, k, NOT_FINITE
-        load = compute_load(inputs.loads, tick, blocks.period, time)
-        publish(blocks, reference, x, torque, estimate, load, time, samples[k])
-        x_old = x
-        x = integrate_period(
-            blocks.plant, x, torque, inputs.loads, tick, blocks.period, blocks.steps
-        )
-        estimate = update_disturbance_estimate(
-            blocks.nominal, blocks.bandwidth, estimate, x_old, x, torque, blocks.period
-        )
-    return x, estimate, samples.shape[0], INSIDE
+            return lane, k, code
+    return lane, samples.shape[0], INSIDE

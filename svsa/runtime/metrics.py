@@ -25,6 +25,7 @@ _COLUMNS = [
 class Metrics:
     """Metrics of a stretch of samples; SI units as named, over `duration_s`.
 
+    integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
     recovery_time_s: from the start of the stretch until the position error stays within
     2 % of its peak (for 0.5 s at least); None while it has not.
     """
@@ -36,6 +37,8 @@ class Metrics:
     peak_stiffness_error_nm_per_rad: float
     peak_torque1_nm: float
     peak_torque2_nm: float
+    integral_position_error_rad_s: float
+    effort_n2m2_s: float
     recovery_time_s: float | None
 
 
@@ -46,6 +49,7 @@ class RunningMetrics:
         self._period = period_s
         self._count = 0
         self._squares = np.zeros(len(_COLUMNS))
+        self._error_sum = 0.0
         self._peaks = np.zeros(len(_COLUMNS))
         self._last_outside = 0
 
@@ -59,6 +63,7 @@ class RunningMetrics:
         if len(outside):
             self._last_outside = self._count + int(outside[-1]) + 1
         self._squares += np.sum(sizes**2, axis=0)
+        self._error_sum += float(np.sum(sizes[:, 0]))
         self._peaks = np.maximum(self._peaks, sizes.max(axis=0))
         self._count += len(samples)
 
@@ -76,6 +81,8 @@ class RunningMetrics:
             peak_stiffness_error_nm_per_rad=float(self._peaks[1]),
             peak_torque1_nm=float(self._peaks[2]),
             peak_torque2_nm=float(self._peaks[3]),
+            integral_position_error_rad_s=self._error_sum * self._period,
+            effort_n2m2_s=float(self._squares[2] + self._squares[3]) * self._period,
             recovery_time_s=self._last_outside * self._period if settled else None,
         )
 

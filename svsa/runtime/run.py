@@ -9,6 +9,7 @@ from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table, schedule_load
+from svsa.plant.effects import Effects
 from svsa.reference.trajectories import (
     PositionReference,
     StiffnessReference,
@@ -16,13 +17,14 @@ from svsa.reference.trajectories import (
     get_range,
 )
 from svsa.reference.transition import build_stack, push_trajectory
-from svsa.runtime.configuration import MOST_LOADS, Configuration, Law
+from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane, Law
 from svsa.runtime.fault import build_fault
-from svsa.runtime.loop import AT_REST, UNDISTURBED, Inputs, advance, build_blocks
+from svsa.runtime.loop import INITIAL, Inputs, LaneState, advance, build_blocks
+from svsa.signals import CHANNELS
 
 
 class Run:
-    """A simulated run, from rest at t = 0, tick by tick.
+    """A simulated run, from rest at t = 0, tick by tick, in one to four lanes.
 
     `configuration` is the present one; a change takes effect at the next tick. The run
     starts at x = 0 with the μ0 that makes σ(0) = σ_d(0). steps: Runge–Kutta steps a period.
@@ -32,8 +34,7 @@ class Run:
         self.configuration = configuration
         self.steps = steps
         self.tick = 0
-        self.state = AT_REST
-        self.estimate = UNDISTURBED
+        self.lanes = [INITIAL for _ in configuration.lanes]
         self.fault: Fault | None = None
         self.mu0: float = compute_lever_ratio_for_stiffness(
             compute_start_value(configuration.stiffness),
@@ -43,9 +44,9 @@ class Run:
         self.loads: tuple[ScheduledLoad, ...] = ()
         self._position = build_stack(configuration.position)
         self._stiffness = build_stack(configuration.stiffness)
+        self._connect()
         for load in configuration.loads:
             self.add_load(load)
-        self._connect()
 
     @property
     def period_s(self) -> float:
@@ -58,19 +59,31 @@ class Run:
         return self.tick * self.period_s
 
     def advance(self, samples: np.ndarray) -> int:
-        """Run one tick for each row of samples (ticks, channels); how many were done.
+        """Run so many ticks as `samples` (lanes, ticks, channels) has; how many were done.
 
-        Fewer than asked means that the run has ended: `fault` says why.
+        Fewer than asked means that the run has ended: `fault` says why. All lanes end with
+        the first of them that leaves the domain of the model.
         """
         if self.fault is not None:
             return 0
-        self.state, self.estimate, done, code = advance(
-            self._blocks, self._inputs, self.state, self.estimate, self.tick, samples
-        )
+        done, after = samples.shape[1], []
+        for number, (blocks, lane) in enumerate(zip(self._blocks, self.lanes, strict=True)):
+            rows = samples[number, :done]
+            reached, ticks, code = advance(blocks, self._inputs, lane, self.tick, rows)
+            if code != INSIDE:
+                done = ticks
+                self.fault = build_fault(code, number, self.tick + done, blocks, reached.x)
+            after.append(reached)
+        if self.fault is not None:
+            after = [self._advance_lane(number, done) for number in range(len(self.lanes))]
+        self.lanes = after
         self.tick += done
-        if code != INSIDE:
-            self.fault = build_fault(code, self.tick, self._blocks, self.state)
         return done
+
+    def _advance_lane(self, number: int, ticks: int) -> LaneState:
+        """The lane so many ticks on: where one lane ended early, the others end with it."""
+        spare = np.empty((ticks, len(CHANNELS)))
+        return advance(self._blocks[number], self._inputs, self.lanes[number], self.tick, spare)[0]
 
     def set_position(self, reference: PositionReference) -> None:
         """Fade over to this position reference, from now on."""
@@ -103,6 +116,23 @@ class Run:
         """Change the model that controller and observer believe in."""
         self._configure(nominal=nominal)
 
+    def set_effects(self, effects: Effects) -> None:
+        """Switch effects on and off."""
+        self._configure(effects=effects)
+
+    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
+        """Run these controllers beside the first; a new lane begins where the first lane is."""
+        configuration = self.configuration.changed(rivals=rivals)
+        first, *others = self.lanes
+        kept = [
+            lane
+            for lane, before, after in zip(others, self.configuration.rivals, rivals, strict=False)
+            if before == after
+        ]
+        self.lanes = [first, *kept, *(first for _ in range(len(rivals) - len(kept)))]
+        self.configuration = configuration
+        self._connect()
+
     def add_load(self, load: Load) -> ScheduledLoad:
         """Apply a load now or at its `start_s`; raises `StateError` when there are too many."""
         lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
@@ -131,7 +161,6 @@ class Run:
         self._connect()
 
     def _connect(self) -> None:
-        self._blocks = build_blocks(
-            self.configuration.law, self.configuration, self.mu0, self.steps
-        )
+        c = self.configuration
+        self._blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
         self._inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))

@@ -1,25 +1,22 @@
-"""A session: a run that people start, pause, change and watch."""
+"""A session: a run that people start, pause, change, watch and record."""
 
 import math
 from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from svsa.control.gains import Gains
 from svsa.errors import StateError
-from svsa.observer.disturbance import ObserverBandwidth
-from svsa.parameters import ActuatorParameters
-from svsa.plant.disturbances import Load, MassLoad, PaperLoad, ScheduledLoad
-from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa.plant.disturbances import Load, MassLoad, PaperLoad
 from svsa.runtime.clock import SimulationClock
-from svsa.runtime.configuration import Configuration, Law
+from svsa.runtime.command import KINDS, Command
+from svsa.runtime.configuration import MOST_LANES, Configuration
 from svsa.runtime.history import History
 from svsa.runtime.metrics import RunningMetrics
 from svsa.runtime.run import Run
 
 HISTORY_TICKS = 32_768
 MOST_EVENTS = 200
+MOST_COMMANDS = 100_000
 
 Status = Literal["running", "paused", "fault"]
 
@@ -35,13 +32,17 @@ class Event:
 
 
 class Session:
-    """A simulated run with a clock, a history and metrics. Not safe across threads."""
+    """A simulated run with a clock, a history and metrics. Not safe across threads.
+
+    `initial` and `commands` say everything that decides the run's samples. `version` grows
+    with every change, not with time.
+    """
 
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
         self.run_number = 0
         self.version = 0
-        self.history = History(HISTORY_TICKS)
+        self.history = History(MOST_LANES, HISTORY_TICKS)
         self.clock = SimulationClock(configuration.sampling.period_s)
         self._running = False
         self.load(configuration)
@@ -57,18 +58,19 @@ class Session:
         """Begin a new run of this configuration at t = 0; running or paused as before."""
         self.clock.stop()
         self.clock.stretched_s = 0.0
-        self._initial = configuration
+        self.initial = configuration
+        self.commands: list[Command] = []
         self.run = Run(configuration)
         self.run_number += 1
         self.history.clear()
         self.events: deque[Event] = deque(maxlen=MOST_EVENTS)
-        self.since_start = RunningMetrics(self.run.period_s)
-        self.since_load: RunningMetrics | None = None
+        self.since_start = self._begin_metrics()
+        self.since_load: list[RunningMetrics] | None = None
         self.version += 1
 
     def reset(self) -> None:
         """Begin again at t = 0 with everything as it is set now and no load but planned ones."""
-        self.load(self.run.configuration.changed(loads=self._initial.loads))
+        self.load(self.run.configuration.changed(loads=self.initial.loads))
 
     def start(self) -> None:
         """Run from now on; raises `StateError` after a fault."""
@@ -100,55 +102,46 @@ class Session:
         if self.status == "running":
             self._advance(self.clock.take_due_ticks(now))
 
-    def set_position(self, reference: PositionReference) -> None:
-        """See `Run.set_position`."""
-        self._change(lambda: self.run.set_position(reference), "position", "Motion changed")
+    def change(self, kind: str, argument: Any) -> None:
+        """Give the run a command of `KINDS` now; refused, it changes nothing.
 
-    def set_stiffness(self, reference: StiffnessReference) -> None:
-        """See `Run.set_stiffness`."""
-        self._change(lambda: self.run.set_stiffness(reference), "stiffness", "Stiffness changed")
-
-    def set_law(self, law: Law) -> None:
-        """See `Run.set_law`."""
-        self._change(lambda: self.run.set_law(law), "controller", f"{law.upper()} on")
-
-    def set_gains(self, gains: Gains) -> None:
-        """See `Run.set_gains`."""
-        self._change(lambda: self.run.set_gains(gains), "gains", "Gains changed")
-
-    def set_observer(self, observer: ObserverBandwidth) -> None:
-        """See `Run.set_observer`."""
-        self._change(lambda: self.run.set_observer(observer), "observer", "Observer changed")
-
-    def set_actuator(self, actuator: ActuatorParameters) -> None:
-        """See `Run.set_actuator`."""
-        self._change(lambda: self.run.set_actuator(actuator), "actuator", "Plant changed")
-
-    def set_nominal(self, nominal: ActuatorParameters) -> None:
-        """See `Run.set_nominal`."""
-        self._change(lambda: self.run.set_nominal(nominal), "nominal", "Nominal model changed")
-
-    def add_load(self, load: Load) -> ScheduledLoad:
-        """See `Run.add_load`; the onset is logged and starts the metrics since the load."""
-        scheduled = self.run.add_load(load)
-        self.version += 1
-        return scheduled
-
-    def remove_load(self, number: int) -> None:
-        """See `Run.remove_load`."""
-        load = self.run.remove_load(number)
-        if load.start_tick < self.run.tick <= load.end_tick:
-            self._log("load_off", f"{describe_load(load.load)} off")
-        self.version += 1
+        Raises `ParameterError` or `StateError` as the run does.
+        """
+        if len(self.commands) >= MOST_COMMANDS:
+            raise StateError(f"{MOST_COMMANDS} changes were made to this run: reset it first.")
+        command = Command(self.run.tick, kind, argument)
+        lanes, loads = len(self.run.lanes), {load.number: load for load in self.run.loads}
+        command.apply(self.run)
+        self.commands.append(command)
+        match kind:
+            case "load":
+                self.version += 1
+            case "unload":
+                taken = loads[argument]
+                if taken.start_tick < self.run.tick <= taken.end_tick:
+                    self._log("load_off", f"{describe_load(taken.load)} off")
+                self.version += 1
+            case "controller":
+                self._log(kind, f"{argument.upper()} on")
+            case _:
+                self._log(kind, KINDS[kind].label)
+        if kind == "rivals":
+            self._begin_lanes(min(lanes, len(self.run.lanes)))
 
     def clear_loads(self) -> None:
         """Take every load off."""
         for load in self.run.loads:
-            self.remove_load(load.number)
+            self.change("unload", load.number)
 
-    def _change(self, change: Callable[[], None], kind: str, label: str) -> None:
-        change()
-        self._log(kind, label)
+    def _begin_lanes(self, kept: int) -> None:
+        """New lanes have the past of the first; metrics of all begin together."""
+        for lane in range(kept, len(self.run.lanes)):
+            self.history.copy_lane(0, lane)
+        self.since_start = self._begin_metrics()
+        self.since_load = self._begin_metrics() if self.since_load is not None else None
+
+    def _begin_metrics(self) -> list[RunningMetrics]:
+        return [RunningMetrics(self.run.period_s) for _ in self.run.lanes]
 
     def _log(self, kind: str, label: str) -> None:
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
@@ -160,12 +153,12 @@ class Session:
         while self.run.tick < end and self.run.fault is None:
             self._log_loads()
             stretch = min(self._find_next_edge(), end) - self.run.tick
-            samples = self.history.get_free_rows(stretch)
+            samples = self.history.get_free_rows(len(self.run.lanes), stretch)
             done = self.run.advance(samples)
             self.history.commit(done)
-            self.since_start.update(samples[:done])
-            if self.since_load is not None:
-                self.since_load.update(samples[:done])
+            for metrics in (self.since_start, self.since_load or []):
+                for lane, running in enumerate(metrics):
+                    running.update(samples[lane, :done])
             if self.run.fault is not None:
                 self.clock.stop()
                 self._log("fault", self.run.fault.code)
@@ -174,7 +167,7 @@ class Session:
         for _, load, start, end in self.run.loads:
             if start == self.run.tick:
                 self._log("load_on", f"{describe_load(load)} on")
-                self.since_load = RunningMetrics(self.run.period_s)
+                self.since_load = self._begin_metrics()
             if end == self.run.tick:
                 self._log("load_off", f"{describe_load(load)} off")
 

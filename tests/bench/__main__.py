@@ -14,12 +14,12 @@ REPEATS = 5
 
 def measure_tick(figure: str, law: str) -> float:
     """CPU µs a tick, the best of a few runs of 20 s of session time."""
-    samples = np.empty((20_000, len(CHANNELS)))
+    samples = np.empty((1, 20_000, len(CHANNELS)))
     costs = []
     for _ in range(REPEATS):
         run = Run(FIGURES[figure].build_configuration(law))
         begin = time.process_time()
-        for _ in range(TICKS // len(samples)):
+        for _ in range(TICKS // samples.shape[1]):
             run.advance(samples)
         costs.append((time.process_time() - begin) / TICKS * 1e6)
     return min(costs)

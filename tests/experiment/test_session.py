@@ -116,8 +116,8 @@ def test_a_fault_stops_the_session_until_it_is_reset():
 
 def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
     session = build_session(PULSE)
-    session.set_law("fl")
-    session.add_load(svsa.PaperLoad())
+    session.change("controller", "fl")
+    session.change("load", svsa.PaperLoad())
     session.step(60)
     runs = session.run_number
     session.reset()

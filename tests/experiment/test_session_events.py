@@ -33,13 +33,13 @@ def test_the_metrics_since_the_load_begin_at_its_onset():
 
 def test_taking_a_load_off_is_logged_and_ends_it():
     session = build_session()
-    load = session.add_load(svsa.PaperLoad())
+    session.change("load", svsa.PaperLoad())
     session.step(10)
-    session.remove_load(load.number)
+    session.change("unload", 1)
     session.step(10)
     assert list_events(session) == [(0, "load_on"), (10, "load_off")]
     assert session.run.loads == ()
-    session.add_load(PULSE)
+    session.change("load", PULSE)
     session.clear_loads()
     assert session.run.loads == ()
     assert list_events(session)[2:] == [], "a load that was only planned has not acted"
@@ -49,7 +49,7 @@ def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
     """The tick of the end is reached, then the next load is put on, then time goes on."""
     session = build_session(PULSE)
     session.step(50)
-    session.add_load(svsa.PaperLoad())
+    session.change("load", svsa.PaperLoad())
     session.step(1)
     assert list_events(session) == [(30, "load_on"), (50, "load_off"), (50, "load_on")]
 
@@ -57,8 +57,8 @@ def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
 def test_a_load_taken_off_before_its_first_tick_is_not_logged_as_off():
     """It never acted: an event off without an event on would be told to the page."""
     session = build_session()
-    load = session.add_load(svsa.PaperLoad())
-    session.remove_load(load.number)
+    session.change("load", svsa.PaperLoad())
+    session.change("unload", 1)
     session.step(1)
     assert list_events(session) == []
 
@@ -67,13 +67,13 @@ def test_every_command_is_logged_with_its_tick():
     session = build_session()
     session.step(5)
     design = svsa.load_prototype()
-    session.set_law("fl")
-    session.set_position(svsa.ConstantPosition(position_rad=0.1))
-    session.set_stiffness(svsa.ConstantStiffness(stiffness_nm_per_rad=40.0))
-    session.set_gains(svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
-    session.set_observer(svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0, 30.0, 30.0)))
-    session.set_actuator(design.actuator)
-    session.set_nominal(design.nominal)
+    session.change("controller", "fl")
+    session.change("position", svsa.ConstantPosition(position_rad=0.1))
+    session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0))
+    session.change("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
+    session.change("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0, 30.0, 30.0)))
+    session.change("actuator", design.actuator)
+    session.change("nominal", design.nominal)
     kinds = ["controller", "position", "stiffness", "gains", "observer", "actuator", "nominal"]
     assert list_events(session) == [(5, kind) for kind in kinds]
     assert session.run.configuration.law == "fl"
@@ -83,9 +83,9 @@ def test_a_refused_command_changes_nothing_and_is_not_logged():
     session = build_session()
     before = session.run.configuration, session.version
     with pytest.raises(svsa.ParameterError):
-        session.set_stiffness(svsa.ConstantStiffness(stiffness_nm_per_rad=500.0))
+        session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=500.0))
     with pytest.raises(svsa.StateError):
-        session.remove_load(99)
+        session.change("unload", 99)
     assert (session.run.configuration, session.version) == before
     assert list_events(session) == []
 
@@ -98,8 +98,8 @@ def test_the_version_grows_with_every_change_and_not_with_time():
         session.start,
         session.pause,
         lambda: session.set_speed(0.5),
-        lambda: session.set_law("fl"),
-        lambda: session.add_load(svsa.PaperLoad()),
+        lambda: session.change("controller", "fl"),
+        lambda: session.change("load", svsa.PaperLoad()),
         session.clear_loads,
         session.reset,
     ):

@@ -34,7 +34,7 @@ async def apply_load(
     ],
 ) -> SessionState:
     """Apply a load, now or at `start_s`; it is the last of `loads` in the answer."""
-    session.add_load(load)
+    session.change("load", load)
     return build_state(session)
 
 
@@ -50,5 +50,5 @@ async def remove_load(session: NamedSession, load_id: int) -> SessionState:
     """Take one load off."""
     if load_id not in (load.number for load in session.run.loads):
         raise UnknownError(f"There is no load {load_id} in this session.")
-    session.remove_load(load_id)
+    session.change("unload", load_id)
     return build_state(session)

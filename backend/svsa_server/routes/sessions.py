@@ -60,7 +60,7 @@ async def set_speed(
     session: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
 ) -> SessionState:
     """Slow motion or fast forward."""
-    session.set_speed(request.factor)
+    session.set_speed(float("inf") if request.factor == "max" else request.factor)
     return build_state(session)
 
 

@@ -7,9 +7,16 @@ from fastapi import APIRouter, Body
 from svsa.checked import Checked
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
+from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.schemas import ControllerRequest, GainsRequest, SessionState, build_patch
+from svsa_server.schemas import (
+    ControllerRequest,
+    GainsRequest,
+    LanesRequest,
+    SessionState,
+    build_patch,
+)
 from svsa_server.state import build_state
 
 router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
@@ -34,7 +41,7 @@ async def set_position(
     ],
 ) -> SessionState:
     """Follow another position reference, faded over without a jump in any derivative."""
-    session.set_position(reference)
+    session.change("position", reference)
     return build_state(session)
 
 
@@ -57,7 +64,7 @@ async def set_stiffness(
     ],
 ) -> SessionState:
     """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
-    session.set_stiffness(reference)
+    session.change("stiffness", reference)
     return build_state(session)
 
 
@@ -66,7 +73,7 @@ async def set_controller(
     session: NamedSession, request: Annotated[ControllerRequest, Body(examples=[{"law": "fl"}])]
 ) -> SessionState:
     """Control with FL or NDOBC."""
-    session.set_law(request.law)
+    session.change("controller", request.law)
     return build_state(session)
 
 
@@ -84,7 +91,7 @@ async def set_gains(
     ],
 ) -> SessionState:
     """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
-    session.set_gains(request.apply_to(session.run.configuration.gains))
+    session.change("gains", request.apply_to(session.run.configuration.gains))
     return build_state(session)
 
 
@@ -96,7 +103,7 @@ async def set_observer(
     ],
 ) -> SessionState:
     """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
-    session.set_observer(request)
+    session.change("observer", request)
     return build_state(session)
 
 
@@ -106,7 +113,7 @@ async def change_actuator(
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
     """Change parameters of the true plant."""
-    session.set_actuator(_apply(patch, session.run.configuration.actuator))
+    session.change("actuator", _apply(patch, session.run.configuration.actuator))
     return build_state(session)
 
 
@@ -116,7 +123,30 @@ async def change_nominal(
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
 ) -> SessionState:
     """Change parameters of the model that controller and observer believe in."""
-    session.set_nominal(_apply(patch, session.run.configuration.nominal))
+    session.change("nominal", _apply(patch, session.run.configuration.nominal))
+    return build_state(session)
+
+
+@router.put("/effects")
+async def set_effects(
+    session: NamedSession,
+    effects: Annotated[
+        Effects,
+        Body(examples=[{"encoders": {}, "estimation": {}, "delay_samples": 1}, {}]),
+    ],
+) -> SessionState:
+    """Switch on what separates the simulation from a bench; what is left out is off."""
+    session.change("effects", effects)
+    return build_state(session)
+
+
+@router.put("/lanes")
+async def set_lanes(
+    session: NamedSession,
+    request: Annotated[LanesRequest, Body(examples=[{"rivals": [{"law": "fl"}]}, {"rivals": []}])],
+) -> SessionState:
+    """Run other controllers beside the session's own: same references, loads and noise."""
+    session.change("rivals", request.rivals)
     return build_state(session)
 
 

@@ -1,0 +1,126 @@
+"""Commands: what may change a run, as values that can be written down and given again."""
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from pydantic import TypeAdapter
+
+from svsa.checked import Whole
+from svsa.control.gains import Gains
+from svsa.errors import ParameterError, StateError, Violation
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.parameters import ActuatorParameters
+from svsa.plant.disturbances import Load
+from svsa.plant.effects import Effects
+from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa.runtime.configuration import Configuration, Lane, Law
+from svsa.runtime.run import Run
+from svsa.signals import CHANNELS
+
+STRETCH_TICKS = 10_000
+
+
+class CommandKind(NamedTuple):
+    """How a command acts on a run, what its argument is, and how an event reads."""
+
+    apply: Callable[[Run, Any], object]
+    argument: TypeAdapter[Any]
+    label: str
+
+
+KINDS: dict[str, CommandKind] = {
+    "position": CommandKind(Run.set_position, TypeAdapter(PositionReference), "Motion changed"),
+    "stiffness": CommandKind(
+        Run.set_stiffness, TypeAdapter(StiffnessReference), "Stiffness changed"
+    ),
+    "controller": CommandKind(Run.set_law, TypeAdapter(Law), "Controller changed"),
+    "gains": CommandKind(Run.set_gains, TypeAdapter(Gains), "Gains changed"),
+    "observer": CommandKind(Run.set_observer, TypeAdapter(ObserverBandwidth), "Observer changed"),
+    "actuator": CommandKind(Run.set_actuator, TypeAdapter(ActuatorParameters), "Plant changed"),
+    "nominal": CommandKind(
+        Run.set_nominal, TypeAdapter(ActuatorParameters), "Nominal model changed"
+    ),
+    "effects": CommandKind(Run.set_effects, TypeAdapter(Effects), "Effects changed"),
+    "rivals": CommandKind(Run.set_rivals, TypeAdapter(tuple[Lane, ...]), "Lanes changed"),
+    "load": CommandKind(Run.add_load, TypeAdapter(Load), "Load applied"),
+    "unload": CommandKind(Run.remove_load, TypeAdapter(Whole), "Load taken off"),
+}
+
+
+class Command(NamedTuple):
+    """A change of a run at the beginning of a tick. argument: of the type of its kind."""
+
+    tick: int
+    kind: str
+    argument: Any
+
+    def apply(self, run: Run) -> object:
+        """Do it to a run that has reached the tick; returns what the run's method returns."""
+        return KINDS[self.kind].apply(run, self.argument)
+
+    def to_json(self) -> dict[str, Any]:
+        """As a dict that JSON can hold."""
+        argument = KINDS[self.kind].argument.dump_python(self.argument, mode="json")
+        return {"tick": self.tick, "kind": self.kind, "argument": argument}
+
+
+def read_command(written: dict[str, Any]) -> Command:
+    """A command from `Command.to_json`; raises `ParameterError` for anything else."""
+    kind, tick = written.get("kind"), written.get("tick")
+    if kind not in KINDS or not isinstance(tick, int) or tick < 0:
+        bound = "a tick ≥ 0 and a kind of " + ", ".join(KINDS)
+        raise ParameterError(Violation("command", written, "", bound))
+    try:
+        argument = KINDS[kind].argument.validate_python(written.get("argument"))
+    except ValueError as error:
+        raise ParameterError(Violation(kind, written.get("argument"), "", str(error))) from None
+    return Command(tick, kind, argument)
+
+
+def replay(
+    configuration: Configuration, commands: Iterable[Command], end_tick: int
+) -> Iterator[tuple[Run, np.ndarray]]:
+    """Simulate a run again from its start, each command given at its tick.
+
+    Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
+    until `end_tick` or the run's fault. Same configuration and commands: same bits.
+    """
+    run, later = Run(configuration), list(commands)
+    while True:
+        while later and later[0].tick <= run.tick:
+            later.pop(0).apply(run)
+        end = min([end_tick, run.tick + STRETCH_TICKS, *(command.tick for command in later[:1])])
+        if run.fault is not None or run.tick >= end:
+            return
+        samples = np.empty((len(run.lanes), end - run.tick, len(CHANNELS)))
+        yield run, samples[:, : run.advance(samples)]
+
+
+def build_run_at(configuration: Configuration, commands: Iterable[Command], tick: int) -> Run:
+    """The run as it stood at the beginning of `tick`, commands of that tick not yet given.
+
+    Raises `StateError` where the run ended before.
+    """
+    run = Run(configuration)
+    for reached, _ in replay(configuration, [c for c in commands if c.tick < tick], tick):
+        run = reached
+    if run.tick < tick:
+        raise StateError(f"The run ended before tick {tick}, at tick {run.tick}.")
+    return run
+
+
+def simulate_again(
+    configuration: Configuration, commands: Iterable[Command], first_tick: int, ticks: int
+) -> np.ndarray:
+    """The samples of a recorded run once more, bit for bit: (lanes, ticks, channels).
+
+    first_tick: where the record begins. ticks: how many it holds. The lanes must be the
+    same from first_tick on.
+    """
+    kept = []
+    for run, samples in replay(configuration, commands, first_tick + ticks):
+        skipped = max(0, first_tick - (run.tick - samples.shape[1]))
+        if skipped < samples.shape[1]:
+            kept.append(samples[:, skipped:])
+    return np.concatenate(kept, axis=1)
