@@ -56,10 +56,13 @@ class Lab(NamedTuple):
 
 
 @contextlib.contextmanager
-def run_lab(*arguments: str, secret: str | None = None, port: int = 0) -> Iterator[Lab]:
+def run_lab(
+    *arguments: str, secret: str | None = None, port: int = 0, **settings: str
+) -> Iterator[Lab]:
     """Start a lab, wait until it says where it is, and stop it at the end."""
     environment = {k: v for k, v in os.environ.items() if k != "SVSA_SECRET"}
     environment |= {"PYTHONUNBUFFERED": "1", "NO_COLOR": "1", "COLUMNS": "200"}
+    environment |= {f"SVSA_{name.upper()}": value for name, value in settings.items()}
     if secret is not None:
         environment["SVSA_SECRET"] = secret
     command = [sys.executable, "-c", "from svsa.cli import main; main()", "serve"]

@@ -34,6 +34,7 @@ def build_app(config: Settings | None = None) -> FastAPI:
         lifespan=_live,
     )
     app.state.secret = secret
+    app.state.config = config
     app.add_middleware(AccessGuard, secret=secret)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
@@ -47,7 +48,8 @@ def build_app(config: Settings | None = None) -> FastAPI:
 @contextlib.asynccontextmanager
 async def _live(app: FastAPI) -> AsyncIterator[None]:
     """Start the sessions and the 3D view, and end them with the server."""
-    laboratory = Laboratory()
+    config: Settings = app.state.config
+    laboratory = Laboratory(config.most_sessions, config.idle_s)
     app.state.laboratory = laboratory
     scene = await asyncio.to_thread(SceneBridge)
     proxy = ViserProxy(scene.port)

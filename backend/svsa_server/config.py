@@ -2,7 +2,7 @@
 
 import ipaddress
 
-from pydantic import SecretStr
+from pydantic import Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from svsa.errors import SecurityError
@@ -11,11 +11,16 @@ SHORTEST_SECRET = 8
 
 
 class Settings(BaseSettings):
-    """Deployment: SVSA_SECRET is the shared secret that everyone who uses the lab knows."""
+    """Deployment: SVSA_SECRET is the shared secret that everyone who uses the lab knows.
+
+    SVSA_MOST_SESSIONS: private sessions at once. SVSA_IDLE_S: how long one lives unused, s.
+    """
 
     model_config = SettingsConfigDict(env_prefix="SVSA_", extra="ignore", frozen=True)
 
     secret: SecretStr | None = None
+    most_sessions: int = Field(default=48, ge=0, le=1000)
+    idle_s: float = Field(default=600.0, ge=1)
 
     @property
     def secret_text(self) -> str | None:

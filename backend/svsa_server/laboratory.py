@@ -1,51 +1,114 @@
-"""The sessions of this server and the background tasks that keep them going."""
+"""The sessions of this server and the background task that keeps them going."""
 
 import asyncio
 import logging
+import math
+import secrets
 import time
 
+from svsa.errors import StateError
 from svsa.experiment.paper import get_figure
 from svsa.plant.disturbances import PAPER_MASS_KG, MassLoad, PaperLoad
+from svsa.runtime.configuration import Configuration
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose
 from svsa_server.errors import UnknownError
 
-WAKE_PERIOD_S = 1.0 / 120.0
+WAKE_PERIOD_S = 1.0 / 60.0
+BURST_S = 0.5 * WAKE_PERIOD_S
 SHARED_SESSION = "lab"
 
 _log = logging.getLogger("svsa")
 
 
 class Laboratory:
-    """The sessions by name. The shared one starts on Figure 4A, the load in your hand."""
+    """The sessions by name: the shared one, and private ones that end when nobody uses them.
 
-    def __init__(self) -> None:
+    The shared one starts on Figure 4A, the load in your hand. most_sessions: private ones
+    at once. idle_s: how long a private session lives without a request or a stream, s.
+    """
+
+    def __init__(self, most_sessions: int, idle_s: float) -> None:
         shared = Session(SHARED_SESSION, get_figure("4a").build_configuration(load=False))
         shared.start()
         self.sessions = {shared.name: shared}
+        self._most_sessions = most_sessions
+        self._idle_s = idle_s
+        self._last_use = {shared.name: math.inf}
+        self._watchers: dict[str, int] = {}
 
     def get(self, name: str) -> Session:
-        """The session of this name; raises `UnknownError`."""
+        """The session of this name, which counts as using it; raises `UnknownError`."""
         if name not in self.sessions:
-            known = ", ".join(self.sessions)
+            known = ", ".join(list(self.sessions)[:10])
             raise UnknownError(f"There is no session {name[:80]!r}; sessions here: {known}.")
+        self._last_use[name] = max(self._last_use[name], time.monotonic())
         return self.sessions[name]
 
+    def create(self, configuration: Configuration) -> Session:
+        """A new private session, running; raises `StateError` when there are too many."""
+        if len(self.sessions) > self._most_sessions:
+            raise StateError(
+                f"{self._most_sessions} private sessions are open, which is all this lab allows:"
+                " end one, or wait for an idle one to end."
+            )
+        session = Session(f"private-{secrets.token_hex(4)}", configuration)
+        session.start()
+        self.sessions[session.name] = session
+        self._last_use[session.name] = time.monotonic()
+        return session
+
+    def end(self, name: str) -> None:
+        """End a private session; raises `StateError` for the shared one."""
+        if self.get(name).name == SHARED_SESSION:
+            raise StateError("The shared session is not ended; reset it instead.")
+        self._remove(name)
+
+    def watch(self, name: str, watchers: int) -> None:
+        """A stream of this session begins (+1) or ends (−1): a watched session is not idle."""
+        self._watchers[name] = self._watchers.get(name, 0) + watchers
+        if name in self._last_use:
+            self._last_use[name] = max(self._last_use[name], time.monotonic())
+
     async def run(self) -> None:
-        """Wake every session 120 times a second until cancelled."""
+        """Wake every session 60 times a second until cancelled."""
         while True:
-            for session in self.sessions.values():
+            begin = time.monotonic()
+            self._end_idle(begin)
+            for session in list(self.sessions.values()):
                 self._wake(session)
-            await asyncio.sleep(WAKE_PERIOD_S)
+            await asyncio.sleep(max(0.001, begin + WAKE_PERIOD_S - time.monotonic()))
 
     def _wake(self, session: Session) -> None:
         """An error in one session pauses that session and stops no other."""
         try:
-            session.wake(time.monotonic())
+            if math.isinf(session.clock.speed):
+                self._rush(session)
+            else:
+                session.wake(time.monotonic())
         except Exception:
             _log.exception("Session %s was paused by an error of the program", session.name)
             session.pause()
+
+    def _rush(self, session: Session) -> None:
+        """As fast as it goes: bursts of ticks for this session's share of half the time."""
+        rushing = sum(math.isinf(other.clock.speed) for other in self.sessions.values())
+        end = time.monotonic() + BURST_S / rushing
+        while session.status == "running":
+            session.burst(time.monotonic())
+            if time.monotonic() >= end:
+                break
+
+    def _end_idle(self, now: float) -> None:
+        for name, last in list(self._last_use.items()):
+            if now - last > self._idle_s and not self._watchers.get(name):
+                self._remove(name)
+
+    def _remove(self, name: str) -> None:
+        self.sessions.pop(name).close()
+        del self._last_use[name]
+        self._watchers.pop(name, None)
 
     def read_pose(self) -> ActuatorPose | None:
         """The shared session's newest sample as the 3D view needs it; None before the first."""

@@ -10,7 +10,7 @@ from svsa.errors import Fault, ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
-from svsa.plant.effects import Effects
+from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.configuration import MOST_LANES, Lane, Law
 from svsa.runtime.metrics import Metrics
@@ -109,6 +109,18 @@ class ExperimentRequest(Checked):
     load: Annotated[bool, Field(strict=True)] = quantity(
         "", "With the paper's 3 kg load at 5 s", default=True
     )
+
+
+class SessionRequest(ExperimentRequest):
+    """A private session: a figure of the paper to start from, other lanes, effects, noise."""
+
+    figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
+    load: Annotated[bool, Field(strict=True)] = quantity(
+        "", "With the paper's 3 kg load at 5 s", default=False
+    )
+    rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1, default=())
+    effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
 
 class LoginRequest(Checked):

@@ -151,7 +151,7 @@ async def _send(
         await websocket.send_text(_greet(session, cursor, channels))
         version, told_at = session.version, time.monotonic()
         slow = False
-        while True:
+        while not session.closed:
             now = time.monotonic()
             batch = cursor.take_batch(slow)
             if batch is not None:
@@ -165,6 +165,7 @@ async def _send(
             spent = time.monotonic() - now
             slow = spent > SLOW_AFTER_S
             await asyncio.sleep(max(0.0, BATCH_PERIOD_S - spent))
+        await websocket.close(1000, "The session has ended.")
 
 
 async def _tell(websocket: WebSocket, state: BaseModel) -> None:

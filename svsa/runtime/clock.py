@@ -23,6 +23,13 @@ class SimulationClock:
         """Owe nothing, and count again from the next question on."""
         self._last, self._owed_s, self.real_time_factor = None, 0.0, 0.0
 
+    def count_burst(self, ticks: int, now: float) -> None:
+        """Ticks that were run without asking, as fast as it goes: how fast that was."""
+        if self._last is not None and now > self._last:
+            factor = ticks * self._period / (now - self._last)
+            self.real_time_factor += _SMOOTHING * (factor - self.real_time_factor)
+        self._last = now
+
     def take_due_ticks(self, now: float) -> int:
         """The whole ticks due at `now`; they count as done."""
         if self._last is None:

@@ -15,6 +15,7 @@ from svsa.runtime.metrics import RunningMetrics
 from svsa.runtime.run import Run
 
 HISTORY_TICKS = 32_768
+BURST_TICKS = 2_000
 MOST_EVENTS = 200
 MOST_COMMANDS = 100_000
 
@@ -40,6 +41,7 @@ class Session:
 
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
+        self.closed = False
         self.run_number = 0
         self.version = 0
         self.history = History(MOST_LANES, HISTORY_TICKS)
@@ -85,6 +87,11 @@ class Session:
         self.clock.stop()
         self.version += 1
 
+    def close(self) -> None:
+        """End the session for good; whoever watches it is told."""
+        self.pause()
+        self.closed = True
+
     def step(self, ticks: int) -> None:
         """Run so many ticks at once; only while paused, else `StateError`."""
         if self.status != "paused":
@@ -101,6 +108,12 @@ class Session:
         """Run the ticks that are due at `now` (monotonic wall time, s)."""
         if self.status == "running":
             self._advance(self.clock.take_due_ticks(now))
+
+    def burst(self, now: float) -> None:
+        """Run some ticks without waiting for them to be due: as fast as it goes."""
+        if self.status == "running":
+            self._advance(BURST_TICKS)
+            self.clock.count_burst(BURST_TICKS, now)
 
     def change(self, kind: str, argument: Any) -> None:
         """Give the run a command of `KINDS` now; refused, it changes nothing.

@@ -6,7 +6,13 @@ from fastapi import APIRouter, Body, Request, WebSocket
 
 from svsa.experiment.paper import get_figure
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.schemas import ExperimentRequest, SessionState, SpeedRequest, StepRequest
+from svsa_server.schemas import (
+    ExperimentRequest,
+    SessionRequest,
+    SessionState,
+    SpeedRequest,
+    StepRequest,
+)
 from svsa_server.state import build_state
 from svsa_server.stream import stream_session
 
@@ -17,6 +23,25 @@ router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS)
 async def list_sessions(request: Request) -> list[SessionState]:
     """Every session of this server."""
     return [build_state(session) for session in request.app.state.laboratory.sessions.values()]
+
+
+@router.post("", status_code=201)
+async def create_session(
+    request: Request,
+    wanted: Annotated[SessionRequest, Body(examples=[{"figure": "4a", "rivals": [{"law": "fl"}]}])],
+) -> SessionState:
+    """A private simulated session, running; it ends by itself when nobody uses it."""
+    configuration = get_figure(wanted.figure).build_configuration(wanted.controller, wanted.load)
+    configuration = configuration.changed(
+        rivals=wanted.rivals, effects=wanted.effects, seed=wanted.seed
+    )
+    return build_state(request.app.state.laboratory.create(configuration))
+
+
+@router.delete("/{session}", status_code=204)
+async def end_session(request: Request, session: NamedSession) -> None:
+    """End a private session."""
+    request.app.state.laboratory.end(session.name)
 
 
 @router.get("/{session}")
@@ -81,4 +106,9 @@ async def load_experiment(
 @router.websocket("/{session}/stream")
 async def stream(websocket: WebSocket, session: NamedSession) -> None:
     """Samples as they come; see `svsa_server.stream` for the format."""
-    await stream_session(websocket, session)
+    laboratory = websocket.app.state.laboratory
+    laboratory.watch(session.name, 1)
+    try:
+        await stream_session(websocket, session)
+    finally:
+        laboratory.watch(session.name, -1)

@@ -77,7 +77,11 @@ export interface paths {
          */
         get: operations["list_sessions_api_v1_sessions_get"];
         put?: never;
-        post?: never;
+        /**
+         * Create Session
+         * @description A private simulated session, running; it ends by itself when nobody uses it.
+         */
+        post: operations["create_session_api_v1_sessions_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -98,7 +102,11 @@ export interface paths {
         get: operations["read_session_api_v1_sessions__session__get"];
         put?: never;
         post?: never;
-        delete?: never;
+        /**
+         * End Session
+         * @description End a private session.
+         */
+        delete: operations["end_session_api_v1_sessions__session__delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -364,6 +372,46 @@ export interface paths {
         patch: operations["change_nominal_api_v1_sessions__session__nominal_patch"];
         trace?: never;
     };
+    "/api/v1/sessions/{session}/effects": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Effects
+         * @description Switch on what separates the simulation from a bench; what is left out is off.
+         */
+        put: operations["set_effects_api_v1_sessions__session__effects_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/lanes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Lanes
+         * @description Run other controllers beside the session's own: same references, loads and noise.
+         */
+        put: operations["set_lanes_api_v1_sessions__session__lanes_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/loads": {
         parameters: {
             query?: never;
@@ -541,6 +589,11 @@ export interface components {
             limits: components["schemas"]["Limits"];
             actuator: components["schemas"]["ActuatorParameters"];
             nominal: components["schemas"]["ActuatorParameters"];
+            /** Rivals */
+            rivals: components["schemas"]["Lane"][];
+            effects: components["schemas"]["Effects"];
+            /** Seed */
+            seed: number;
         };
         /**
          * ConstantLoad
@@ -625,6 +678,72 @@ export interface components {
             law: "ndobc" | "fl";
         };
         /**
+         * CurrentLag
+         * @description The current loop of the drives as a first-order lag.
+         */
+        CurrentLag: {
+            /**
+             * Time Constant S
+             * @description Time constant, s
+             * @default 0.0005
+             */
+            time_constant_s: number;
+        };
+        /**
+         * Effects
+         * @description Everything that a bench has and an ideal simulation has not.
+         */
+        Effects: {
+            /** @description Encoder quantisation */
+            encoders?: components["schemas"]["Encoders"] | null;
+            /** @description State estimated from positions */
+            estimation?: components["schemas"]["StateEstimation"] | null;
+            /**
+             * Delay Samples
+             * @description From measurement to torque, samples
+             * @default 0
+             */
+            delay_samples: number;
+            /**
+             * Torque Limits
+             * @description Torques limited as the limits say
+             * @default true
+             */
+            torque_limits: boolean;
+            /** @description Motor friction */
+            friction?: components["schemas"]["Friction"] | null;
+            /** @description Lag of the current loop */
+            current_lag?: components["schemas"]["CurrentLag"] | null;
+            /** @description Sensor noise */
+            noise?: components["schemas"]["SensorNoise"] | null;
+            /** @description Weight of the link */
+            gravity?: components["schemas"]["LinkGravity"] | null;
+        };
+        /**
+         * Encoders
+         * @description Positions in whole counts: of both motors before their gearbox, and of the deflection.
+         */
+        Encoders: {
+            /**
+             * Motor Counts Per Rev
+             * @description Motor counts a turn, 1
+             * @default 2000
+             */
+            motor_counts_per_rev: number;
+            /**
+             * Gear Ratio
+             * @description Motor gearboxes N : 1, 1
+             * @default 50
+             */
+            gear_ratio: number;
+            /**
+             * Deflection Counts Per Rev
+             * @description Deflection counts a turn, 1
+             * @default 8000
+             */
+            deflection_counts_per_rev: number;
+        };
+        /**
          * ErrorModel
          * @description Why a request was refused; nothing was changed.
          */
@@ -688,11 +807,13 @@ export interface components {
          * Fault
          * @description A run that left the domain of the model: when, why, and the values in it.
          *
-         *     `values` maps channel names (with their unit in the name) to SI values.
+         *     `lane` counts from 0. `values` maps channel names (with their unit in the name) to SI values.
          */
         Fault: {
             /** Code */
             code: string;
+            /** Lane */
+            lane: number;
             /** Tick */
             tick: number;
             /** Time S */
@@ -719,6 +840,60 @@ export interface components {
             stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"];
             /** Claim */
             claim: string;
+        };
+        /**
+         * Friction
+         * @description Coulomb and Stribeck friction of both motors, at the gearbox outputs.
+         */
+        Friction: {
+            /**
+             * Coulomb1 Nm
+             * @description Coulomb friction of motor 1, N·m
+             * @default 0.2
+             */
+            coulomb1_nm: number;
+            /**
+             * Coulomb2 Nm
+             * @description Coulomb friction of motor 2, N·m
+             * @default 0.1
+             */
+            coulomb2_nm: number;
+            /**
+             * Static Ratio
+             * @description Breakaway over Coulomb, 1
+             * @default 1.3
+             */
+            static_ratio: number;
+            /**
+             * Stribeck Rad Per S
+             * @description Stribeck velocity, rad/s
+             * @default 0.1
+             */
+            stribeck_rad_per_s: number;
+        };
+        /**
+         * Gains
+         * @description Coefficients of Eq 25. Both polynomials must be Hurwitz; refused with their roots.
+         */
+        Gains: {
+            /**
+             * Position Coefficients
+             * @description c0 … c3 of s⁴ + c3 s³ + c2 s² + c1 s + c0 (Eq 25), s⁻⁴ … s⁻¹
+             */
+            position_coefficients: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /**
+             * Stiffness Coefficients
+             * @description c0, c1 of s² + c1 s + c0 (Eq 25), s⁻², s⁻¹
+             */
+            stiffness_coefficients: [
+                number,
+                number
+            ];
         };
         /**
          * GainsRequest
@@ -809,6 +984,48 @@ export interface components {
             version: string;
         };
         /**
+         * Lane
+         * @description A controller with a plant of its own: same references, loads and noise as the others.
+         */
+        Lane: {
+            /**
+             * Law
+             * @description ndobc (Eq 24) or fl (Eq 36)
+             * @enum {string}
+             */
+            law: "ndobc" | "fl";
+            /** @description Its gains; left out, those of the run */
+            gains?: components["schemas"]["Gains"] | null;
+            /** @description Its observer; left out, that of the run */
+            observer?: components["schemas"]["ObserverBandwidth"] | null;
+        };
+        /**
+         * LaneMetrics
+         * @description The metrics of one lane; lane 1 is the session's own controller.
+         */
+        LaneMetrics: {
+            since_start: components["schemas"]["Metrics"] | null;
+            since_load: components["schemas"]["Metrics"] | null;
+            /** Lane */
+            lane: number;
+            /**
+             * Law
+             * @enum {string}
+             */
+            law: "ndobc" | "fl";
+        };
+        /**
+         * LanesRequest
+         * @description The controllers beside the session's own.
+         */
+        LanesRequest: {
+            /**
+             * Rivals
+             * @description Up to three
+             */
+            rivals: components["schemas"]["Lane"][];
+        };
+        /**
          * Limits
          * @description Torque limits, and the guards that keep a run inside the domain of the model.
          */
@@ -853,6 +1070,18 @@ export interface components {
              * @description How far μ may leave its range before the run ends in a fault, 1
              */
             lever_ratio_margin: number;
+        };
+        /**
+         * LinkGravity
+         * @description The weight of the link itself: τ_g = moment · sin q.
+         */
+        LinkGravity: {
+            /**
+             * Moment Nm
+             * @description m g r of the link, N·m
+             * @default 0.5
+             */
+            moment_nm: number;
         };
         /**
          * LoadState
@@ -913,6 +1142,7 @@ export interface components {
          * Metrics
          * @description Metrics of a stretch of samples; SI units as named, over `duration_s`.
          *
+         *     integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
          *     recovery_time_s: from the start of the stretch until the position error stays within
          *     2 % of its peak (for 0.5 s at least); None while it has not.
          */
@@ -931,6 +1161,10 @@ export interface components {
             peak_torque1_nm: number;
             /** Peak Torque2 Nm */
             peak_torque2_nm: number;
+            /** Integral Position Error Rad S */
+            integral_position_error_rad_s: number;
+            /** Effort N2M2 S */
+            effort_n2m2_s: number;
             /** Recovery Time S */
             recovery_time_s: number | null;
         };
@@ -1006,6 +1240,24 @@ export interface components {
             im: number;
         };
         /**
+         * SensorNoise
+         * @description White normal noise on the three measured angles, seeded by the run's seed.
+         */
+        SensorNoise: {
+            /**
+             * Motor Std Rad
+             * @description Standard deviation, motors, rad
+             * @default 0.00002
+             */
+            motor_std_rad: number;
+            /**
+             * Deflection Std Rad
+             * @description Standard deviation, deflection, rad
+             * @default 0.0002
+             */
+            deflection_std_rad: number;
+        };
+        /**
          * SeriesLoad
          * @description A torque of one's own: points in time since the onset, joined by straight lines.
          */
@@ -1044,6 +1296,52 @@ export interface components {
             since_load: components["schemas"]["Metrics"] | null;
         };
         /**
+         * SessionRequest
+         * @description A private session: a figure of the paper to start from, other lanes, effects, noise.
+         */
+        SessionRequest: {
+            /**
+             * Figure
+             * @description Figure of the paper
+             * @default 4a
+             * @enum {string}
+             */
+            figure: "4a" | "4b" | "5";
+            /**
+             * Controller
+             * @description ndobc or fl
+             * @default ndobc
+             * @enum {string}
+             */
+            controller: "ndobc" | "fl";
+            /**
+             * Load
+             * @description With the paper's 3 kg load at 5 s
+             * @default false
+             */
+            load: boolean;
+            /**
+             * Rivals
+             * @description Up to three
+             * @default []
+             */
+            rivals: components["schemas"]["Lane"][];
+            /**
+             * @description What separates it from a bench
+             * @default {
+             *       "delay_samples": 0,
+             *       "torque_limits": true
+             *     }
+             */
+            effects: components["schemas"]["Effects"];
+            /**
+             * Seed
+             * @description Seed of the sensor noise
+             * @default 0
+             */
+            seed: number;
+        };
+        /**
          * SessionState
          * @description A session: where it is, how well it does, and how it is set.
          */
@@ -1063,7 +1361,7 @@ export interface components {
             /** Time S */
             time_s: number;
             /** Speed */
-            speed: number;
+            speed: number | "max";
             /**
              * Real Time Factor
              * @description Session seconds a wall second, as measured
@@ -1075,7 +1373,10 @@ export interface components {
              */
             stretched_s: number;
             fault: components["schemas"]["Fault"] | null;
+            /** @description Of lane 1 */
             metrics: components["schemas"]["SessionMetrics"];
+            /** Lanes */
+            lanes: components["schemas"]["LaneMetrics"][];
             /** Session */
             session: string;
             /** Rate Hz */
@@ -1213,9 +1514,21 @@ export interface components {
         SpeedRequest: {
             /**
              * Factor
-             * @description Session seconds a wall second, 1
+             * @description Session seconds a wall second, 0.05 to 20, or max for as fast as it goes, 1
              */
-            factor: number;
+            factor: number | "max";
+        };
+        /**
+         * StateEstimation
+         * @description Velocities (and positions) from measured positions, by predictor and corrector.
+         */
+        StateEstimation: {
+            /**
+             * Corner Rad Per S
+             * @description Corner of the corrector, rad/s
+             * @default 200
+             */
+            corner_rad_per_s: number;
         };
         /**
          * StepRequest
@@ -1397,6 +1710,57 @@ export interface operations {
             };
         };
     };
+    create_session_api_v1_sessions_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SessionRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
     read_session_api_v1_sessions__session__get: {
         parameters: {
             query?: never;
@@ -1417,6 +1781,54 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["SessionState"];
                 };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    end_session_api_v1_sessions__session__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description No such session or load */
             404: {
@@ -2096,6 +2508,114 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["ActuatorParametersPatch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    set_effects_api_v1_sessions__session__effects_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Effects"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    set_lanes_api_v1_sessions__session__lanes_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LanesRequest"];
             };
         };
         responses: {
