@@ -15,6 +15,7 @@ REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zor
 LAW_STYLES = {
     "fl": {"color": "#D55E00", "linewidth": 1.3, "label": "FL"},
     "ndobc": {"color": "#0072B2", "linewidth": 1.3, "label": "NDOBC"},
+    "own": {"color": "#009E73", "linewidth": 1.3, "label": "own controller"},
 }
 CHANNEL_COLORS = ("#0072B2", "#D55E00", "#009E73")
 

@@ -12,6 +12,7 @@ from svsa.experiment.paper import DURATION_S, get_figure
 from svsa.runtime.configuration import Configuration, Law
 from svsa.runtime.metrics import Metrics, compute_metrics
 from svsa.runtime.run import Run
+from svsa.runtime.stepwise import Controller
 from svsa.signals import CHANNEL_INDEX, CHANNEL_NAMES, CHANNELS
 
 if TYPE_CHECKING:
@@ -28,14 +29,15 @@ class Result:
 
     samples: (ticks, channels), float64, SI, columns as `svsa.signals.CHANNELS`. A channel is
     also an attribute: `result.position_error_rad`. fault: why the run ended early, or None.
-    rivals: the results of the controllers that ran beside this one. law: what controlled.
+    rivals: the results of the controllers that ran beside this one. law: what controlled,
+    "own" for a function of one's own.
     """
 
     configuration: Configuration
     samples: np.ndarray = field(repr=False)
     fault: Fault | None = None
     rivals: "tuple[Result, ...]" = field(default=(), repr=False)
-    law: Law = "ndobc"
+    law: str = "ndobc"
 
     @property
     def units(self) -> dict[str, str]:
@@ -84,7 +86,7 @@ class Result:
 
 def simulate(
     experiment: str | Configuration = "4a",
-    controller: Law | None = None,
+    controller: Law | Controller | None = None,
     *,
     duration_s: float = DURATION_S,
     steps: int = 1,
@@ -93,9 +95,10 @@ def simulate(
     """Simulate a run from rest and return everything that happened.
 
     experiment: a figure of the paper ("4a", "4b", "5") or a `Configuration`. controller:
-    "ndobc" or "fl". duration_s: s. steps: Runge–Kutta steps a control period. changes:
-    fields of the configuration to replace, e.g. position, stiffness, loads, gains,
-    observer, limits, actuator, nominal.
+    "ndobc", "fl", or a function (`Controller`): time in s, `Reference`, x̂ as `State`, ŵ as
+    `Disturbance` → (u1, u2) in N·m. duration_s: s. steps: Runge–Kutta steps a control
+    period. changes: fields of the configuration to replace, e.g. position, stiffness,
+    loads, gains, observer, limits, actuator, nominal, rivals, effects, seed.
 
     Raises `ParameterError` for a value out of range. A run that leaves the domain of the
     model ends early: see `Result.fault`.
@@ -104,7 +107,8 @@ def simulate(
         configuration = experiment
     else:
         configuration = get_figure(experiment).build_configuration()
-    if controller is not None:
+    own = controller if callable(controller) else None
+    if controller is not None and own is None:
         changes["law"] = controller
     if changes:
         configuration = configuration.changed(**changes)
@@ -113,11 +117,12 @@ def simulate(
     check_number("steps", steps, "", 1, MOST_STEPS)
     if not isinstance(steps, int):
         raise ParameterError(Violation("steps", steps, "", "a whole number"))
-    run = Run(configuration, steps)
+    run = Run(configuration, steps, own)
     samples = np.empty((len(run.lanes), round(duration_s / period), len(CHANNELS)))
     done = run.advance(samples)
+    laws = ["own" if own else configuration.law, *(lane.law for lane in configuration.rivals)]
     first, *rivals = (
-        Result(configuration, rows[:done], run.fault, law=lane.law)
-        for rows, lane in zip(samples, configuration.lanes, strict=True)
+        Result(configuration, rows[:done], run.fault, law=law)
+        for rows, law in zip(samples, laws, strict=True)
     )
     return replace(first, rivals=tuple(rivals))

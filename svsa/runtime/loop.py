@@ -213,11 +213,21 @@ def advance_tick(blocks, inputs, lane, tick, sample):
     code = check_domain(blocks.domain, blocks.plant, lane.x)
     if code != INSIDE:
         return lane, code
-    bench, period, time = blocks.bench, blocks.period, tick * blocks.period
-    reference = read_reference(inputs, time)
+    reference = read_reference(inputs, tick * blocks.period)
     torque = compute_control(blocks, lane.known, reference, lane.estimate)
     if not math.isfinite(torque.u1 + torque.u2):
         return lane, NOT_FINITE
+    return apply_torque(blocks, inputs, lane, reference, torque, tick, sample), INSIDE
+
+
+@compiled
+def apply_torque(blocks, inputs, lane, reference, torque, tick, sample):
+    """The tick from the controller's torque on: write, plant, read, observer, publish.
+
+    lane: `LaneState` at the start of the tick. reference: `Reference` then. torque: asked
+    for, within the limits, N·m. sample: (channels,), written. Returns `LaneState` at the end.
+    """
+    bench, period, time = blocks.bench, blocks.period, tick * blocks.period
     asked, target = delay(bench, lane.asked, torque)
     load = compute_plant_load(bench, inputs.loads, lane.x, tick, period, time)
     publish(blocks, reference, lane, target, load, time, sample)
@@ -230,7 +240,7 @@ def advance_tick(blocks, inputs, lane, tick, sample):
     estimate = update_disturbance_estimate(
         blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period
     )
-    return LaneState(x, known, estimate, made, asked), INSIDE
+    return LaneState(x, known, estimate, made, asked)
 
 
 @compiled

@@ -19,7 +19,8 @@ from svsa.reference.trajectories import (
 from svsa.reference.transition import build_stack, push_trajectory
 from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane, Law
 from svsa.runtime.fault import build_fault
-from svsa.runtime.loop import INITIAL, Inputs, LaneState, advance, build_blocks
+from svsa.runtime.loop import INITIAL, Blocks, Inputs, LaneState, advance, build_blocks
+from svsa.runtime.stepwise import Controller, advance_stepwise
 from svsa.signals import CHANNELS
 
 
@@ -28,11 +29,15 @@ class Run:
 
     `configuration` is the present one; a change takes effect at the next tick. The run
     starts at x = 0 with the μ0 that makes σ(0) = σ_d(0). steps: Runge–Kutta steps a period.
+    controller: one's own in plain Python, in place of the first lane's law.
     """
 
-    def __init__(self, configuration: Configuration, steps: int = 1) -> None:
+    def __init__(
+        self, configuration: Configuration, steps: int = 1, controller: Controller | None = None
+    ) -> None:
         self.configuration = configuration
         self.steps = steps
+        self._controller = controller
         self.tick = 0
         self.lanes = [INITIAL for _ in configuration.lanes]
         self.fault: Fault | None = None
@@ -69,21 +74,27 @@ class Run:
         done, after = samples.shape[1], []
         for number, (blocks, lane) in enumerate(zip(self._blocks, self.lanes, strict=True)):
             rows = samples[number, :done]
-            reached, ticks, code = advance(blocks, self._inputs, lane, self.tick, rows)
+            reached, ticks, code = self._advance_lane(number, blocks, lane, rows)
             if code != INSIDE:
                 done = ticks
                 self.fault = build_fault(code, number, self.tick + done, blocks, reached.x)
             after.append(reached)
         if self.fault is not None:
-            after = [self._advance_lane(number, done) for number in range(len(self.lanes))]
+            spare = np.empty((done, len(CHANNELS)))
+            after = [
+                self._advance_lane(number, blocks, lane, spare)[0]
+                for number, (blocks, lane) in enumerate(zip(self._blocks, self.lanes, strict=True))
+            ]
         self.lanes = after
         self.tick += done
         return done
 
-    def _advance_lane(self, number: int, ticks: int) -> LaneState:
-        """The lane so many ticks on: where one lane ended early, the others end with it."""
-        spare = np.empty((ticks, len(CHANNELS)))
-        return advance(self._blocks[number], self._inputs, self.lanes[number], self.tick, spare)[0]
+    def _advance_lane(
+        self, number: int, blocks: Blocks, lane: LaneState, rows: np.ndarray
+    ) -> tuple[LaneState, int, int]:
+        if number == 0 and self._controller is not None:
+            return advance_stepwise(blocks, self._inputs, lane, self.tick, rows, self._controller)
+        return advance(blocks, self._inputs, lane, self.tick, rows)
 
     def set_position(self, reference: PositionReference) -> None:
         """Fade over to this position reference, from now on."""

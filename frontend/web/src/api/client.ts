@@ -11,6 +11,7 @@ import type {
   Sent,
   SessionPath,
   SessionState,
+  Speed,
   StiffnessReference,
 } from "./types";
 
@@ -61,7 +62,7 @@ export const putController = (law: Law) => call("put", "/controller", { law });
 export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
-export const putSpeed = (factor: number) => call("put", "/speed", { factor });
+export const putSpeed = (factor: Speed) => call("put", "/speed", { factor });
 export const start = () => call("post", "/start");
 export const pause = () => call("post", "/pause");
 export const reset = () => call("post", "/reset");

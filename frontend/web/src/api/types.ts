@@ -8,6 +8,7 @@ export type Configuration = Schemas["ConfigurationState"];
 export type PositionReference = Configuration["position"];
 export type StiffnessReference = Configuration["stiffness"];
 export type Law = Configuration["law"];
+export type Speed = SessionState["speed"];
 export type LoadRow = Schemas["LoadState"];
 export type SessionEvent = Schemas["Event"];
 export type Figure = Schemas["ExperimentRequest"]["figure"];

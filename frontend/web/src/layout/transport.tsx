@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import { pause, putSpeed, reset, runFigure, start, step } from "../api/client";
-import type { Figure, SessionState } from "../api/types";
+import type { Figure, SessionState, Speed } from "../api/types";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
 
@@ -28,15 +28,17 @@ export function FigurePicker({ state }: { state: SessionState }) {
   );
 }
 
-function SpeedPicker({ speed }: { speed: number }) {
-  const speeds = SPEEDS.includes(speed) ? SPEEDS : [...SPEEDS, speed].sort((a, b) => a - b);
+function SpeedPicker({ speed }: { speed: Speed }) {
+  const isListed = speed === "max" || SPEEDS.includes(speed);
+  const speeds = isListed ? SPEEDS : [...SPEEDS, speed].sort((a, b) => a - b);
   return (
     <label class="select" title={text.transport.speedHint}>
       <span class="select-label">{text.transport.speed}</span>
       <select
         value={String(speed)}
         onChange={(event) => {
-          const factor = Number(event.currentTarget.value);
+          const chosen = event.currentTarget.value;
+          const factor = chosen === "max" ? chosen : Number(chosen);
           void perform("session", () => putSpeed(factor));
         }}
       >
@@ -45,6 +47,7 @@ function SpeedPicker({ speed }: { speed: number }) {
             {text.transport.times(factor)}
           </option>
         ))}
+        <option value="max">{text.transport.fastest}</option>
       </select>
     </label>
   );

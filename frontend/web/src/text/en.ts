@@ -27,6 +27,7 @@ export const text = {
     speed: "Speed",
     speedHint: "Session time against wall time",
     times: (factor: number) => `${factor}×`,
+    fastest: "as fast as it goes",
   },
   status: {
     running: "Running",
