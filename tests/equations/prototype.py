@@ -6,12 +6,15 @@ import numpy as np
 from hypothesis import settings
 from hypothesis import strategies as st
 
+import svsa
 from svsa.control.feedback_linearization import build_gains
 from svsa.model.dynamics import build_actuator
 from svsa.model.lever import compute_zero_stiffness_deflection
 from svsa.plant.disturbances import build_load_table
+from svsa.plant.effects import build_bench
+from svsa.plant.integration import integrate_period
 from svsa.runtime.configuration import load_prototype
-from svsa.signals import State, Torque
+from svsa.signals import CHANNELS, State, Torque
 
 DESIGN = load_prototype()
 MU0 = 0.5
@@ -21,6 +24,7 @@ GAINS = build_gains(DESIGN.gains)
 K = PLANT.K
 NO_TORQUE = Torque(0.0, 0.0)
 NO_LOADS = build_load_table(())
+IDEAL_BENCH = build_bench(svsa.IDEAL, 0, DESIGN.actuator, 0.001)
 
 LEVER_RATIO_RANGE = (0.2861, 0.7904)
 
@@ -48,6 +52,25 @@ def states(draw, speed=5.0):
 def build_state(mu, phi, q=0.0, dq=0.0, dtheta1=0.0, dtheta2=0.0, mu0=MU0):
     """The `State` with this lever ratio and deflection."""
     return State(q, dq, q - phi, dtheta1, 2.0 * math.pi * (mu - mu0), dtheta2)
+
+
+def integrate_ideal(actuator, x, torque, loads, tick, period, steps=1):
+    """`integrate_period` on a bench without effects: the torque is held over the period."""
+    return integrate_period(actuator, IDEAL_BENCH, x, torque, torque, loads, tick, period, steps)
+
+
+def record(run, ticks):
+    """The samples (ticks, channels) of the first lane; the run must not end before."""
+    samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
+    assert run.advance(samples) == ticks, run.fault
+    return samples[0]
+
+
+def put(run, **changes):
+    """Move the plant of the first lane, and what the controller knows of it."""
+    lane = run.lanes[0]
+    x, known = lane.x._replace(**changes), lane.known._replace(**changes)
+    run.lanes[0] = lane._replace(x=x, known=known)
 
 
 def differentiate(function, at, step):

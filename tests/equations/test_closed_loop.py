@@ -15,13 +15,12 @@ from svsa.model.domain import DEFLECTION_LIMIT, INSIDE, build_domain, check_doma
 from svsa.model.dynamics import build_actuator
 from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.model.linearization import compute_linearization, solve_decoupling
-from svsa.observer.disturbance import update_disturbance_estimate
-from svsa.plant.integration import integrate_period
+from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
 from svsa.reference.trajectories import compute_sine
 from svsa.runtime.run import Run
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Disturbance, Reference, State, Torque
 
-from .prototype import DESIGN, NO_LOADS, K
+from .prototype import DESIGN, NO_LOADS, K, integrate_ideal, put, record
 
 GAINS_OF_POLES = {
     "the default poles": svsa.Gains.from_poles([-60.0] * 4, [-40.0] * 2),
@@ -31,12 +30,6 @@ GAINS_OF_POLES = {
 }
 LEVEL = 60.0
 OFF_POSITION, OFF_STIFFNESS = 0.01, 2.0
-
-
-def record(run, ticks):
-    samples = np.empty((ticks, len(CHANNELS)))
-    assert run.advance(samples) == ticks, run.fault
-    return samples
 
 
 def predict_error(coefficients, e0, times):
@@ -57,7 +50,7 @@ def compute_departure(gains, period):
     )
     run = Run(configuration)
     mu = compute_lever_ratio_for_stiffness(LEVEL - OFF_STIFFNESS, K)
-    run.state = run.state._replace(theta2=2.0 * np.pi * (mu - run.mu0))
+    put(run, theta2=2.0 * np.pi * (mu - run.mu0))
     samples = record(run, round(0.2 / period))[:: round(2e-3 / period)]
     times = samples[:, CHANNEL_INDEX["time_s"]]
     position = samples[:, CHANNEL_INDEX["position_error_rad"]]
@@ -118,6 +111,8 @@ ODD = [
     "velocity_reference_rad_per_s",
     "position_rad",
     "velocity_rad_per_s",
+    "position_estimate_rad",
+    "velocity_estimate_rad_per_s",
     "motor1_position_rad",
     "motor1_velocity_rad_per_s",
     "deflection_rad",
@@ -158,6 +153,7 @@ def run_until_fault(law, duration, steps=1):
     plant, nominal = build_actuator(DESIGN.actuator, mu0), build_actuator(DESIGN.nominal, mu0)
     gains, domain = build_gains(DESIGN.gains), build_domain(DESIGN.actuator, DESIGN.limits)
     x, estimate, period = State(*np.zeros(6)), Disturbance(0.0, 0.0, 0.0), 0.001
+    shares = compute_shares(DESIGN.observer, period)
     for tick in range(round(duration / period)):
         code = check_domain(domain, plant, x)
         if code != INSIDE:
@@ -165,10 +161,8 @@ def run_until_fault(law, duration, steps=1):
         q = compute_sine(0.0, np.radians(60.0), 0.4 * np.pi, 0.0, tick * period)
         asked = law(nominal, gains, x, Reference(*q, 15.0, 0.0, 0.0), estimate)
         torque = limit_torque(asked, DESIGN.limits.torque1_nm, DESIGN.limits.torque2_nm)
-        old, x = x, integrate_period(plant, x, torque, NO_LOADS, tick, period, steps)
-        estimate = update_disturbance_estimate(
-            nominal, (60.0,) * 3, estimate, old, x, torque, period
-        )
+        old, x = x, integrate_ideal(plant, x, torque, NO_LOADS, tick, period, steps)
+        estimate = update_disturbance_estimate(nominal, shares, estimate, old, x, torque, period)
     return duration, INSIDE
 
 

@@ -25,7 +25,7 @@ from svsa.model.linearization import compute_linearization
 from svsa.runtime.run import Run
 from svsa.signals import CHANNELS, State
 
-from .prototype import DESIGN, NOMINAL, PLANT, build_state, drawn, lever_ratios, springs
+from .prototype import DESIGN, NOMINAL, PLANT, build_state, drawn, lever_ratios, put, springs
 
 DOMAIN = build_domain(DESIGN.actuator, DESIGN.limits)
 PUSH_LINK = svsa.ConstantLoad(torque_nm=(20.0, 0.0, 0.0), start_s=0.05)
@@ -82,25 +82,36 @@ def test_the_fault_is_the_first_state_outside_and_the_last_sample_is_inside():
 def test_a_number_that_is_not_finite_ends_the_run_at_once(broken, law):
     """NaN and ∞ in the state, and a speed at which the law itself overflows."""
     run = Run(svsa.paper.get_figure("4b").build_configuration(law))
-    samples = np.full((20, len(CHANNELS)), -1.0)
-    run.advance(samples[:10])
-    run.state = run.state._replace(dq=broken)
-    assert run.advance(samples[10:]) == 0
+    samples = np.full((1, 20, len(CHANNELS)), -1.0)
+    run.advance(samples[:, :10])
+    put(run, dq=broken)
+    assert run.advance(samples[:, 10:]) == 0
     assert run.fault is not None
     assert run.fault.code == "not_finite"
     assert run.fault.tick == run.tick == 10
-    assert np.all(samples[10:] == -1.0), "nothing may be written for a tick that was not run"
+    assert np.all(samples[:, 10:] == -1.0), "nothing may be written for a tick that was not run"
     assert all(math.isfinite(value) for value in run.fault.values.values())
+
+
+@pytest.mark.parametrize("law", ["fl", "ndobc"])
+def test_a_controller_that_knows_no_finite_number_ends_the_run_at_once(law):
+    """The plant is sound, but what is measured of it is not: no torque may come of that."""
+    run = Run(svsa.paper.get_figure("4b").build_configuration(law))
+    lane = run.lanes[0]
+    run.lanes[0] = lane._replace(known=lane.known._replace(dtheta2=float("nan")))
+    assert run.advance(np.empty((1, 5, len(CHANNELS)))) == 0
+    assert run.fault.code == "not_finite"
+    assert run.lanes[0].x == lane.x
 
 
 def test_a_run_that_has_ended_stays_ended():
     run = Run(svsa.paper.get_figure("4a").build_configuration().changed(loads=(PUSH_LINK,)))
-    samples = np.empty((2000, len(CHANNELS)))
+    samples = np.empty((1, 2000, len(CHANNELS)))
     done = run.advance(samples)
-    before = run.state, run.tick, run.fault
+    before = list(run.lanes), run.tick, run.fault
     assert done < 2000
     assert run.advance(samples) == 0
-    assert (run.state, run.tick, run.fault) == before
+    assert (run.lanes, run.tick, run.fault) == before
 
 
 @drawn

@@ -7,9 +7,8 @@ from hypothesis import given, settings
 from svsa.model.dynamics import build_actuator, compute_deflection
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_elastic_energy
-from svsa.plant.integration import integrate_period
 
-from .prototype import DESIGN, MU0, NO_LOADS, NO_TORQUE, build_state, states
+from .prototype import DESIGN, MU0, NO_LOADS, NO_TORQUE, build_state, integrate_ideal, states
 
 UNDAMPED = {
     "link_damping_nms_per_rad": 0.0,
@@ -32,7 +31,7 @@ def release(parameters, x, duration, period, steps=1):
     actuator = build_actuator(parameters, MU0)
     energies = [compute_total_energy(actuator, x)]
     for tick in range(round(duration / period)):
-        x = integrate_period(actuator, x, NO_TORQUE, NO_LOADS, tick, period, steps)
+        x = integrate_ideal(actuator, x, NO_TORQUE, NO_LOADS, tick, period, steps)
         energies.append(compute_total_energy(actuator, x))
     return np.array(energies)
 
@@ -57,7 +56,7 @@ def test_damping_takes_the_power_that_the_velocities_say():
     actuator = build_actuator(DESIGN.actuator, MU0)
     period = 1e-4
     energies = release(DESIGN.actuator, START, 2 * period, period)
-    after = integrate_period(actuator, START, NO_TORQUE, NO_LOADS, 0, period, 1)
+    after = integrate_ideal(actuator, START, NO_TORQUE, NO_LOADS, 0, period, 1)
     power = (
         actuator.D * after.dq**2 + actuator.D1 * after.dtheta1**2 + actuator.D2 * after.dtheta2**2
     )

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.model.dynamics import shift
 from svsa.plant.disturbances import ConstantLoad, build_load_table, schedule_load
-from svsa.plant.integration import integrate_period, shift
 from svsa.signals import State, Torque
 
-from .prototype import NO_LOADS, PLANT, build_state
+from .prototype import NO_LOADS, PLANT, build_state, integrate_ideal
 
 START = build_state(mu=0.7, phi=0.15, dq=1.0, dtheta1=-2.0, dtheta2=0.5)
 TORQUE = Torque(1.5, -0.4)
@@ -16,7 +16,7 @@ PERIOD_S = 0.032
 
 
 def integrate(steps, loads=NO_LOADS):
-    return np.array(integrate_period(PLANT, START, TORQUE, loads, 0, PERIOD_S, steps))
+    return np.array(integrate_ideal(PLANT, START, TORQUE, loads, 0, PERIOD_S, steps))
 
 
 def test_the_error_falls_with_the_fourth_power_of_the_step():
@@ -44,7 +44,7 @@ def test_a_constant_force_on_free_inertias_is_integrated_exactly():
     x = State(0.1, -0.2, 0.3, 0.4, 0.0, 0.0)
     load = ConstantLoad(torque_nm=(0.5, -0.25, 0.0))
     loads = build_load_table((schedule_load(1, load, 0, 0.01),))
-    end = integrate_period(free, x, Torque(0.75, 0.0), loads, 0, 0.01, 1)
+    end = integrate_ideal(free, x, Torque(0.75, 0.0), loads, 0, 0.01, 1)
     ddq, ddtheta1 = 0.5 / free.M, 0.5 / free.B1
     assert end.q == pytest.approx(0.1 - 0.2 * 0.01 + 0.5 * ddq * 1e-4, rel=1e-12)
     assert end.dq == pytest.approx(-0.2 + ddq * 0.01, rel=1e-12)
@@ -63,7 +63,7 @@ def test_the_load_is_sampled_inside_the_period_at_the_right_times():
     gained = 0.5 / (free.M * omega) * (np.cos(omega * since) - np.cos(omega * (since + period)))
     errors = []
     for steps in (1, 2, 4, 8):
-        end = integrate_period(
+        end = integrate_ideal(
             free, State(*np.zeros(6)), Torque(0.0, 0.0), loads, tick, period, steps
         )
         errors.append(abs(end.dq - gained))

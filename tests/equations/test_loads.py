@@ -10,9 +10,9 @@ from svsa.model.dynamics import ExternalLoad, compute_acceleration, compute_inte
 from svsa.plant.disturbances import build_load_table, compute_load, schedule_load
 from svsa.runtime.configuration import MOST_LOADS
 from svsa.runtime.run import Run
-from svsa.signals import CHANNEL_INDEX, CHANNELS, Torque
+from svsa.signals import CHANNEL_INDEX, Torque
 
-from .prototype import PLANT, build_state
+from .prototype import PLANT, build_state, record
 
 T = 0.001
 TRIPLE = (0.5, -0.25, 0.125)
@@ -140,9 +140,7 @@ def test_a_run_feels_its_loads_in_the_sample_of_their_onset():
     configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
     run = Run(configuration.changed(nominal=configuration.actuator))
     run.add_load(svsa.PulseLoad(torque_nm=TRIPLE, duration_s=0.01, start_s=0.02))
-    samples = np.empty((40, len(CHANNELS)))
-    run.advance(samples)
-    link = samples[:, CHANNEL_INDEX["disturbance_link_nm"]]
+    link = record(run, 40)[:, CHANNEL_INDEX["disturbance_link_nm"]]
     expected = np.where((np.arange(40) >= 20) & (np.arange(40) < 30), 0.5, 0.0)
     np.testing.assert_allclose(link, expected, atol=1e-11)
 

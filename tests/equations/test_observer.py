@@ -8,19 +8,24 @@ from svsa.control.feedback_linearization import build_gains
 from svsa.control.ndobc import compute_ndobc
 from svsa.model.dynamics import build_actuator, compute_internal_torque
 from svsa.model.lever import compute_lever_ratio_for_stiffness
-from svsa.observer.disturbance import update_disturbance_estimate
+from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
 from svsa.plant.disturbances import build_load_table, schedule_load
-from svsa.plant.integration import integrate_period
 from svsa.runtime.run import Run
-from svsa.signals import CHANNELS, Disturbance, Reference, State, Torque
+from svsa.signals import CHANNEL_INDEX, Disturbance, Reference, State, Torque
 
-from .prototype import DESIGN, NOMINAL, PLANT, build_state
+from .prototype import DESIGN, NOMINAL, PLANT, build_state, integrate_ideal, record
 
 BANDWIDTH = (40.0, 60.0, 90.0)
+OBSERVER = svsa.ObserverBandwidth(bandwidth_rad_per_s=BANDWIDTH)
 INERTIA = np.array([NOMINAL.M, NOMINAL.B1, NOMINAL.B2])
 COARSE_S, FINE_PER_COARSE, COARSE_STEPS = 0.008, 128, 25
 NOTHING = Disturbance(0.0, 0.0, 0.0)
 OMEGA = 0.4 * np.pi
+STATE = [
+    f"{part}{quantity}"
+    for part in ("", "motor1_", "motor2_")
+    for quantity in ("position_rad", "velocity_rad_per_s")
+]
 LOAD = svsa.SineLoad(torque_nm=(1.0, 0.5, 0.2), frequency_hz=2.0)
 
 
@@ -35,7 +40,7 @@ def record_trajectory():
             states.append(x)
             torques.append(torque)
             tick = k * FINE_PER_COARSE + i
-            x = integrate_period(PLANT, x, torque, loads, tick, fine, 1)
+            x = integrate_ideal(PLANT, x, torque, loads, tick, fine, 1)
     return [*states, x], torques
 
 
@@ -43,9 +48,10 @@ def observe(states, torques, stride):
     """The discrete observer with a period of `stride` fine steps; ŵ at the coarse times."""
     estimate, out = NOTHING, []
     period = stride * COARSE_S / FINE_PER_COARSE
+    shares = compute_shares(OBSERVER, period)
     for i in range(0, len(torques), stride):
         estimate = update_disturbance_estimate(
-            NOMINAL, BANDWIDTH, estimate, states[i], states[i + stride], torques[i], period
+            NOMINAL, shares, estimate, states[i], states[i + stride], torques[i], period
         )
         if (i + stride) % FINE_PER_COARSE == 0:
             out.append(estimate)
@@ -137,16 +143,16 @@ def replay_with_asked_torque(result):
     """What the last estimate of a run would be if the observer heard the law, not the limits."""
     mu0 = compute_lever_ratio_for_stiffness(60.0, NOMINAL.K)
     nominal, gains = build_actuator(DESIGN.actuator, mu0), build_gains(DESIGN.gains)
-    estimate, states = NOTHING, [State(*row) for row in result.samples[:, 4:10]]
-    references = result.to_dataframe().filter(regex="reference").to_numpy()
+    shares = compute_shares(DESIGN.observer, 0.001)
+    frame = result.to_dataframe()
+    estimate, states = NOTHING, [State(*row) for row in frame[STATE].to_numpy()]
+    references = frame.filter(regex="reference").to_numpy()
     for old, new, (q, dq, sigma) in zip(states[:-1], states[1:], references[:-1], strict=True):
         reference = Reference(
             q, dq, -(OMEGA**2) * q, -(OMEGA**2) * dq, OMEGA**4 * q, sigma, 0.0, 0.0
         )
         asked = compute_ndobc(nominal, gains, old, reference, NOTHING)
-        estimate = update_disturbance_estimate(
-            nominal, (60.0,) * 3, estimate, old, new, asked, 0.001
-        )
+        estimate = update_disturbance_estimate(nominal, shares, estimate, old, new, asked, 0.001)
     return estimate
 
 
@@ -155,7 +161,7 @@ def test_one_update_from_rest_is_the_share_that_beta_gives():
     rest = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     nominal = build_actuator(DESIGN.nominal, 0.5)
     found = update_disturbance_estimate(
-        nominal, BANDWIDTH, NOTHING, rest, rest, Torque(0.7, -0.2), 0.001
+        nominal, compute_shares(OBSERVER, 0.001), NOTHING, rest, rest, Torque(0.7, -0.2), 0.001
     )
     assert found.w2 == 0.0
     assert found.w4 == pytest.approx(-0.7 * (1.0 - np.exp(-0.06)), rel=1e-12)
@@ -165,18 +171,20 @@ def test_one_update_from_rest_is_the_share_that_beta_gives():
 def test_the_loop_feeds_the_observer_with_the_estimate_before_it_is_used_by_the_law():
     """The first sample acts on ŵ = 0, the second on the estimate of the first period."""
     run = Run(svsa.paper.get_figure("4a").build_configuration())
-    samples = np.empty((1, len(CHANNELS)))
-    start = run.state
-    run.advance(samples)
-    torque = Torque(samples[0, 16], samples[0, 17])
+    start = run.lanes[0].x
+    sample = dict(zip(CHANNEL_INDEX, record(run, 1)[0], strict=True))
+    torque = Torque(sample["torque1_nm"], sample["torque2_nm"])
     expected = update_disturbance_estimate(
         build_actuator(DESIGN.nominal, run.mu0),
-        (60.0,) * 3,
+        compute_shares(DESIGN.observer, 0.001),
         NOTHING,
         start,
-        run.state,
+        run.lanes[0].x,
         torque,
         0.001,
     )
-    assert run.estimate == pytest.approx(expected, rel=1e-12)
-    assert tuple(samples[0, 21:24]) == (0.0, 0.0, 0.0)
+    assert run.lanes[0].estimate == pytest.approx(expected, rel=1e-12)
+    used, parts = run.lanes[0].estimate, ("link", "motor1", "motor2")
+    assert [sample[f"estimate_{part}_nm"] for part in parts] == [0.0, 0.0, 0.0]
+    after = dict(zip(CHANNEL_INDEX, record(run, 1)[0], strict=True))
+    assert [after[f"estimate_{part}_nm"] for part in parts] == list(used)

@@ -8,6 +8,11 @@ PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)
 ALL = list(range(len(CHANNELS)))
 
 
+def read_samples(session, lane=0):
+    """All that the history holds of a lane: (ticks, channels)."""
+    return session.history.read(session.history.first_tick, 1, ALL, [lane])[:, 0]
+
+
 def build_session(*loads):
     figure = svsa.paper.get_figure("4b")
     return Session("test", figure.build_configuration(load=False).changed(loads=loads))

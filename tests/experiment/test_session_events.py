@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.runtime.command import KINDS
+from svsa.signals import CHANNEL_INDEX
 
-from .sessions import PULSE, build_session, list_events
+from .sessions import PULSE, build_session, list_events, read_samples
 
 
 def test_loads_are_logged_when_they_act():
@@ -24,10 +26,11 @@ def test_the_metrics_since_the_load_begin_at_its_onset():
     session.step(30)
     assert session.since_load is None
     session.step(40)
-    since = session.since_load.summarize()
+    (since,) = [metrics.summarize() for metrics in session.since_load]
+    (whole,) = [metrics.summarize() for metrics in session.since_start]
     assert since.duration_s == pytest.approx(0.04)
-    assert session.since_start.summarize().duration_s == pytest.approx(0.07)
-    error = session.history.read(30, 1, [14])
+    assert whole.duration_s == pytest.approx(0.07)
+    error = read_samples(session)[30:, CHANNEL_INDEX["position_error_rad"]]
     assert since.peak_position_error_rad == np.abs(error).max()
 
 
@@ -40,9 +43,12 @@ def test_taking_a_load_off_is_logged_and_ends_it():
     assert list_events(session) == [(0, "load_on"), (10, "load_off")]
     assert session.run.loads == ()
     session.change("load", PULSE)
+    assert session.run.loads[0].start_tick > session.run.tick
     session.clear_loads()
     assert session.run.loads == ()
     assert list_events(session)[2:] == [], "a load that was only planned has not acted"
+    kinds = [(command.tick, command.kind) for command in session.commands]
+    assert kinds == [(0, "load"), (10, "unload"), (20, "load"), (20, "unload")]
 
 
 def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
@@ -74,19 +80,27 @@ def test_every_command_is_logged_with_its_tick():
     session.change("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0, 30.0, 30.0)))
     session.change("actuator", design.actuator)
     session.change("nominal", design.nominal)
-    kinds = ["controller", "position", "stiffness", "gains", "observer", "actuator", "nominal"]
-    assert list_events(session) == [(5, kind) for kind in kinds]
+    session.change("effects", svsa.RIG)
+    session.change("rivals", (svsa.Lane(law="ndobc"),))
+    changed = [kind for kind in KINDS if kind not in ("load", "unload")]
+    events = [kind for _, kind in list_events(session)]
+    assert sorted(events) == sorted(changed)
+    assert list_events(session) == [(5, kind) for kind in events]
+    assert [(command.tick, command.kind) for command in session.commands] == list_events(session)
     assert session.run.configuration.law == "fl"
 
 
 def test_a_refused_command_changes_nothing_and_is_not_logged():
     session = build_session()
     before = session.run.configuration, session.version
+    lanes = list(session.run.lanes)
     with pytest.raises(svsa.ParameterError):
         session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=500.0))
     with pytest.raises(svsa.StateError):
         session.change("unload", 99)
     assert (session.run.configuration, session.version) == before
+    assert session.run.lanes == lanes
+    assert session.commands == []
     assert list_events(session) == []
 
 

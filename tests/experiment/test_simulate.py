@@ -153,10 +153,10 @@ def test_one_call_equals_tick_by_tick_bit_for_bit(law):
     loads = (svsa.PaperLoad(start_s=0.11), svsa.MassLoad(start_s=0.2))
     whole = svsa.simulate("4b", law, duration_s=0.4, loads=loads).samples
     run = Run(svsa.paper.get_figure("4b").build_configuration(law).changed(loads=loads))
-    single = np.empty_like(whole)
-    for row in range(len(single)):
-        assert run.advance(single[row : row + 1]) == 1
-    np.testing.assert_array_equal(single, whole)
+    single = np.empty((1, *whole.shape))
+    for row in range(len(whole)):
+        assert run.advance(single[:, row : row + 1]) == 1
+    np.testing.assert_array_equal(single[0], whole)
 
 
 def test_the_same_commands_at_the_same_ticks_give_the_same_samples():
@@ -164,15 +164,15 @@ def test_the_same_commands_at_the_same_ticks_give_the_same_samples():
 
     def play():
         run = Run(svsa.paper.get_figure("4a").build_configuration("fl"))
-        samples = np.empty((600, len(CHANNELS)))
-        run.advance(samples[:150])
+        samples = np.empty((1, 600, len(CHANNELS)))
+        run.advance(samples[:, :150])
         run.set_law("ndobc")
         run.set_position(svsa.ConstantPosition(position_rad=0.2))
-        run.advance(samples[150:300])
+        run.advance(samples[:, 150:300])
         run.add_load(svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.05))
         run.set_gains(svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
         run.set_stiffness(svsa.ConstantStiffness(stiffness_nm_per_rad=25.0))
-        run.advance(samples[300:])
+        run.advance(samples[:, 300:])
         return samples
 
     np.testing.assert_array_equal(play(), play())
@@ -182,9 +182,9 @@ def test_a_change_takes_effect_at_the_next_tick_and_not_before():
     """Up to the tick of the change both runs are one; from it on they differ."""
     plain = svsa.simulate("4a", "fl", duration_s=0.3).samples
     run = Run(svsa.paper.get_figure("4a").build_configuration("fl"))
-    changed = np.empty_like(plain)
-    run.advance(changed[:100])
+    changed = np.empty((1, *plain.shape))
+    run.advance(changed[:, :100])
     run.set_nominal(run.configuration.nominal.changed(link_inertia_kg_m2=0.02))
-    run.advance(changed[100:])
-    np.testing.assert_array_equal(changed[:100], plain[:100])
-    assert np.any(changed[100] != plain[100])
+    run.advance(changed[:, 100:])
+    np.testing.assert_array_equal(changed[0, :100], plain[:100])
+    assert np.any(changed[0, 100] != plain[100])
