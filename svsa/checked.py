@@ -26,7 +26,7 @@ class Checked(BaseModel):
         try:
             super().__init__(**values)
         except ValidationError as error:
-            raise ParameterError(*explain(error, type(self))) from None
+            raise ParameterError(*explain(error)) from None
 
     def changed(self, **changes: Any) -> Self:
         """A copy with these fields replaced, checked again."""
@@ -47,13 +47,14 @@ def check_number(name: str, value: Any, unit: str, least: float, most: float) ->
         raise ParameterError(Violation(name, value, unit, bound))
 
 
-def explain(error: ValidationError, *models: type[BaseModel]) -> list[Violation]:
-    """Pydantic's errors as violations; units are looked up in the fields of `models`."""
-    return explain_problems(error.errors(include_url=False), *models)
+def explain(error: ValidationError) -> list[Violation]:
+    """Pydantic's errors as violations; units are looked up in the fields of all `Checked`."""
+    return explain_problems(error.errors(include_url=False))
 
 
-def explain_problems(problems: Sequence[Any], *models: type[BaseModel]) -> list[Violation]:
+def explain_problems(problems: Sequence[Any]) -> list[Violation]:
     """Pydantic's problems (dicts with loc, type, ctx, msg, input) as violations."""
+    models = tuple(_list_models(Checked))
     violations: list[Violation] = []
     for problem in problems:
         inner = problem.get("ctx", {}).get("error")
@@ -83,6 +84,13 @@ def _explain_problem(problem: Any, models: tuple[type[BaseModel], ...]) -> Viola
     unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
     value = None if kind == "missing" else problem.get("input")
     return Violation(name, value, unit, _describe_bound(problem, unit, field))
+
+
+def _list_models(root: type[BaseModel]) -> list[type[BaseModel]]:
+    found = list(root.__subclasses__())
+    for model in list(found):
+        found += _list_models(model)
+    return found
 
 
 def _find_field(name: str, models: tuple[type[BaseModel], ...]) -> FieldInfo | None:

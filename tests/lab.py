@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -59,7 +60,18 @@ class Lab(NamedTuple):
 def run_lab(
     *arguments: str, secret: str | None = None, port: int = 0, **settings: str
 ) -> Iterator[Lab]:
-    """Start a lab, wait until it says where it is, and stop it at the end."""
+    """Start a lab, wait until it says where it is, and stop it at the end.
+
+    settings: SVSA_… variables, in small letters; runs go to a folder of their own unless
+    `data` names one.
+    """
+    if "data" not in settings:
+        with (
+            tempfile.TemporaryDirectory(prefix="svsa-test-") as folder,
+            run_lab(*arguments, secret=secret, port=port, data=folder, **settings) as lab,
+        ):
+            yield lab
+        return
     environment = {k: v for k, v in os.environ.items() if k != "SVSA_SECRET"}
     environment |= {"PYTHONUNBUFFERED": "1", "NO_COLOR": "1", "COLUMNS": "200"}
     environment |= {f"SVSA_{name.upper()}": value for name, value in settings.items()}

@@ -12,7 +12,8 @@ from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
 from svsa_server.laboratory import Laboratory
 from svsa_server.page import build_page_routes
-from svsa_server.routes import lab, loads, sessions, settings
+from svsa_server.recording import Recordings, open_catalogue
+from svsa_server.routes import lab, loads, recordings, runs, sessions, settings
 from svsa_server.scene_bridge import SceneBridge
 from svsa_server.viser_proxy import ViserProxy
 
@@ -38,7 +39,7 @@ def build_app(config: Settings | None = None) -> FastAPI:
     app.add_middleware(AccessGuard, secret=secret)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
-    for part in (lab, sessions, settings, loads):
+    for part in (lab, sessions, settings, loads, recordings, runs):
         api.include_router(part.router)
     app.include_router(api)
     app.router.routes.extend(build_page_routes())
@@ -51,6 +52,8 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     config: Settings = app.state.config
     laboratory = Laboratory(config.most_sessions, config.idle_s)
     app.state.laboratory = laboratory
+    app.state.catalogue = await asyncio.to_thread(open_catalogue)
+    app.state.recordings = Recordings(app.state.catalogue)
     scene = await asyncio.to_thread(SceneBridge)
     proxy = ViserProxy(scene.port)
     routes = list(app.router.routes)
@@ -66,5 +69,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
+        laboratory.close()
+        await app.state.recordings.close()
         await proxy.close()
         await asyncio.to_thread(scene.stop)

@@ -8,8 +8,10 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 
-from svsa.checked import Checked, explain_problems
+from svsa.checked import explain_problems
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.runtime.catalogue_entry import CatalogueError, UnknownRunError
+from svsa.runtime.record_header import RecordError
 
 LONGEST_ECHO = 200
 
@@ -41,7 +43,7 @@ def install_error_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(RequestValidationError)
     def refuse_request(_: Request, error: RequestValidationError) -> JSONResponse:
-        return _refuse_values(explain_problems(error.errors(), *_list_models(Checked)))
+        return _refuse_values(explain_problems(error.errors()))
 
     @app.exception_handler(ParameterError)
     def refuse_parameters(_: Request, error: ParameterError) -> JSONResponse:
@@ -51,8 +53,14 @@ def install_error_handlers(app: FastAPI) -> None:
     def refuse_state(_: Request, error: StateError) -> JSONResponse:
         return _answer(409, "not_now", str(error))
 
+    @app.exception_handler(RecordError)
+    @app.exception_handler(CatalogueError)
+    def refuse_storage(_: Request, error: SvsaError) -> JSONResponse:
+        return _answer(507, "storage", str(error))
+
+    @app.exception_handler(UnknownRunError)
     @app.exception_handler(UnknownError)
-    def refuse_name(_: Request, error: UnknownError) -> JSONResponse:
+    def refuse_name(_: Request, error: SvsaError) -> JSONResponse:
         return _answer(404, "not_found", str(error))
 
 
@@ -88,10 +96,3 @@ def _make_safe(value: Any) -> Any:
         return value
     text = value if isinstance(value, str) else repr(value)
     return text.encode("utf-8", "replace").decode()[:LONGEST_ECHO]
-
-
-def _list_models(root: type[BaseModel]) -> list[type[BaseModel]]:
-    found = list(root.__subclasses__())
-    for model in list(found):
-        found += _list_models(model)
-    return found

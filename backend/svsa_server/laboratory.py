@@ -9,6 +9,7 @@ import time
 from svsa.errors import StateError
 from svsa.experiment.paper import get_figure
 from svsa.plant.disturbances import PAPER_MASS_KG, MassLoad, PaperLoad
+from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
@@ -48,22 +49,43 @@ class Laboratory:
 
     def create(self, configuration: Configuration) -> Session:
         """A new private session, running; raises `StateError` when there are too many."""
+        self._check_room()
+        session = Session(build_name(), configuration)
+        session.start()
+        self._add(session)
+        return session
+
+    async def branch(
+        self, configuration: Configuration, commands: list[Command], tick: int
+    ) -> Session:
+        """A private session, paused, that goes on from a recorded run at a tick."""
+        self._check_room()
+        session = Session(build_name(), configuration)
+        await asyncio.to_thread(session.load_branch, configuration, commands, tick)
+        self._add(session)
+        return session
+
+    def _check_room(self) -> None:
         if len(self.sessions) > self._most_sessions:
             raise StateError(
                 f"{self._most_sessions} private sessions are open, which is all this lab allows:"
                 " end one, or wait for an idle one to end."
             )
-        session = Session(f"private-{secrets.token_hex(4)}", configuration)
-        session.start()
+
+    def _add(self, session: Session) -> None:
         self.sessions[session.name] = session
         self._last_use[session.name] = time.monotonic()
-        return session
 
     def end(self, name: str) -> None:
         """End a private session; raises `StateError` for the shared one."""
         if self.get(name).name == SHARED_SESSION:
             raise StateError("The shared session is not ended; reset it instead.")
         self._remove(name)
+
+    def close(self) -> None:
+        """End every session, recordings first."""
+        for session in self.sessions.values():
+            session.close()
 
     def watch(self, name: str, watchers: int) -> None:
         """A stream of this session begins (+1) or ends (−1): a watched session is not idle."""
@@ -133,6 +155,11 @@ class Laboratory:
             load_mass_kg=_find_hung_mass(session),
             deflection_limit_rad=read("deflection_limit_rad"),
         )
+
+
+def build_name() -> str:
+    """A name that nobody guesses for a private session."""
+    return f"private-{secrets.token_hex(4)}"
 
 
 def _find_hung_mass(session: Session) -> float:

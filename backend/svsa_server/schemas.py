@@ -123,6 +123,22 @@ class SessionRequest(ExperimentRequest):
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
 
+class RecordingRequest(Checked):
+    """What a recording is called; all of it may be changed later."""
+
+    name: Annotated[str, Field(max_length=200)] = quantity("", "Name of the run", default="")
+    tags: tuple[Annotated[str, Field(max_length=50)], ...] = quantity(
+        "", "Words to find it by", default=(), max_length=20
+    )
+    notes: Annotated[str, Field(max_length=10_000)] = quantity("", "Notes", default="")
+
+
+class BranchRequest(Checked):
+    """Where to go on from."""
+
+    tick: Whole = quantity("ticks", "Tick of the recorded run, from its t = 0", ge=0, le=10**9)
+
+
 class LoginRequest(Checked):
     """The shared secret."""
 
@@ -195,6 +211,17 @@ class LaneMetrics(SessionMetrics):
     law: Law
 
 
+class RecordingState(BaseModel):
+    """How a recording stands; failed says why, and control goes on."""
+
+    run_id: str
+    name: str
+    state: Literal["recording", "failed", "closed"]
+    message: str
+    ticks: int
+    bytes: int
+
+
 class SessionProgress(BaseModel):
     """What of a session moves by itself: where it is and how well it does."""
 
@@ -208,6 +235,7 @@ class SessionProgress(BaseModel):
     fault: Fault | None
     metrics: SessionMetrics = Field(description="Of lane 1")
     lanes: list[LaneMetrics]
+    recording: RecordingState | None
 
 
 class SessionState(SessionProgress):

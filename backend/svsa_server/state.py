@@ -1,10 +1,12 @@
 """A session as it is told on the wire."""
 
 import math
+from dataclasses import asdict
 
 from svsa.control.gains import Gains
 from svsa.plant.disturbances import ScheduledLoad
 from svsa.runtime.metrics import Metrics
+from svsa.runtime.recorder import Recorder
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.schemas import (
@@ -12,6 +14,7 @@ from svsa_server.schemas import (
     GainsState,
     LaneMetrics,
     LoadState,
+    RecordingState,
     Root,
     SessionMetrics,
     SessionProgress,
@@ -36,6 +39,7 @@ def build_progress(session: Session) -> SessionProgress:
             LaneMetrics(lane=number + 1, law=lane.law, **_summarize(session, number))
             for number, lane in enumerate(run.configuration.lanes)
         ],
+        recording=_build_recording(session.recorder),
     )
 
 
@@ -52,6 +56,13 @@ def build_state(session: Session) -> SessionState:
         events=list(session.events),
         sample=None if newest is None else dict(zip(CHANNEL_NAMES, newest.tolist(), strict=True)),
     )
+
+
+def _build_recording(recorder: Recorder | None) -> RecordingState | None:
+    if recorder is None:
+        return None
+    header = recorder.header
+    return RecordingState(run_id=header.run_id, name=header.name, **asdict(recorder.status))
 
 
 def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:

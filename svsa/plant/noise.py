@@ -14,13 +14,13 @@ _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX1 = np.uint64(0xBF58476D1CE4E5B9)
 _MIX2 = np.uint64(0x94D049BB133111EB)
 _S30, _S27, _S31, _S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
-_CHANNELS = np.uint64(64)
+_CHANNELS, _ONE = np.uint64(64), np.uint64(1)
 
 
 @compiled
 def scramble(counter):
     """SplitMix64's output function: 64 well-mixed bits of a counter (Steele et al. 2014)."""
-    z = counter * _GOLDEN
+    z = (counter + _ONE) * _GOLDEN
     z = (z ^ (z >> _S30)) * _MIX1
     z = (z ^ (z >> _S27)) * _MIX2
     return z ^ (z >> _S31)

@@ -1,12 +1,13 @@
 """Commands: what may change a run, as values that can be written down and given again."""
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, ValidationError
 
-from svsa.checked import Whole
+from svsa.checked import Whole, explain
 from svsa.control.gains import Gains
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
@@ -65,17 +66,30 @@ class Command(NamedTuple):
         return {"tick": self.tick, "kind": self.kind, "argument": argument}
 
 
-def read_command(written: dict[str, Any]) -> Command:
-    """A command from `Command.to_json`; raises `ParameterError` for anything else."""
-    kind, tick = written.get("kind"), written.get("tick")
-    if kind not in KINDS or not isinstance(tick, int) or tick < 0:
-        bound = "a tick ≥ 0 and a kind of " + ", ".join(KINDS)
-        raise ParameterError(Violation("command", written, "", bound))
+def build_command(tick: int, kind: str, argument: Any) -> Command:
+    """A checked command; raises `ParameterError` for an unknown kind or a wrong argument."""
+    if kind not in KINDS:
+        raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(KINDS)))
     try:
-        argument = KINDS[kind].argument.validate_python(written.get("argument"))
-    except ValueError as error:
-        raise ParameterError(Violation(kind, written.get("argument"), "", str(error))) from None
-    return Command(tick, kind, argument)
+        return Command(tick, kind, KINDS[kind].argument.validate_python(argument))
+    except ValidationError as error:
+        violations = [
+            replace(violation, name=kind) if violation.value is argument else violation
+            for violation in explain(error)
+        ]
+        raise ParameterError(*violations) from None
+
+
+def read_command(written: Any) -> Command:
+    """A command from `Command.to_json`; raises `ParameterError` for anything else."""
+    if not isinstance(written, dict):
+        raise ParameterError(Violation("command", written, "", "an object with named fields"))
+    kind, tick = written.get("kind"), written.get("tick")
+    if not isinstance(kind, str):
+        raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(KINDS)))
+    if not isinstance(tick, int) or isinstance(tick, bool) or tick < 0:
+        raise ParameterError(Violation("tick", tick, "", "a whole number from 0 on"))
+    return build_command(tick, kind, written.get("argument"))
 
 
 def replay(
@@ -112,15 +126,12 @@ def build_run_at(configuration: Configuration, commands: Iterable[Command], tick
 
 def simulate_again(
     configuration: Configuration, commands: Iterable[Command], first_tick: int, ticks: int
-) -> np.ndarray:
-    """The samples of a recorded run once more, bit for bit: (lanes, ticks, channels).
+) -> Iterator[np.ndarray]:
+    """The samples of a recorded run once more, bit for bit: stretches (lanes, ticks, channels).
 
-    first_tick: where the record begins. ticks: how many it holds. The lanes must be the
-    same from first_tick on.
+    first_tick: where the record begins. ticks: how many it holds.
     """
-    kept = []
     for run, samples in replay(configuration, commands, first_tick + ticks):
         skipped = max(0, first_tick - (run.tick - samples.shape[1]))
         if skipped < samples.shape[1]:
-            kept.append(samples[:, skipped:])
-    return np.concatenate(kept, axis=1)
+            yield samples[:, skipped:]

@@ -43,9 +43,9 @@ class History:
             return None
         return self._rows[lane, (self.end_tick - 1) % self._capacity]
 
-    def copy_lane(self, source: int, target: int) -> None:
-        """Give a new lane the past of another, where it began."""
-        self._rows[target] = self._rows[source]
+    def rearrange(self, origins: list[int]) -> None:
+        """Give lane i the past of lane origins[i]: lanes went, moved, or began at another."""
+        self._rows[: len(origins)] = self._rows[origins]
 
     def clear(self) -> None:
         """Forget everything; the next sample is that of tick 0."""

@@ -19,9 +19,8 @@ from svsa.reference.trajectories import (
 from svsa.reference.transition import build_stack, push_trajectory
 from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane, Law
 from svsa.runtime.fault import build_fault
-from svsa.runtime.loop import INITIAL, Blocks, Inputs, LaneState, advance, build_blocks
+from svsa.runtime.loop import INITIAL, Inputs, LaneState, advance, build_blocks
 from svsa.runtime.stepwise import Controller, advance_stepwise
-from svsa.signals import CHANNELS
 
 
 class Run:
@@ -71,27 +70,24 @@ class Run:
         """
         if self.fault is not None:
             return 0
-        done, after = samples.shape[1], []
-        for number, (blocks, lane) in enumerate(zip(self._blocks, self.lanes, strict=True)):
+        done, reached = samples.shape[1], list(self.lanes)
+        ticks = [0] * len(self.lanes)
+        for number in reversed(range(len(self.lanes))):
             rows = samples[number, :done]
-            reached, ticks, code = self._advance_lane(number, blocks, lane, rows)
+            reached[number], ticks[number], code = self._advance_lane(number, rows)
             if code != INSIDE:
-                done = ticks
-                self.fault = build_fault(code, number, self.tick + done, blocks, reached.x)
-            after.append(reached)
-        if self.fault is not None:
-            spare = np.empty((done, len(CHANNELS)))
-            after = [
-                self._advance_lane(number, blocks, lane, spare)[0]
-                for number, (blocks, lane) in enumerate(zip(self._blocks, self.lanes, strict=True))
-            ]
-        self.lanes = after
+                done, x = ticks[number], reached[number].x
+                self.fault = build_fault(code, number, self.tick + done, self._blocks[number], x)
+        for number in range(len(self.lanes)):
+            if ticks[number] > done:
+                reached[number], _, _ = self._advance_lane(number, samples[number, :done])
+        self.lanes = reached
         self.tick += done
         return done
 
-    def _advance_lane(
-        self, number: int, blocks: Blocks, lane: LaneState, rows: np.ndarray
-    ) -> tuple[LaneState, int, int]:
+    def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
+        """One lane from the present tick on; the first comes last, so that it is asked once."""
+        blocks, lane = self._blocks[number], self.lanes[number]
         if number == 0 and self._controller is not None:
             return advance_stepwise(blocks, self._inputs, lane, self.tick, rows, self._controller)
         return advance(blocks, self._inputs, lane, self.tick, rows)
@@ -131,18 +127,24 @@ class Run:
         """Switch effects on and off."""
         self._configure(effects=effects)
 
-    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
-        """Run these controllers beside the first; a new lane begins where the first lane is."""
+    def set_rivals(self, rivals: tuple[Lane, ...]) -> list[int]:
+        """Run these controllers beside the first, in this order.
+
+        A rival that ran before goes on; a new one begins where the first lane is. Returns
+        for each lane the number of the lane that it continues, 0 being the first.
+        """
         configuration = self.configuration.changed(rivals=rivals)
-        first, *others = self.lanes
-        kept = [
-            lane
-            for lane, before, after in zip(others, self.configuration.rivals, rivals, strict=False)
-            if before == after
-        ]
-        self.lanes = [first, *kept, *(first for _ in range(len(rivals) - len(kept)))]
+        before: list[Lane | None] = [None, *self.configuration.rivals]
+        origins = [0]
+        for rival in rivals:
+            origin = before.index(rival) if rival in before else 0
+            if origin:
+                before[origin] = None
+            origins.append(origin)
+        self.lanes = [self.lanes[origin] for origin in origins]
         self.configuration = configuration
         self._connect()
+        return origins
 
     def add_load(self, load: Load) -> ScheduledLoad:
         """Apply a load now or at its `start_s`; raises `StateError` when there are too many."""

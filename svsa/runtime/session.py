@@ -2,16 +2,18 @@
 
 import math
 from collections import deque
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from svsa.errors import StateError
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad
 from svsa.runtime.clock import SimulationClock
-from svsa.runtime.command import KINDS, Command
+from svsa.runtime.command import KINDS, Command, build_command
 from svsa.runtime.configuration import MOST_LANES, Configuration
 from svsa.runtime.history import History
 from svsa.runtime.metrics import RunningMetrics
+from svsa.runtime.recorder import Recorder
 from svsa.runtime.run import Run
 
 HISTORY_TICKS = 32_768
@@ -36,12 +38,14 @@ class Session:
     """A simulated run with a clock, a history and metrics. Not safe across threads.
 
     `initial` and `commands` say everything that decides the run's samples. `version` grows
-    with every change, not with time.
+    with every change, not with time. `on_recorded` is told of every recording that ends.
     """
 
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
         self.closed = False
+        self.recorder: Recorder | None = None
+        self.on_recorded: Callable[[Recorder], None] = lambda _: None
         self.run_number = 0
         self.version = 0
         self.history = History(MOST_LANES, HISTORY_TICKS)
@@ -57,7 +61,11 @@ class Session:
         return "running" if self._running else "paused"
 
     def load(self, configuration: Configuration) -> None:
-        """Begin a new run of this configuration at t = 0; running or paused as before."""
+        """Begin a new run of this configuration at t = 0; running or paused as before.
+
+        A recording ends with the run that it recorded.
+        """
+        self.stop_recording()
         self.clock.stop()
         self.clock.stretched_s = 0.0
         self.initial = configuration
@@ -69,6 +77,39 @@ class Session:
         self.since_start = self._begin_metrics()
         self.since_load: list[RunningMetrics] | None = None
         self.version += 1
+
+    def load_branch(
+        self, configuration: Configuration, commands: Iterable[Command], tick: int
+    ) -> None:
+        """Go on from a recorded run as it stood at `tick`, simulated again from its start.
+
+        Raises `StateError` where the recorded run had ended before.
+        """
+        self.load(configuration)
+        for command in commands:
+            if command.tick < tick:
+                self._advance(command.tick - self.run.tick)
+                self.change(command.kind, command.argument)
+        self._advance(tick - self.run.tick)
+        if self.run.tick < tick:
+            raise StateError(f"That run ended at tick {self.run.tick}, before tick {tick}.")
+
+    def start_recording(self, recorder: Recorder) -> None:
+        """Give the recorder all commands so far, and every sample from now on."""
+        if self.recorder is not None:
+            raise StateError("The session is being recorded already: stop that recording first.")
+        for command in self.commands:
+            recorder.write_command(command.tick, command.to_json())
+        self.recorder = recorder
+        self.version += 1
+
+    def stop_recording(self) -> None:
+        """End the recording, if there is one; its file is finished in the background."""
+        if self.recorder is not None:
+            recorder, self.recorder = self.recorder, None
+            recorder.close(wait_s=0.0)
+            self.on_recorded(recorder)
+            self.version += 1
 
     def reset(self) -> None:
         """Begin again at t = 0 with everything as it is set now and no load but planned ones."""
@@ -89,6 +130,7 @@ class Session:
 
     def close(self) -> None:
         """End the session for good; whoever watches it is told."""
+        self.stop_recording()
         self.pause()
         self.closed = True
 
@@ -122,10 +164,14 @@ class Session:
         """
         if len(self.commands) >= MOST_COMMANDS:
             raise StateError(f"{MOST_COMMANDS} changes were made to this run: reset it first.")
-        command = Command(self.run.tick, kind, argument)
-        lanes, loads = len(self.run.lanes), {load.number: load for load in self.run.loads}
-        command.apply(self.run)
+        if kind == "rivals" and self.recorder is not None:
+            raise StateError("A recording has the same lanes throughout: stop it first.")
+        command = build_command(self.run.tick, kind, argument)
+        loads = {load.number: load for load in self.run.loads}
+        answer = command.apply(self.run)
         self.commands.append(command)
+        if self.recorder is not None:
+            self.recorder.write_command(command.tick, command.to_json())
         match kind:
             case "load":
                 self.version += 1
@@ -138,18 +184,17 @@ class Session:
                 self._log(kind, f"{argument.upper()} on")
             case _:
                 self._log(kind, KINDS[kind].label)
-        if kind == "rivals":
-            self._begin_lanes(min(lanes, len(self.run.lanes)))
+        if isinstance(answer, list):
+            self._rearrange_lanes(answer)
 
     def clear_loads(self) -> None:
         """Take every load off."""
         for load in self.run.loads:
             self.change("unload", load.number)
 
-    def _begin_lanes(self, kept: int) -> None:
-        """New lanes have the past of the first; metrics of all begin together."""
-        for lane in range(kept, len(self.run.lanes)):
-            self.history.copy_lane(0, lane)
+    def _rearrange_lanes(self, origins: list[int]) -> None:
+        """Each lane has the past of the lane it continues; metrics of all begin together."""
+        self.history.rearrange(origins)
         self.since_start = self._begin_metrics()
         self.since_load = self._begin_metrics() if self.since_load is not None else None
 
@@ -167,8 +212,10 @@ class Session:
             self._log_loads()
             stretch = min(self._find_next_edge(), end) - self.run.tick
             samples = self.history.get_free_rows(len(self.run.lanes), stretch)
-            done = self.run.advance(samples)
+            first, done = self.run.tick, self.run.advance(samples)
             self.history.commit(done)
+            if self.recorder is not None:
+                self.recorder.write_samples(first, samples[:, :done].transpose(1, 0, 2))
             for metrics in (self.since_start, self.since_load or []):
                 for lane, running in enumerate(metrics):
                     running.update(samples[lane, :done])

@@ -1,11 +1,39 @@
 """A session of Figure 4B without the paper's load, and what it has logged."""
 
+import numpy as np
+
 import svsa
+from svsa.plant.effects import (
+    CurrentLag,
+    Encoders,
+    Friction,
+    LinkGravity,
+    SensorNoise,
+    StateEstimation,
+)
 from svsa.runtime.session import Session
 from svsa.signals import CHANNELS
 
 PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)
 ALL = list(range(len(CHANNELS)))
+EVERY_EFFECT = svsa.Effects(
+    encoders=Encoders(),
+    estimation=StateEstimation(),
+    delay_samples=1,
+    friction=Friction(),
+    current_lag=CurrentLag(),
+    noise=SensorNoise(),
+    gravity=LinkGravity(),
+)
+
+
+def build_configuration(*loads, **changes):
+    figure = svsa.paper.get_figure("4b")
+    return figure.build_configuration(load=False).changed(loads=loads, **changes)
+
+
+def build_session(*loads, **changes):
+    return Session("test", build_configuration(*loads, **changes))
 
 
 def read_samples(session, lane=0):
@@ -13,9 +41,10 @@ def read_samples(session, lane=0):
     return session.history.read(session.history.first_tick, 1, ALL, [lane])[:, 0]
 
 
-def build_session(*loads):
-    figure = svsa.paper.get_figure("4b")
-    return Session("test", figure.build_configuration(load=False).changed(loads=loads))
+def advance(run, ticks):
+    """The samples (lanes, ticks, channels) of so many ticks, fewer after a fault."""
+    samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
+    return samples[:, : run.advance(samples)]
 
 
 def list_events(session):

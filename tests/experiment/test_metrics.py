@@ -43,6 +43,22 @@ def test_each_metric_reads_its_own_channel_and_the_sign_does_not_matter():
     assert metrics.rms_stiffness_error_nm_per_rad == 2.0
     assert metrics.peak_stiffness_error_nm_per_rad == 2.0
     assert (metrics.peak_torque1_nm, metrics.peak_torque2_nm) == (3.0, 4.0)
+    assert metrics.integral_position_error_rad_s == pytest.approx(1.0 * 0.1)
+    assert metrics.effort_n2m2_s == pytest.approx((9.0 + 16.0) * 0.1)
+
+
+def test_integral_and_effort_of_sines():
+    """∫|3 sin| over whole periods is 6/π a second, ∫(2 sin)² + (2 cos)² is 4 a second."""
+    angle = 2.0 * np.pi * 5.0 * np.arange(2000) * T
+    samples = build_samples(
+        2000,
+        position_error_rad=3.0 * np.sin(angle),
+        torque1_nm=2.0 * np.sin(angle),
+        torque2_nm=2.0 * np.cos(angle),
+    )
+    metrics = compute_metrics(samples, T)
+    assert metrics.integral_position_error_rad_s == pytest.approx(2.0 * 6.0 / np.pi, rel=1e-3)
+    assert metrics.effort_n2m2_s == pytest.approx(2.0 * 4.0, rel=1e-12)
 
 
 def test_recovery_of_a_decaying_error():

@@ -104,6 +104,38 @@ def test_a_refused_command_changes_nothing_and_is_not_logged():
     assert list_events(session) == []
 
 
+NO_COMMANDS = [
+    ("explode", 1),
+    ("load", "paper"),
+    ("load", None),
+    ("position", None),
+    ("position", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0)),
+    ("gains", "fast"),
+    ("effects", 3),
+    ("rivals", "fl"),
+    ("unload", "1"),
+    ("unload", True),
+]
+
+
+@pytest.mark.parametrize(("kind", "argument"), NO_COMMANDS)
+def test_what_is_no_command_is_refused_in_words_and_leaves_no_trace(kind, argument):
+    """A load that was refused must not take a number: a replay counts only those given."""
+    session = build_session(PULSE)
+    before = session.run.configuration, session.version, session.run.loads
+    with pytest.raises(svsa.SvsaError, match=kind):
+        session.change(kind, argument)
+    assert (session.run.configuration, session.version, session.run.loads) == before
+    assert session.commands == []
+    session.change("load", svsa.PaperLoad())
+    assert [load.number for load in session.run.loads] == [1, 2]
+    plain, spoiled = build_session(PULSE), session
+    plain.change("load", svsa.PaperLoad())
+    for each in (plain, spoiled):
+        each.step(20)
+    np.testing.assert_array_equal(read_samples(plain), read_samples(spoiled))
+
+
 def test_the_version_grows_with_every_change_and_not_with_time():
     """Clients ask for the state again when it has grown."""
     session = build_session()

@@ -456,6 +456,178 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/recording": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Start Recording
+         * @description Record every sample and command from now on, at full rate.
+         */
+        post: operations["start_recording_api_v1_sessions__session__recording_post"];
+        /**
+         * Stop Recording
+         * @description End the recording; the run is in the list as soon as its file is finished.
+         */
+        delete: operations["stop_recording_api_v1_sessions__session__recording_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/branch": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Branch Run
+         * @description A private session that goes on, paused, from a recorded run as it stood at a tick.
+         */
+        post: operations["branch_run_api_v1_runs__run_id__branch_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compare Run
+         * @description Simulate a run again from its record alone and compare every bit.
+         */
+        post: operations["compare_run_api_v1_runs__run_id__compare_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Runs
+         * @description The runs, newest first, a page at a time.
+         */
+        get: operations["list_runs_api_v1_runs_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Run
+         * @description A run with its configuration, its channels and the commands given while it went on.
+         */
+        get: operations["read_run_api_v1_runs__run__get"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Run
+         * @description Put a run into the trash, from which `restore` takes it back.
+         */
+        delete: operations["delete_run_api_v1_runs__run__delete"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Run
+         * @description Rename a run, tag it, write notes.
+         */
+        patch: operations["change_run_api_v1_runs__run__patch"];
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Run
+         * @description Take a run out of the trash.
+         */
+        post: operations["restore_run_api_v1_runs__run__restore_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Run
+         * @description The run as a file of another program.
+         */
+        get: operations["export_run_api_v1_runs__run__export_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Samples
+         * @description A stretch of the run for a plot; least and greatest values are kept.
+         */
+        get: operations["read_samples_api_v1_runs__run__samples_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -569,6 +741,47 @@ export interface components {
              * @description τ_r: energy-consistent, or as printed in Eq 5
              */
             reaction_torque?: ("energy" | "printed") | null;
+        };
+        /**
+         * BranchRequest
+         * @description Where to go on from.
+         */
+        BranchRequest: {
+            /**
+             * Tick
+             * @description Tick of the recorded run, from its t = 0, ticks
+             */
+            tick: number;
+        };
+        /**
+         * Channel
+         * @description One column of the samples: its name (ends in the unit), unit and a label to read.
+         */
+        Channel: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Label */
+            label: string;
+        };
+        /**
+         * Comparison
+         * @description Whether a record is its run, bit for bit.
+         *
+         *     identical: every sample of every lane. ticks: how many were compared. first_difference:
+         *     the tick and the channel ("lane.channel") of the first sample that differs, or None.
+         */
+        Comparison: {
+            /** Identical */
+            identical: boolean;
+            /** Ticks */
+            ticks: number;
+            /** First Difference */
+            first_difference: [
+                number,
+                string
+            ] | null;
         };
         /**
          * ConfigurationState
@@ -1230,6 +1443,51 @@ export interface components {
             duration_s: number;
         };
         /**
+         * RecordingRequest
+         * @description What a recording is called; all of it may be changed later.
+         */
+        RecordingRequest: {
+            /**
+             * Name
+             * @description Name of the run
+             * @default
+             */
+            name: string;
+            /**
+             * Tags
+             * @description Words to find it by
+             * @default []
+             */
+            tags: string[];
+            /**
+             * Notes
+             * @description Notes
+             * @default
+             */
+            notes: string;
+        };
+        /**
+         * RecordingState
+         * @description How a recording stands; failed says why, and control goes on.
+         */
+        RecordingState: {
+            /** Run Id */
+            run_id: string;
+            /** Name */
+            name: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "recording" | "failed" | "closed";
+            /** Message */
+            message: string;
+            /** Ticks */
+            ticks: number;
+            /** Bytes */
+            bytes: number;
+        };
+        /**
          * Root
          * @description A root of Eq 25, rad/s.
          */
@@ -1238,6 +1496,217 @@ export interface components {
             re: number;
             /** Im */
             im: number;
+        };
+        /**
+         * RunCommand
+         * @description A command that was given while the run went on.
+         */
+        RunCommand: {
+            /** Tick */
+            tick: number;
+            /** Command */
+            command: {
+                [key: string]: unknown;
+            };
+        };
+        /**
+         * RunDetails
+         * @description A run with everything that decided its samples.
+         */
+        RunDetails: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Tags */
+            tags: string[];
+            /** Notes */
+            notes: string;
+            /** Session */
+            session: string;
+            /**
+             * Created
+             * @description UTC, ISO 8601
+             */
+            created: string;
+            /**
+             * Version
+             * @description Version of svsa that recorded
+             */
+            version: string;
+            /**
+             * State
+             * @description failed: it ended early, message says why; damaged: it cannot be read
+             * @enum {string}
+             */
+            state: "recording" | "complete" | "failed" | "damaged" | "missing";
+            /** Message */
+            message: string;
+            /** Lanes */
+            lanes: string[];
+            /** Period S */
+            period_s: number;
+            /** First Tick */
+            first_tick: number;
+            /** Ticks */
+            ticks: number;
+            /** Duration S */
+            duration_s: number;
+            /** Bytes */
+            bytes: number;
+            /**
+             * Metrics
+             * @description Of every lane, over the whole run
+             */
+            metrics: components["schemas"]["Metrics"][] | null;
+            /**
+             * Deleted
+             * @description When it went into the trash, UTC
+             */
+            deleted: string | null;
+            /** Seed */
+            seed: number;
+            /**
+             * Configuration
+             * @description At tick 0
+             */
+            configuration: {
+                [key: string]: unknown;
+            };
+            /** Channels */
+            channels: components["schemas"]["Channel"][];
+            /**
+             * Commands
+             * @description The first 1000
+             */
+            commands: components["schemas"]["RunCommand"][];
+            /** Command Count */
+            command_count: number;
+        };
+        /**
+         * RunList
+         * @description A page of runs.
+         */
+        RunList: {
+            /** Runs */
+            runs: components["schemas"]["RunSummary"][];
+            /**
+             * Total
+             * @description Runs on all pages
+             */
+            total: number;
+            /** Page */
+            page: number;
+            /** Page Size */
+            page_size: number;
+            /**
+             * Tags
+             * @description Every tag in use, and how many runs have it
+             */
+            tags: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * RunPatch
+         * @description What to change of a run; what is left out stays.
+         */
+        RunPatch: {
+            /**
+             * Name
+             * @description Its name, up to 200 characters
+             */
+            name?: string | null;
+            /**
+             * Tags
+             * @description Up to 20 words of up to 50 characters
+             */
+            tags?: string[] | null;
+            /**
+             * Notes
+             * @description Notes, up to 10000 characters
+             */
+            notes?: string | null;
+        };
+        /**
+         * RunSamples
+         * @description Samples of a run, thinned out for a plot.
+         *
+         *     Where stride is greater than 1, every two points are least and greatest of `stride`
+         *     ticks, in the order in which they came, each channel by itself.
+         */
+        RunSamples: {
+            /** Stride */
+            stride: number;
+            /** First Tick */
+            first_tick: number;
+            /** Time S */
+            time_s: number[];
+            /**
+             * Lanes
+             * @description By lane and channel; null where a value is no finite number
+             */
+            lanes: {
+                [key: string]: {
+                    [key: string]: (number | null)[];
+                };
+            };
+        };
+        /**
+         * RunSummary
+         * @description A run in the list.
+         */
+        RunSummary: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Tags */
+            tags: string[];
+            /** Notes */
+            notes: string;
+            /** Session */
+            session: string;
+            /**
+             * Created
+             * @description UTC, ISO 8601
+             */
+            created: string;
+            /**
+             * Version
+             * @description Version of svsa that recorded
+             */
+            version: string;
+            /**
+             * State
+             * @description failed: it ended early, message says why; damaged: it cannot be read
+             * @enum {string}
+             */
+            state: "recording" | "complete" | "failed" | "damaged" | "missing";
+            /** Message */
+            message: string;
+            /** Lanes */
+            lanes: string[];
+            /** Period S */
+            period_s: number;
+            /** First Tick */
+            first_tick: number;
+            /** Ticks */
+            ticks: number;
+            /** Duration S */
+            duration_s: number;
+            /** Bytes */
+            bytes: number;
+            /**
+             * Metrics
+             * @description Of every lane, over the whole run
+             */
+            metrics: components["schemas"]["Metrics"][] | null;
+            /**
+             * Deleted
+             * @description When it went into the trash, UTC
+             */
+            deleted: string | null;
         };
         /**
          * SensorNoise
@@ -1377,6 +1846,7 @@ export interface components {
             metrics: components["schemas"]["SessionMetrics"];
             /** Lanes */
             lanes: components["schemas"]["LaneMetrics"][];
+            recording: components["schemas"]["RecordingState"] | null;
             /** Session */
             session: string;
             /** Rate Hz */
@@ -2793,6 +3263,586 @@ export interface operations {
                 };
             };
             /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    start_recording_api_v1_sessions__session__recording_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecordingRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    stop_recording_api_v1_sessions__session__recording_delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    branch_run_api_v1_runs__run_id__branch_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BranchRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    compare_run_api_v1_runs__run_id__compare_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
+            };
+            /** @description No such session or load */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session is in this state */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    list_runs_api_v1_runs_get: {
+        parameters: {
+            query?: {
+                /** @description Words in name, notes, tags or id */
+                search?: string;
+                /** @description Only runs with this tag */
+                tag?: string | null;
+                /** @description created, name, session, duration_s or bytes; - before it turns it round */
+                sort?: string;
+                page?: number;
+                page_size?: number;
+                /** @description What was deleted instead */
+                trash?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunList"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not with the run, or the disk, as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_run_api_v1_runs__run__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunDetails"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not with the run, or the disk, as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    delete_run_api_v1_runs__run__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunSummary"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not with the run, or the disk, as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    change_run_api_v1_runs__run__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunPatch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunSummary"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not with the run, or the disk, as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    restore_run_api_v1_runs__run__restore_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunSummary"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not with the run, or the disk, as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    export_run_api_v1_runs__run__export_get: {
+        parameters: {
+            query: {
+                /** @description Format of the file */
+                kind: "csv" | "parquet" | "mat" | "mcap";
+            };
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": unknown;
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not with the run, or the disk, as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_samples_api_v1_runs__run__samples_get: {
+        parameters: {
+            query?: {
+                /** @description Names with commas between them; left out, those of the plots */
+                channels?: string | null;
+                /** @description Time of the run, s */
+                start_s?: number | null;
+                /** @description Time of the run, s */
+                end_s?: number | null;
+                /** @description At most so many */
+                points?: number;
+            };
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunSamples"];
+                };
+            };
+            /** @description No such run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not with the run, or the disk, as it is */
             409: {
                 headers: {
                     [name: string]: unknown;

@@ -1,0 +1,100 @@
+"""Recordings of the sessions: begun, finished in the background, opened again as branches."""
+
+import asyncio
+import logging
+from collections.abc import Callable
+from datetime import UTC, datetime
+from typing import Any, NoReturn
+
+import svsa
+from svsa.runtime.catalogue import Catalogue, build_run_id
+from svsa.runtime.catalogue_entry import CatalogueError
+from svsa.runtime.record_header import RecordHeader
+from svsa.runtime.recorder import Recorder
+from svsa.runtime.session import Session
+from svsa.signals import CHANNELS
+
+FINISH_TIMEOUT_S = 10.0
+
+_log = logging.getLogger("svsa")
+
+
+class NoCatalogue:
+    """Stands where the catalogue could not be opened: every use says why; control goes on."""
+
+    def __init__(self, reason: str) -> None:
+        self._reason = reason
+
+    def __getattr__(self, _: str) -> Callable[..., NoReturn]:
+        def refuse(*_: Any, **__: Any) -> NoReturn:
+            raise CatalogueError(self._reason)
+
+        return refuse
+
+
+def open_catalogue() -> Catalogue | NoCatalogue:
+    """The catalogue in SVSA_DATA, with what a crash cut off finished; for every start."""
+    try:
+        catalogue = Catalogue()
+        catalogue.recover()
+    except CatalogueError as error:
+        _log.warning("Nothing can be recorded. %s", error)
+        return NoCatalogue(str(error))
+    return catalogue
+
+
+class Recordings:
+    """Begins recordings, and finishes their files while the loop goes on."""
+
+    def __init__(self, catalogue: Catalogue | NoCatalogue) -> None:
+        self._catalogue = catalogue
+        self._finishing: set[asyncio.Task[None]] = set()
+
+    async def start(self, session: Session, name: str, tags: tuple[str, ...], notes: str) -> None:
+        """Record a session from now on; raises `StateError`, `RecordError`, `ParameterError`."""
+        header = build_header(session, name, tags, notes)
+        recorder = await asyncio.to_thread(self._catalogue.record, header)
+        session.on_recorded = self.finish
+        try:
+            session.start_recording(recorder)
+        except svsa.StateError:
+            self.finish(recorder)
+            raise
+
+    def finish(self, recorder: Recorder) -> None:
+        """See to it in the background that an ended recording gets its file and its entry."""
+        task = asyncio.get_running_loop().create_task(self._finish(recorder))
+        self._finishing.add(task)
+        task.add_done_callback(self._finishing.discard)
+
+    async def close(self) -> None:
+        """Wait for the files that are being finished; the next start does what is left."""
+        if self._finishing:
+            await asyncio.wait(self._finishing, timeout=FINISH_TIMEOUT_S)
+
+    async def _finish(self, recorder: Recorder) -> None:
+        status = await asyncio.to_thread(recorder.close)
+        while status.state == "recording":
+            status = await asyncio.to_thread(recorder.close)
+        try:
+            await asyncio.to_thread(self._catalogue.finish, recorder.header.run_id, status)
+        except svsa.SvsaError as error:
+            _log.warning("Run %s was not entered: %s", recorder.header.run_id, error)
+
+
+def build_header(session: Session, name: str, tags: tuple[str, ...], notes: str) -> RecordHeader:
+    """What the record of this session says of itself; raises `ParameterError`."""
+    return RecordHeader(
+        version=svsa.__version__,
+        run_id=build_run_id(),
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        session=session.name,
+        name=name,
+        tags=tags,
+        notes=notes,
+        lanes=tuple(f"lane{number + 1}" for number in range(len(session.run.lanes))),
+        configuration=session.initial.model_dump(mode="json"),
+        seed=session.initial.seed,
+        period_s=session.run.period_s,
+        channels=CHANNELS,
+    )

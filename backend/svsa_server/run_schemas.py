@@ -1,0 +1,96 @@
+"""What goes over the wire about recorded runs."""
+
+from typing import Any, Literal, Self
+
+from pydantic import BaseModel, Field, model_validator
+
+from svsa.checked import Checked, quantity
+from svsa.errors import ParameterError, Violation
+from svsa.runtime.catalogue_entry import RunState
+from svsa.runtime.metrics import Metrics
+from svsa.runtime.record_header import LONGEST_NAME, LONGEST_NOTES, LONGEST_TAG, MOST_TAGS
+from svsa.signals import Channel
+
+ExportName = Literal["csv", "parquet", "mat", "mcap"]
+
+
+class RunPatch(Checked):
+    """What to change of a run; what is left out stays."""
+
+    name: str | None = quantity("", f"Its name, up to {LONGEST_NAME} characters", default=None)
+    tags: tuple[str, ...] | None = quantity(
+        "", f"Up to {MOST_TAGS} words of up to {LONGEST_TAG} characters", default=None
+    )
+    notes: str | None = quantity("", f"Notes, up to {LONGEST_NOTES} characters", default=None)
+
+    @model_validator(mode="after")
+    def _check_some(self) -> Self:
+        if all(value is None for _, value in self):
+            raise ParameterError(Violation("change", {}, "", "of name, tags or notes"))
+        return self
+
+
+class RunSummary(BaseModel):
+    """A run in the list."""
+
+    id: str
+    name: str
+    tags: list[str]
+    notes: str
+    session: str
+    created: str = Field(description="UTC, ISO 8601")
+    version: str = Field(description="Version of svsa that recorded")
+    state: RunState = Field(
+        description="failed: it ended early, message says why; damaged: it cannot be read"
+    )
+    message: str
+    lanes: list[str]
+    period_s: float
+    first_tick: int
+    ticks: int
+    duration_s: float
+    bytes: int
+    metrics: list[Metrics] | None = Field(description="Of every lane, over the whole run")
+    deleted: str | None = Field(description="When it went into the trash, UTC")
+
+
+class RunList(BaseModel):
+    """A page of runs."""
+
+    runs: list[RunSummary]
+    total: int = Field(description="Runs on all pages")
+    page: int
+    page_size: int
+    tags: dict[str, int] = Field(description="Every tag in use, and how many runs have it")
+
+
+class RunCommand(BaseModel):
+    """A command that was given while the run went on."""
+
+    tick: int
+    command: dict[str, Any]
+
+
+class RunDetails(RunSummary):
+    """A run with everything that decided its samples."""
+
+    seed: int
+    configuration: dict[str, Any] = Field(description="At tick 0")
+    channels: list[Channel]
+    commands: list[RunCommand] = Field(description="The first 1000")
+    command_count: int
+
+
+class RunSamples(BaseModel):
+    """Samples of a run, thinned out for a plot.
+
+    Where stride is greater than 1, every two points are least and greatest of `stride`
+    ticks, in the order in which they came, each channel by itself.
+    """
+
+    stride: int
+    first_tick: int
+    time_s: list[float]
+    lanes: dict[str, dict[str, list[float | None]]] = Field(
+        description="By lane and channel; null where a value is no finite number"
+    )

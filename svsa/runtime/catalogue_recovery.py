@@ -1,0 +1,135 @@
+"""Bring the catalogue and the folders of the runs back together after a crash."""
+
+import contextlib
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from svsa.errors import SvsaError
+from svsa.runtime.catalogue_database import Database
+from svsa.runtime.catalogue_entry import RunEntry
+from svsa.runtime.metrics import Metrics, RunningMetrics
+from svsa.runtime.record_header import STREAM_FILE, RecordError, is_run_id, read_header
+from svsa.runtime.record_parquet import measure_bytes
+from svsa.runtime.record_reader import Record, open_record, recover
+from svsa.signals import CHANNEL_NAMES
+
+CUT_OFF = "The recording was cut off; what had been written is here."
+
+
+@dataclass(frozen=True)
+class Recovery:
+    """What a recovery did, as ids; problems: ids with what is wrong with their records."""
+
+    finished: tuple[str, ...]
+    registered: tuple[str, ...]
+    problems: tuple[tuple[str, str], ...]
+
+
+def recover_runs(database: Database, runs: Path, trash: Path) -> Recovery:
+    """Finish every unfinished record, register every unknown folder, mark what is gone."""
+    finished: list[str] = []
+    registered: list[str] = []
+    problems: list[tuple[str, str]] = []
+    known = database.list_states()
+    found: set[str] = set()
+    for folder, deleted in _list_folders(runs, trash):
+        found.add(folder.name)
+        state, was_deleted = known.get(folder.name, ("", deleted))
+        unfinished = (folder / STREAM_FILE).exists()
+        if state not in ("", "recording", "missing") and was_deleted == deleted and not unfinished:
+            continue
+        if not state and not any(path.stat().st_size for path in folder.iterdir()):
+            continue  # a folder that a recording had only begun to make
+        if not state:
+            entry = build_entry(folder)
+            registered.append(folder.name)
+            database.put(entry)
+        else:
+            entry = database.get(folder.name)
+        changes: dict[str, Any] = {"deleted": _choose_time(entry, deleted)}
+        if unfinished or state in ("", "recording", "missing"):
+            changes |= _finish(folder, entry, unfinished)
+        entry = database.change(folder.name, changes)
+        if state and unfinished and entry.state == "complete":
+            finished.append(folder.name)
+        if entry.state == "damaged":
+            problems.append((folder.name, entry.message))
+    for run_id in known.keys() - found:
+        message = "Its folder is gone."
+        database.change(run_id, {"state": "missing", "message": message})
+        problems.append((run_id, message))
+    return Recovery(tuple(finished), tuple(registered), tuple(problems))
+
+
+def describe(folder: Path) -> dict[str, Any]:
+    """What an entry says of a finished record; "damaged" where it cannot be read."""
+    try:
+        record = open_record(folder)
+        return {
+            "state": "complete",
+            "message": "",
+            "first_tick": record.first_tick,
+            "ticks": record.tick_count,
+            "duration_s": record.duration_s,
+            "bytes": measure_bytes(folder),
+            "metrics": measure(record),
+        }
+    except (RecordError, OSError) as error:
+        return {"state": "damaged", "message": str(error)}
+
+
+def measure(record: Record) -> tuple[Metrics, ...] | None:
+    """The metrics of every lane, a stretch at a time; None without samples or channels."""
+    names = record.header.channel_names
+    if not record.tick_count or not set(CHANNEL_NAMES) <= set(names):
+        return None
+    places = [names.index(name) for name in CHANNEL_NAMES]
+    lanes = [RunningMetrics(record.header.period_s) for _ in record.header.lanes]
+    for _, samples in record.iterate():
+        for lane, running in enumerate(lanes):
+            running.update(samples[:, lane, places])
+    metrics = [running.summarize() for running in lanes]
+    return tuple(lane for lane in metrics if lane is not None)
+
+
+def build_entry(folder: Path) -> RunEntry:
+    """An entry from the record's header; where that is damaged, one that at least names it."""
+    created = datetime.fromtimestamp(folder.stat().st_mtime, UTC).isoformat(timespec="seconds")
+    entry = RunEntry(id=folder.name, name=folder.name, created=created)
+    with contextlib.suppress(SvsaError):
+        header = read_header(folder)
+        values = {field.name: getattr(header, field.name, None) for field in fields(entry)}
+        known = {name: value for name, value in values.items() if value is not None}
+        entry = dataclasses.replace(entry, **known)
+    return entry
+
+
+def _finish(folder: Path, entry: RunEntry, unfinished: bool) -> dict[str, Any]:
+    """What changes of the entry by finishing its record; nothing where somebody records it."""
+    try:
+        if unfinished and recover(folder) is None:
+            return {}
+    except RecordError as error:
+        return {"state": "damaged", "message": str(error)}
+    changes = describe(folder)
+    if changes["state"] == "complete" and unfinished:
+        if entry.state == "failed":
+            return changes | {"state": "failed", "message": entry.message}
+        return changes | {"message": CUT_OFF}
+    return changes
+
+
+def _choose_time(entry: RunEntry, deleted: bool) -> str | None:
+    now = datetime.now(UTC).isoformat(timespec="seconds")
+    return (entry.deleted or now) if deleted else None
+
+
+def _list_folders(runs: Path, trash: Path) -> Iterator[tuple[Path, bool]]:
+    for place, deleted in ((trash, True), (runs, False)):
+        for folder in sorted(place.iterdir()):
+            if folder.is_dir() and is_run_id(folder.name):
+                yield folder, deleted

@@ -1,0 +1,153 @@
+"""The finished samples: one Parquet file that says by itself what it holds."""
+
+import contextlib
+import json
+import os
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import IO, Any, NamedTuple
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from svsa.runtime.record_header import (
+    COMMANDS_FILE,
+    PARQUET_FILE,
+    STREAM_FILE,
+    RecordError,
+    RecordHeader,
+    read_header,
+)
+from svsa.runtime.record_stream import build_schema, read_stream
+
+COMMANDS_KEY = b"svsa.commands"
+ROWS_A_GROUP = 65_536
+
+Commands = list[tuple[int, dict[str, Any]]]
+Batches = Iterable[pa.RecordBatch]
+
+
+class Finished(NamedTuple):
+    """A record whose samples are all in one Parquet file."""
+
+    header: RecordHeader
+    ticks: int
+    bytes: int
+
+
+def finish(folder: Path) -> Finished:
+    """Turn the stream of an ended recording into Parquet; harmless where that is done.
+
+    Samples and commands that were cut off by a crash are left out. Raises `RecordError`
+    where header, commands or samples are damaged or the disk is full: nothing is lost then.
+    """
+    header, path, stream = read_header(folder), folder / PARQUET_FILE, folder / STREAM_FILE
+    commands = cut_commands(folder)
+    if not path.exists():
+        if not stream.exists():
+            raise RecordError(f"Record {folder.name} has no samples: their file is missing.")
+        draft = path.with_name(path.name + ".tmp")
+        try:
+            with draft.open("wb") as file:
+                write_parquet(file, header, commands, read_stream(stream, header))
+                file.flush()
+                os.fsync(file.fileno())
+            draft.replace(path)
+        except (OSError, pa.ArrowException) as error:
+            raise RecordError(f"Record {folder.name} cannot be finished: {error}") from None
+        finally:
+            with contextlib.suppress(OSError):
+                draft.unlink(missing_ok=True)
+    with open_parquet(folder) as file:
+        ticks = file.metadata.num_rows
+    with contextlib.suppress(OSError):
+        stream.unlink(missing_ok=True)
+    return Finished(header, ticks, measure_bytes(folder))
+
+
+def write_parquet(
+    sink: IO[bytes], header: RecordHeader, commands: Commands, batches: Batches
+) -> None:
+    """Write samples as Parquet: float64 exact, zstd, checksums, header and commands inside."""
+    schema = build_schema(header)
+    lines = [{"tick": tick, "command": command} for tick, command in commands]
+    schema = schema.with_metadata({**schema.metadata, COMMANDS_KEY: json.dumps(lines).encode()})
+    with pq.ParquetWriter(
+        sink, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
+    ) as writer:
+        for group in _group(batches):
+            writer.write_table(pa.Table.from_batches(group, schema), row_group_size=ROWS_A_GROUP)
+
+
+def open_parquet(folder: Path) -> pq.ParquetFile:
+    """The finished file of a record; raises `RecordError` where it is damaged or missing."""
+    try:
+        return pq.ParquetFile(folder / PARQUET_FILE, page_checksum_verification=True)
+    except FileNotFoundError:
+        raise RecordError(f"Record {folder.name} has no {PARQUET_FILE}.") from None
+    except (OSError, pa.ArrowException, ValueError) as error:
+        raise RecordError(f"{PARQUET_FILE} of record {folder.name} is damaged: {error}") from None
+
+
+def read_commands(folder: Path) -> tuple[Commands, int]:
+    """The commands and how many bytes of their file are whole lines.
+
+    A last line without its end is what a crash leaves, and left out. Raises `RecordError`.
+    """
+    path = folder / COMMANDS_FILE
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError:
+        return [], 0
+    except OSError as error:
+        raise RecordError(f"{COMMANDS_FILE} of record {folder.name}: {error}") from None
+    whole = content.rfind(b"\n") + 1
+    commands: Commands = []
+    for number, line in enumerate(content[:whole].splitlines(), 1):
+        try:
+            written = json.loads(line)
+            commands.append((_check(written["tick"], int), _check(written["command"], dict)))
+        except (ValueError, KeyError, TypeError) as error:
+            text = f"{COMMANDS_FILE} of record {folder.name} is damaged in line {number}: {error}"
+            raise RecordError(text) from None
+    return commands, whole
+
+
+def write_command(tick: int, command: dict[str, Any]) -> bytes:
+    """A command as a line of the file; raises `TypeError` or `ValueError` if JSON cannot."""
+    return json.dumps({"tick": int(tick), "command": command}).encode() + b"\n"
+
+
+def cut_commands(folder: Path) -> Commands:
+    """The commands; a last line that was cut off is cut from the file too."""
+    commands, whole = read_commands(folder)
+    path = folder / COMMANDS_FILE
+    with contextlib.suppress(OSError):
+        if path.stat().st_size > whole:
+            os.truncate(path, whole)
+    return commands
+
+
+def measure_bytes(folder: Path) -> int:
+    """How much of the disk a record takes."""
+    return sum(path.stat().st_size for path in folder.iterdir() if path.is_file())
+
+
+def _check(value: Any, kind: Callable[..., Any]) -> Any:
+    if type(value) is not kind:
+        raise TypeError(f"{value!r:.40} is no {kind.__name__}")
+    return value
+
+
+def _group(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
+    """Batches in groups of at least `ROWS_A_GROUP` rows, but for the last."""
+    group: list[pa.RecordBatch] = []
+    rows = 0
+    for batch in batches:
+        group.append(batch)
+        rows += batch.num_rows
+        if rows >= ROWS_A_GROUP:
+            yield group
+            group, rows = [], 0
+    if group:
+        yield group

@@ -1,0 +1,73 @@
+"""`python -m tests.bench.memory [MINUTES]`: does a session at full speed grow?"""
+
+import gc
+import sys
+import time
+from pathlib import Path
+
+import svsa
+from svsa.plant.effects import (
+    CurrentLag,
+    Encoders,
+    Friction,
+    LinkGravity,
+    SensorNoise,
+    StateEstimation,
+)
+from svsa.runtime.session import Session
+
+EVERY_EFFECT = svsa.Effects(
+    encoders=Encoders(),
+    estimation=StateEstimation(),
+    delay_samples=1,
+    friction=Friction(),
+    current_lag=CurrentLag(),
+    noise=SensorNoise(),
+    gravity=LinkGravity(),
+)
+RIVALS = (svsa.Lane(law="fl"), svsa.Lane(law="ndobc"), svsa.Lane(law="fl"))
+MINUTE_S = 60.0
+
+
+def read_resident_mb() -> float:
+    """Resident memory of this process, MB."""
+    gc.collect()
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith("VmRSS:"):
+            return int(line.split()[1]) / 1000.0
+    raise RuntimeError("no VmRSS in /proc/self/status")
+
+
+def run_at_full_speed(session: Session, seconds: float) -> None:
+    """So much session time, in bursts, with a pulse at each burst."""
+    end = session.run.time_s + seconds
+    pulse = svsa.PulseLoad(torque_nm=(0.2, 0.0, 0.0), duration_s=0.1)
+    while session.run.time_s < end:
+        session.burst(time.monotonic())
+        session.change("load", pulse)
+        if session.run.fault is not None:
+            raise RuntimeError(session.run.fault.message)
+
+
+def main() -> None:
+    """Print the resident memory after the first minute and after each of the others."""
+    minutes = int(sys.argv[1]) if len(sys.argv) > 1 else 10
+    configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
+    session = Session("memory", configuration.changed(rivals=RIVALS, effects=EVERY_EFFECT))
+    session.start()
+    print(f"start                     {read_resident_mb():8.1f} MB")
+    run_at_full_speed(session, MINUTE_S)
+    before = read_resident_mb()
+    print(f"after minute  1           {before:8.1f} MB")
+    begin = time.monotonic()
+    for minute in range(2, minutes + 2):
+        run_at_full_speed(session, MINUTE_S)
+        print(f"after minute {minute:2}           {read_resident_mb():8.1f} MB")
+    wall = time.monotonic() - begin
+    grown = read_resident_mb() - before
+    print(f"growth in {minutes} minutes of session time, 4 lanes, every effect: {grown:.1f} MB")
+    print(f"{minutes * MINUTE_S / wall:.0f} times real time, {len(session.commands)} commands kept")
+
+
+if __name__ == "__main__":
+    main()

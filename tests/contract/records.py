@@ -1,0 +1,37 @@
+"""Records to test with, made without simulating."""
+
+import numpy as np
+
+from svsa.runtime.record_header import RecordHeader
+from svsa.signals import CHANNEL_INDEX, CHANNELS
+
+PERIOD_S = 0.001
+
+
+def build_header(
+    run_id: str = "run-1", lanes: tuple[str, ...] = ("ndobc", "fl"), **changes: object
+) -> RecordHeader:
+    values: dict = {
+        "version": "0.1.0",
+        "run_id": run_id,
+        "created": "2026-01-02T03:04:05+00:00",
+        "session": "lab",
+        "name": "A run",
+        "tags": ("class", "load"),
+        "notes": "with 3 kg",
+        "lanes": lanes,
+        "configuration": {"law": "ndobc", "seed": 7, "loads": []},
+        "seed": 7,
+        "period_s": PERIOD_S,
+        "channels": CHANNELS,
+    }
+    return RecordHeader(**(values | changes))
+
+
+def build_samples(ticks: int, lanes: int = 2, first_tick: int = 0) -> np.ndarray:
+    """Awkward numbers, the same for the same ticks: (ticks, lanes, channels)."""
+    tick = np.arange(first_tick, first_tick + ticks)
+    grid = tick[:, None, None] + 10 * np.arange(lanes)[:, None] + np.arange(len(CHANNELS)) / 3
+    samples = np.sin(grid * 0.01) * 10.0 ** (np.arange(len(CHANNELS)) % 7 - 3)
+    samples[:, :, CHANNEL_INDEX["time_s"]] = (tick * PERIOD_S)[:, None]
+    return samples
