@@ -8,7 +8,7 @@ import time
 
 from svsa.errors import StateError
 from svsa.experiment.paper import get_figure
-from svsa.plant.disturbances import PAPER_MASS_KG, MassLoad, PaperLoad
+from svsa.plant.disturbances import get_hung_mass
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.session import Session
@@ -60,8 +60,9 @@ class Laboratory:
     ) -> Session:
         """A private session, paused, that goes on from a recorded run at a tick."""
         self._check_room()
-        session = Session(build_name(), configuration)
-        await asyncio.to_thread(session.load_branch, configuration, commands, tick)
+        session = await asyncio.to_thread(
+            Session.branch, build_name(), configuration, commands, tick
+        )
         self._add(session)
         return session
 
@@ -163,11 +164,7 @@ def build_name() -> str:
 
 
 def _find_hung_mass(session: Session) -> float:
-    mass = 0.0
-    for _, load, start, end in session.run.loads:
-        if start <= session.run.tick < end:
-            if isinstance(load, MassLoad):
-                mass += load.mass_kg
-            elif isinstance(load, PaperLoad):
-                mass += PAPER_MASS_KG
-    return mass
+    tick = session.run.tick
+    return sum(
+        get_hung_mass(load) for _, load, start, end in session.run.loads if start <= tick < end
+    )

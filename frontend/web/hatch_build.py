@@ -21,7 +21,15 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 WEB = Path(__file__).resolve().parent
 PAGE = WEB.parents[1] / "backend" / "svsa_server" / "page"
 _LOCK_COPY = WEB / "node_modules" / ".package-lock.copy"
-_SOURCES = ("src", "public", "index.html", "vite.config.ts", "tsconfig.json", "package.json")
+_SOURCES = (
+    "src",
+    "public",
+    "index.html",
+    "replay.html",
+    "vite.config.ts",
+    "tsconfig.json",
+    "package.json",
+)
 
 
 class PageBuildError(RuntimeError):
@@ -65,10 +73,10 @@ def _are_modules_current() -> bool:
 
 
 def _is_page_current() -> bool:
-    index = PAGE / "index.html"
-    if not index.is_file():
+    last = PAGE / "replay.html"
+    if not last.is_file():
         return False
-    built = index.stat().st_mtime
+    built = last.stat().st_mtime
     return all(source.stat().st_mtime <= built for source in _list_sources())
 
 

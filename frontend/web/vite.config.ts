@@ -1,15 +1,44 @@
+import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
 
 /** Where `npm run dev` finds the lab: `svsa serve` with its default port. */
 const SERVER = "http://127.0.0.1:8000";
 
-export default defineConfig({
+/** Puts script and style into the page itself, so that one file is all there is. */
+function inlineAssets(): Plugin {
+  return {
+    name: "svsa-inline-assets",
+    enforce: "post",
+    generateBundle(_, bundle) {
+      const page = bundle["replay.html"];
+      if (page?.type !== "asset") throw new Error("replay.html was not built");
+      let html = String(page.source);
+      for (const [name, part] of Object.entries(bundle)) {
+        const tag = new RegExp(`<(script|link)[^>]*"\\./${name}"[^>]*>(</script>)?`);
+        if (part.type === "chunk") {
+          const code = part.code.replaceAll("</script", "<\\/script");
+          html = html.replace(tag, () => `<script type="module">${code}</script>`);
+        } else if (name.endsWith(".css")) {
+          html = html.replace(tag, () => `<style>${String(part.source)}</style>`);
+        } else continue;
+        delete bundle[name];
+      }
+      page.source = html;
+    },
+  };
+}
+
+/** `vite build` makes the lab's page; `vite build --mode replay` the page of an exported run. */
+export default defineConfig(({ mode }) => ({
   base: "./",
+  plugins: mode === "replay" ? [inlineAssets()] : [],
   build: {
     outDir: "../../backend/svsa_server/page",
-    emptyOutDir: true,
+    emptyOutDir: mode !== "replay",
+    copyPublicDir: mode !== "replay",
     target: "es2022",
     modulePreload: { polyfill: false },
+    rolldownOptions: { input: mode === "replay" ? "replay.html" : "index.html" },
   },
   server: {
     proxy: {
@@ -18,4 +47,4 @@ export default defineConfig({
     },
   },
   test: { include: ["tests/**/*.test.ts"] },
-});
+}));

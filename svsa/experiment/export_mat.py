@@ -1,4 +1,8 @@
-"""MAT, version 5: a struct a lane with a column a channel; for MATLAB and GNU Octave."""
+"""MAT, version 5: a struct a lane with a column a channel; for MATLAB and GNU Octave.
+
+Texts are ASCII, since Octave cuts others short: a unit reads N*m/rad, a letter it lacks ?.
+`jsondecode(run.header_json)` gives every text as it is.
+"""
 
 import json
 from collections.abc import Iterable
@@ -30,7 +34,9 @@ def write_mat(record: Record, stream: IO[bytes]) -> None:
     content: dict[str, Any] = {
         "tick": ticks[:, None],
         "time_s": (ticks * header.period_s)[:, None],
-        "units": {name: channel.unit for name, channel in zip(names, header.channels, strict=True)},
+        "units": {
+            name: _spell(channel.unit) for name, channel in zip(names, header.channels, strict=True)
+        },
         "run": _describe(record),
     }
     samples = record.samples
@@ -59,7 +65,7 @@ def build_identifiers(texts: Iterable[str]) -> list[str]:
 def _describe(record: Record) -> dict[str, Any]:
     header = record.header
     commands = [{"tick": tick, "command": command} for tick, command in record.commands]
-    return {
+    texts = {
         "id": header.run_id,
         "name": header.name,
         "notes": header.notes,
@@ -68,11 +74,15 @@ def _describe(record: Record) -> dict[str, Any]:
         "created": header.created,
         "version": header.version,
         "lanes": ", ".join(header.lanes),
-        "period_s": header.period_s,
-        "seed": np.int64(header.seed),
-        "configuration_json": json.dumps(header.configuration),
+        "header_json": json.dumps(header.model_dump(mode="json")),
         "commands_json": json.dumps(commands),
     }
+    numbers = {"period_s": header.period_s, "seed": np.int64(header.seed)}
+    return {name: _spell(text) for name, text in texts.items()} | numbers
+
+
+def _spell(text: str) -> str:
+    return text.replace("·", "*").encode("ascii", "replace").decode()
 
 
 _KEYWORDS = frozenset(

@@ -120,6 +120,17 @@ Load = Annotated[
     Field(discriminator="kind"),
 ]
 
+
+def get_hung_mass(load: Load) -> float:
+    """The mass that a load hangs on the link, kg; the paper's torque stands for 3 kg."""
+    match load:
+        case MassLoad():
+            return load.mass_kg
+        case PaperLoad():
+            return PAPER_MASS_KG
+    return 0.0
+
+
 CONSTANT, SINE, MASS, SERIES = range(4)
 KIND, W2, W4, W6, START, END, OMEGA, PHASE, INERTIA, MOMENT, FIRST, LENGTH = range(12)
 

@@ -10,6 +10,7 @@ import secrets
 import shutil
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from svsa.errors import StateError
 from svsa.runtime.catalogue_database import Database
@@ -29,6 +30,7 @@ from svsa.runtime.record_header import (
     read_header,
     write_header,
 )
+from svsa.runtime.record_parquet import measure_bytes
 from svsa.runtime.record_reader import Record, open_record
 from svsa.runtime.recorder import Recorder, RecordStatus
 
@@ -102,7 +104,7 @@ class Catalogue:
         """Change what is given; raises `ParameterError` for a wrong value."""
         entry = self.get(run_id)
         given = {"name": name, "tags": tags, "notes": notes}
-        changes = {key: value for key, value in given.items() if value is not None}
+        changes: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
         if tags is not None:
             changes["tags"] = tuple(tags)
         changed = dataclasses.replace(entry, **changes)
@@ -113,6 +115,7 @@ class Catalogue:
                 write_header(folder, read_header(folder).changed(**changes))
             except OSError as error:
                 raise RecordError(f"Run {run_id} cannot be changed: {error}.") from None
+            changes["bytes"] = measure_bytes(folder)
         return self._database.change(run_id, changes)
 
     def query(self, query: Query) -> RunPage:

@@ -2,7 +2,6 @@
 
 import contextlib
 import dataclasses
-import json
 import sqlite3
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,24 +14,22 @@ from svsa.runtime.catalogue_entry import (
     RunPage,
     UnknownRunError,
     make_storable,
-    read_metrics,
-    write_metrics,
+    read_entry,
+    write_entry,
 )
 
 BUSY_TIMEOUT_S = 5.0
 _VERSION = 1
-_COLUMNS = (
-    "id, name, tags, notes, session, created, version, state, message, lanes, period_s,"
-    " first_tick, ticks, duration_s, bytes, metrics, deleted, search"
-)
 _SCHEMA = """
 CREATE TABLE IF NOT EXISTS runs (
-    id TEXT PRIMARY KEY, name TEXT, tags TEXT, notes TEXT, session TEXT, created TEXT,
-    version TEXT, state TEXT, message TEXT, lanes TEXT, period_s REAL, first_tick INTEGER,
-    ticks INTEGER, duration_s REAL, bytes INTEGER, metrics TEXT, deleted TEXT, search TEXT
+    id TEXT PRIMARY KEY, created TEXT, name TEXT, session TEXT, duration_s REAL,
+    bytes INTEGER, state TEXT, trash INTEGER, search TEXT
+);
+CREATE INDEX IF NOT EXISTS runs_by_time ON runs (trash, created, id);
+CREATE TABLE IF NOT EXISTS entries (id TEXT PRIMARY KEY, entry TEXT);
+CREATE TABLE IF NOT EXISTS tags (
+    tag TEXT, run TEXT, trash INTEGER, PRIMARY KEY (tag, run)
 ) WITHOUT ROWID;
-CREATE INDEX IF NOT EXISTS runs_by_time ON runs (created, id) WHERE deleted IS NULL;
-CREATE TABLE IF NOT EXISTS tags (tag TEXT, run TEXT, PRIMARY KEY (tag, run)) WITHOUT ROWID;
 CREATE INDEX IF NOT EXISTS tags_by_run ON tags (run);
 """
 
@@ -73,12 +70,13 @@ class Database:
         """Take a run out of the table."""
         with self._connect() as connection:
             connection.execute("DELETE FROM runs WHERE id = ?", (run_id,))
+            connection.execute("DELETE FROM entries WHERE id = ?", (run_id,))
             connection.execute("DELETE FROM tags WHERE run = ?", (run_id,))
 
     def query(self, query: Query) -> RunPage:
         """A page of the runs that the query is for."""
-        conditions = ["deleted IS NOT NULL" if query.trash else "deleted IS NULL"]
-        values: list[Any] = []
+        conditions: list[str] = ["trash = ?"]
+        values: list[Any] = [query.trash]
         if query.tag is not None:
             conditions.append("id IN (SELECT run FROM tags WHERE tag = ?)")
             values.append(make_storable(query.tag))
@@ -93,23 +91,21 @@ class Database:
         with self._connect() as connection:
             count = f"SELECT count(*) FROM runs WHERE {where}"  # noqa: S608
             (total,) = connection.execute(count, values).fetchone()
-            select = f"SELECT * FROM runs WHERE {where} ORDER BY {order} LIMIT ? OFFSET ?"  # noqa: S608
-            rows = connection.execute(select, [*values, *window]).fetchall()
-        return RunPage(tuple(map(_read, rows)), total, query.page, query.page_size)
+            select = f"SELECT id FROM runs WHERE {where} ORDER BY {order} LIMIT ? OFFSET ?"  # noqa: S608
+            found = connection.execute(select, [*values, *window]).fetchall()
+            entries = tuple(_get(connection, run_id) for (run_id,) in found)
+        return RunPage(entries, total, query.page, query.page_size)
 
     def list_tags(self) -> dict[str, int]:
         """Every tag of the runs that are not in the trash, and how many have it."""
-        select = (
-            "SELECT tag, count(*) FROM tags JOIN runs ON runs.id = tags.run"
-            " WHERE deleted IS NULL GROUP BY tag ORDER BY tag"
-        )
+        select = "SELECT tag, count(*) FROM tags WHERE trash = 0 GROUP BY tag ORDER BY tag"
         with self._connect() as connection:
             return dict(connection.execute(select).fetchall())
 
     def list_states(self) -> dict[str, tuple[str, bool]]:
         """For every run its state and whether it is in the trash."""
         with self._connect() as connection:
-            rows = connection.execute("SELECT id, state, deleted IS NOT NULL FROM runs")
+            rows = connection.execute("SELECT id, state, trash FROM runs")
             return {run_id: (state, bool(deleted)) for run_id, state, deleted in rows}
 
     @contextlib.contextmanager
@@ -118,7 +114,6 @@ class Database:
         try:
             connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
             try:
-                connection.row_factory = sqlite3.Row
                 connection.execute("PRAGMA synchronous = NORMAL")
                 with connection:
                     yield connection
@@ -157,32 +152,22 @@ class Database:
 
 
 def _put(connection: sqlite3.Connection, entry: RunEntry) -> None:
+    trash = entry.deleted is not None
     texts = (entry.id, entry.name, entry.session, *entry.tags, entry.notes)
-    row = {
-        **vars(entry),
-        "message": make_storable(entry.message),
-        "tags": json.dumps(entry.tags),
-        "lanes": json.dumps(entry.lanes),
-        "metrics": write_metrics(entry.metrics),
-        "search": "\n".join(texts).casefold(),
-    }
-    places = ", ".join(f":{name.strip()}" for name in _COLUMNS.split(","))
-    connection.execute(f"REPLACE INTO runs ({_COLUMNS}) VALUES ({places})", row)  # noqa: S608
+    search = "\n".join(texts).casefold()
+    row = (entry.id, entry.created, entry.name, entry.session, entry.duration_s, entry.bytes)
+    connection.execute(
+        "REPLACE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", (*row, entry.state, trash, search)
+    )
+    connection.execute("REPLACE INTO entries VALUES (?, ?)", (entry.id, write_entry(entry)))
     connection.execute("DELETE FROM tags WHERE run = ?", (entry.id,))
-    rows = [(tag, entry.id) for tag in entry.tags]
-    connection.executemany("INSERT INTO tags (tag, run) VALUES (?, ?)", rows)
+    rows = [(tag, entry.id, trash) for tag in entry.tags]
+    connection.executemany("INSERT INTO tags VALUES (?, ?, ?)", rows)
 
 
 def _get(connection: sqlite3.Connection, run_id: str) -> RunEntry:
-    found = connection.execute("SELECT * FROM runs WHERE id = ?", (run_id,)).fetchone()
+    select = "SELECT entry FROM entries WHERE id = ?"
+    found = connection.execute(select, (run_id,)).fetchone()
     if found is None:
         raise UnknownRunError(f"There is no run {run_id!r:.80}.")
-    return _read(found)
-
-
-def _read(row: sqlite3.Row) -> RunEntry:
-    values = {name: row[name] for name in row.keys() if name != "search"}  # noqa: SIM118
-    values["tags"] = tuple(json.loads(values["tags"]))
-    values["lanes"] = tuple(json.loads(values["lanes"]))
-    values["metrics"] = read_metrics(values["metrics"])
-    return RunEntry(**values)
+    return read_entry(found[0])

@@ -1,11 +1,10 @@
 """A run as the catalogue knows it, and what may be asked of the list."""
 
-import dataclasses
 import json
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import msgspec
 
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.runtime.metrics import Metrics
@@ -31,7 +30,7 @@ class RunEntry:
 
     state: complete, or still recording, or failed (it ended early, `message` says why; what
     was recorded is there), damaged (it cannot be read) or missing (its folder is gone).
-    metrics: per lane, of the whole record; None where it is empty or has no such channels.
+    metrics: per lane, of the whole record; None where there are none, or no finite ones.
     """
 
     id: str
@@ -97,28 +96,24 @@ class Query:
         return [word.casefold() for word in make_storable(self.search).split()]
 
 
-def write_metrics(metrics: Sequence[Metrics] | None) -> str | None:
-    """Metrics as JSON; what is no finite number as null."""
-    if metrics is None:
-        return None
-    lanes = [dataclasses.asdict(lane) for lane in metrics]
-    return json.dumps(
-        [{name: _make_finite(value) for name, value in lane.items()} for lane in lanes]
-    )
+def write_entry(entry: RunEntry) -> str:
+    """An entry as JSON."""
+    return msgspec.json.encode(replace(entry, message=make_storable(entry.message))).decode()
 
 
-def read_metrics(text: str | None) -> tuple[Metrics, ...] | None:
-    """Metrics from `write_metrics`; None where there are none of this version."""
+def read_entry(text: str) -> RunEntry:
+    """An entry from `write_entry`; without metrics that are not those of this version."""
+    written = json.loads(text)
+    for name in ("tags", "lanes"):
+        written[name] = tuple(written[name])
     try:
-        return tuple(Metrics(**lane) for lane in json.loads(text)) if text else None
-    except (TypeError, ValueError):
-        return None
+        lanes = written["metrics"]
+        written["metrics"] = None if lanes is None else tuple(Metrics(**lane) for lane in lanes)
+    except TypeError:
+        written["metrics"] = None
+    return RunEntry(**written)
 
 
 def make_storable(text: str) -> str:
     """The text with halves of characters, which no database stores, replaced."""
     return text.encode("utf-8", "replace").decode()
-
-
-def _make_finite(value: Any) -> Any:
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -8,6 +8,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from svsa.errors import SvsaError
 from svsa.runtime.catalogue_database import Database
 from svsa.runtime.catalogue_entry import RunEntry
@@ -83,7 +85,10 @@ def describe(folder: Path) -> dict[str, Any]:
 
 
 def measure(record: Record) -> tuple[Metrics, ...] | None:
-    """The metrics of every lane, a stretch at a time; None without samples or channels."""
+    """The metrics of every lane, a stretch at a time.
+
+    None without samples, without the channels for it, or with samples that are no numbers.
+    """
     names = record.header.channel_names
     if not record.tick_count or not set(CHANNEL_NAMES) <= set(names):
         return None
@@ -93,7 +98,9 @@ def measure(record: Record) -> tuple[Metrics, ...] | None:
         for lane, running in enumerate(lanes):
             running.update(samples[:, lane, places])
     metrics = [running.summarize() for running in lanes]
-    return tuple(lane for lane in metrics if lane is not None)
+    found = tuple(lane for lane in metrics if lane is not None)
+    numbers = [value for lane in found for value in vars(lane).values() if value is not None]
+    return found if np.all(np.isfinite(numbers)) else None
 
 
 def build_entry(folder: Path) -> RunEntry:

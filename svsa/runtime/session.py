@@ -4,7 +4,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 from svsa.errors import StateError
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad
@@ -78,21 +78,25 @@ class Session:
         self.since_load: list[RunningMetrics] | None = None
         self.version += 1
 
-    def load_branch(
-        self, configuration: Configuration, commands: Iterable[Command], tick: int
-    ) -> None:
-        """Go on from a recorded run as it stood at `tick`, simulated again from its start.
+    @classmethod
+    def branch(
+        cls, name: str, configuration: Configuration, commands: Iterable[Command], tick: int
+    ) -> Self:
+        """A session, paused, that goes on from a recorded run as it stood at `tick`.
 
-        Raises `StateError` where the recorded run had ended before.
+        The run is simulated again from its start. Raises `StateError` where it had ended
+        before.
         """
-        self.load(configuration)
+        session = cls(name, configuration)
         for command in commands:
             if command.tick < tick:
-                self._advance(command.tick - self.run.tick)
-                self.change(command.kind, command.argument)
-        self._advance(tick - self.run.tick)
-        if self.run.tick < tick:
-            raise StateError(f"That run ended at tick {self.run.tick}, before tick {tick}.")
+                session._advance(command.tick - session.run.tick)
+                session.change(command.kind, command.argument)
+        session._advance(tick - session.run.tick)
+        if session.run.tick < tick:
+            ended = session.run.tick
+            raise StateError(f"That run ended at tick {ended}, before tick {tick}.")
+        return session
 
     def start_recording(self, recorder: Recorder) -> None:
         """Give the recorder all commands so far, and every sample from now on."""

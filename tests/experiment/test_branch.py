@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.runtime.command import Command, build_run_at
+from svsa.runtime.session import Session
 
 from .scripts import collect, play, play_busy_session, read, scripted, scripts, wake_sizes, write
 from .sessions import PULSE, advance, build_configuration, build_session, read_samples
@@ -63,9 +64,7 @@ def test_a_session_that_goes_on_from_a_record_is_the_recorded_session(tick):
     """Past, state and commands; then both get the same commands and ticks."""
     original = play_busy_session()
     end, samples = original.run.tick, read_samples(original)
-    session = build_session()
-    session.step(33)
-    session.load_branch(original.initial, original.commands, tick)
+    session = Session.branch("branch", original.initial, original.commands, tick)
     assert (session.run.tick, session.history.end_tick) == (tick, tick)
     np.testing.assert_array_equal(read_samples(session), samples[:tick])
     for command in original.commands:
@@ -81,9 +80,8 @@ def test_a_session_that_goes_on_from_a_record_is_the_recorded_session(tick):
 def test_a_branch_after_a_lane_was_added_has_the_past_of_the_first_in_it():
     """As the recorded session had: not zeros, nor what the session did before."""
     original = play_busy_session()
-    session = build_session(rivals=(svsa.Lane(law="fl"),) * 3)
-    session.step(200)
-    session.load_branch(original.initial, original.commands, original.run.tick)
+    end = original.run.tick
+    session = Session.branch("branch", original.initial, original.commands, end)
     for lane in (0, 1):
         np.testing.assert_array_equal(read_samples(session, lane), read_samples(original, lane))
 
@@ -94,8 +92,8 @@ def test_every_lane_of_a_branch_has_the_past_that_the_session_had(script, wakes)
     """Lanes that came, went and moved in random scripts; up to the end, fault or not."""
     original = build_session(PULSE)
     play(original, script, wakes)
-    session, end = build_session(), original.run.tick
-    session.load_branch(*read(write(original)), end)
+    end = original.run.tick
+    session = Session.branch("branch", *read(write(original)), end)
     np.testing.assert_array_equal(read_samples(session), read_samples(original))
     if original.status == "fault":
         session.step(1)
@@ -108,10 +106,16 @@ def test_every_lane_of_a_branch_has_the_past_that_the_session_had(script, wakes)
 
 def test_the_metrics_and_events_of_a_branch_are_those_of_the_recorded_session():
     original = play_busy_session()
-    session = build_session()
-    session.load_branch(original.initial, original.commands, original.run.tick)
+    end = original.run.tick
+    session = Session.branch("branch", original.initial, original.commands, end)
     for mine, theirs in zip(session.since_start, original.since_start, strict=True):
         found, expected = asdict(mine.summarize()), asdict(theirs.summarize())
         assert found.pop("recovery_time_s") == expected.pop("recovery_time_s")
         assert found == pytest.approx(expected, rel=1e-12)
     assert list(session.events) == list(original.events)
+
+
+def test_a_branch_after_the_end_of_a_run_is_refused():
+    crash = build_configuration(svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.05))
+    with pytest.raises(svsa.StateError, match="ended at tick"):
+        Session.branch("branch", crash, [], 500)

@@ -70,9 +70,10 @@ def test_mat_opens_in_scipy(record: Record, tmp_path: Path) -> None:
             np.testing.assert_array_equal(
                 read[lane][channel.name], record.samples[:, number, index]
             )
-    assert read["units"]["torque1_nm"] == "N·m"
+    assert read["units"]["stiffness_nm_per_rad"] == "N*m/rad"
     assert json.loads(read["run"]["commands_json"])[0]["tick"] == 45
-    assert read["run"]["name"] == record.header.name.replace("\0", " ")
+    assert json.loads(read["run"]["header_json"])["name"] == record.header.name
+    assert read["run"]["name"].startswith("../a run: ?ber 'alles'")
 
 
 def test_mat_opens_in_octave(record: Record, tmp_path: Path) -> None:
@@ -83,6 +84,7 @@ def test_mat_opens_in_octave(record: Record, tmp_path: Path) -> None:
     script = (
         "load('run.mat'); printf('%.17g %d %d %s %.17g\\n', ndobc.position_rad(11), tick(1),"
         " rows(end_2.torque1_nm), units.torque1_nm, run.period_s);"
+        " header = jsondecode(run.header_json); assert(header.lanes{2}, 'FL 2/x');"
     )
     done = subprocess.run(
         [octave, "--no-gui", "--norc", "--quiet", "--eval", script],
@@ -94,7 +96,7 @@ def test_mat_opens_in_octave(record: Record, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     position, tick, rows, unit, period = done.stdout.split()
     assert float(position) == record.samples[10, 0, CHANNEL_INDEX["position_rad"]]
-    assert (int(tick), int(rows), unit, float(period)) == (FIRST_TICK, 300, "N·m", 0.001)
+    assert (int(tick), int(rows), unit, float(period)) == (FIRST_TICK, 300, "N*m", 0.001)
 
 
 def test_mcap_has_joint_states_and_time_series_of_every_lane(record: Record) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import time
 from pathlib import Path
@@ -63,6 +64,15 @@ def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> No
     lab.client.delete(branch)
     refused = lab.client.post(f"/api/v1/runs/{run['id']}/branch", json={"tick": -1})
     assert refused.status_code == 422
+
+
+def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
+    run = wait_for_run(lab, record(lab, name="<script>alert(1)</script>"))
+    answer = lab.client.get(f"/api/v1/runs/{run['id']}/replay.html")
+    assert answer.status_code == 200
+    assert "attachment" in answer.headers["content-disposition"]
+    assert "<script>alert(1)" not in answer.text
+    assert re.search(r'(?:src|href)="https?://', answer.text) is None
 
 
 def test_what_cannot_be_done_while_recording_is_told(lab: Lab) -> None:

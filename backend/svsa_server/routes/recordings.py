@@ -4,8 +4,10 @@ import asyncio
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Request
+from fastapi.responses import HTMLResponse
 
 from svsa.runtime.resimulation import Comparison, compare_with_simulation, read_origin
+from svsa_server.replay_export import build_replay
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.schemas import BranchRequest, RecordingRequest, SessionState
 from svsa_server.state import build_state
@@ -42,6 +44,15 @@ async def branch_run(
     configuration, commands = read_origin(record)
     session = await request.app.state.laboratory.branch(configuration, commands, wanted.tick)
     return build_state(session)
+
+
+@router.get("/runs/{run_id}/replay.html", response_class=HTMLResponse)
+async def download_replay(request: Request, run_id: str) -> HTMLResponse:
+    """The run as one page with 3D replay and plots together; opens from a file, offline."""
+    record = await asyncio.to_thread(request.app.state.catalogue.open, run_id)
+    page = await asyncio.to_thread(build_replay, record)
+    disposition = f'attachment; filename="{record.header.run_id}.html"'
+    return HTMLResponse(page, headers={"Content-Disposition": disposition})
 
 
 @router.post("/runs/{run_id}/compare")

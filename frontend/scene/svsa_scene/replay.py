@@ -1,0 +1,154 @@
+"""A recorded run as one HTML page: 3D and plots on one time axis, opened from a file.
+
+The page is built with the lab's own (`frontend/web/src/replay`); this fills the run in. Nothing
+in it asks for a network, and its content security policy would refuse it.
+"""
+
+import html
+import json
+import math
+from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa_scene.replay_curves import compute_metrics, list_events, pack_curves
+from svsa_scene.replay_motion import POSE_CHANNELS, record_motion
+from svsa_scene.replay_packing import ArrayPack
+
+MOST_LANES = 4
+
+_TITLE_MARK = "REPLAY_TITLE"
+_RUN_MARK = '"REPLAY_RUN"'
+_POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' data: blob:;"
+    " style-src 'unsafe-inline'; img-src data: blob:; font-src data:; media-src data: blob:;"
+    " connect-src data: blob:; worker-src data: blob:; frame-src 'self'; base-uri 'none';"
+    " form-action 'none'"
+)
+
+
+class ReplayError(SvsaError):
+    """The page cannot be made; the message says what is missing."""
+
+
+def build_replay_html(
+    title: str,
+    period_s: float,
+    lanes: list[str],
+    channels: list[str],
+    samples: np.ndarray,
+    load_mass_kg: np.ndarray | None,
+    details: dict[str, Any],
+    *,
+    first_tick: int = 0,
+) -> str:
+    """The run as a page of HTML.
+
+    title: heading, any text. period_s: s. lanes: 1–4 names; the first is drawn as the actuator,
+    the others as outlines of their links. channels: names as in `svsa.signals.CHANNELS`, at least
+    those of a pose; more are left out. samples: float64 (ticks, lanes, channels), SI.
+    load_mass_kg: mass hung on the link at every tick, (ticks,), kg; None is no mass. details:
+    what the page says about the run (JSON); `version` and other plain values stand in its
+    header, `commands` ({"tick", "label" or "kind", …} or (tick, {…})) are marked on the plots.
+    first_tick: tick of the first sample, as the commands count; the page's time begins there at 0.
+
+    Takes some seconds and starts viser on a loopback port meanwhile: call it in a thread. Raises
+    `ParameterError` for arrays that do not fit, `ReplayError` where the page was not built.
+    """
+    samples = np.asarray(samples, dtype=np.float64)
+    mass = np.zeros(len(samples)) if load_mass_kg is None else np.asarray(load_mass_kg, float)
+    _check(period_s, lanes, channels, samples, mass)
+    mass = np.nan_to_num(mass, nan=0.0, posinf=0.0, neginf=0.0)
+    template = _read_template()
+    pack = ArrayPack()
+    curves = pack_curves(samples, channels, period_s, pack)
+    motion = record_motion(samples, channels, lanes, period_s, mass, pack)
+    events = list_events(mass, details, first_tick)
+    run = {
+        "title": title,
+        "period_s": period_s,
+        "ticks": len(samples),
+        "lanes": lanes,
+        "details": details,
+        "events": [{"time_s": tick * period_s, "label": label} for tick, label in events],
+        "metrics": compute_metrics(samples, channels),
+        "curves": curves,
+        "motion": motion.content,
+        "arrays": pack.export(),
+        "scene": motion.html,
+    }
+    return _fill(template, title, _write_json(run))
+
+
+def _check(
+    period_s: float,
+    lanes: Sequence[str],
+    channels: Sequence[str],
+    samples: npt.NDArray[np.float64],
+    mass: npt.NDArray[np.float64],
+) -> None:
+    wrong: list[Violation] = []
+    if not (math.isfinite(period_s) and period_s > 0):
+        wrong.append(Violation("period_s", period_s, "s", "above 0"))
+    if not 1 <= len(lanes) <= MOST_LANES:
+        wrong.append(Violation("lanes", len(lanes), "", f"1 to {MOST_LANES} lanes"))
+    missing = [name for name in POSE_CHANNELS if name not in channels]
+    if missing:
+        wrong.append(Violation("channels", list(channels), "", f"with {', '.join(missing)}"))
+    if samples.ndim != 3 or samples.shape[1:] != (len(lanes), len(channels)) or not len(samples):
+        bound = f"(at least 1, {len(lanes)}, {len(channels)}): ticks, lanes, channels"
+        wrong.append(Violation("samples.shape", samples.shape, "", bound))
+    elif mass.shape != samples.shape[:1]:
+        wrong.append(Violation("load_mass_kg.shape", mass.shape, "", f"({len(samples)},)"))
+    if wrong:
+        raise ParameterError(*wrong)
+
+
+def _read_template() -> str:
+    """The page beside the lab's own, found without importing the server."""
+    server = find_spec("svsa_server")
+    folders = server.submodule_search_locations if server else None
+    for folder in folders or ():
+        path = Path(folder) / "page" / "replay.html"
+        if path.is_file():
+            return path.read_text(encoding="utf-8")
+    raise ReplayError("The page of a replay was not built: run `make page`.")
+
+
+def _fill(template: str, title: str, run: str) -> str:
+    policy = f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}" />'
+    head, _, rest = template.partition("<head>")
+    before, _, rest = rest.partition(_TITLE_MARK)
+    middle, mark, end = rest.partition(_RUN_MARK)
+    if not mark:
+        raise ReplayError("The page of a replay is not the one of this version: run `make page`.")
+    words = html.escape(title.encode("utf-8", "replace").decode("utf-8"))
+    return "".join([head, "<head>", policy, before, words, middle, run, end])
+
+
+def _write_json(run: Mapping[str, Any]) -> str:
+    """JSON that may stand inside a <script>: nothing in it can end the element."""
+    text = json.dumps(_to_json(run), allow_nan=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c")
+
+
+def _to_json(value: Any) -> Any:
+    """The value with what JSON does not know as text: infinities, dates, paths."""
+    match value:
+        case None | bool() | str():
+            return value
+        case int() | np.integer():
+            return int(value)
+        case float() | np.floating():
+            return float(value) if math.isfinite(value) else str(value)
+        case Mapping():
+            return {str(key): _to_json(inner) for key, inner in value.items()}
+        case list() | tuple() | np.ndarray():
+            return [_to_json(inner) for inner in value]
+        case _:
+            return str(value)

@@ -1,0 +1,134 @@
+"""The curves, marks and numbers of a run for its page, from samples at full rate."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from svsa.runtime.command import KINDS
+from svsa_scene.replay_packing import ArrayPack
+
+Array = npt.NDArray[np.float64]
+
+MOST_POINTS = 9000
+DRAWN = (
+    "position_rad",
+    "position_reference_rad",
+    "position_error_rad",
+    "stiffness_nm_per_rad",
+    "stiffness_reference_nm_per_rad",
+    "torque1_nm",
+    "torque2_nm",
+    "disturbance_link_nm",
+    "disturbance_motor1_nm",
+    "disturbance_motor2_nm",
+    "estimate_link_nm",
+    "estimate_motor1_nm",
+    "estimate_motor2_nm",
+)
+
+
+class Event(NamedTuple):
+    """A mark on the time axis: tick and words."""
+
+    tick: int
+    label: str
+
+
+def decimate(values: Array, stride: int) -> Array:
+    """One value for every `stride` samples: the first of them, or the one that sticks out most
+    from between the first and the next stretch's first, so that no peak is lost.
+    """
+    if stride == 1:
+        return values
+    count = -(-len(values) // stride)
+    padded = np.append(values, np.full(count * stride - len(values), values[-1]))
+    stretches = padded.reshape(count, stride)
+    first = stretches[:, 0]
+    following = np.append(first[1:], values[-1])
+    top, bottom = np.fmax.reduce(stretches, axis=1), np.fmin.reduce(stretches, axis=1)
+    above = top - np.fmax(first, following)
+    below = np.fmin(first, following) - bottom
+    kept = np.where((above > 0) & (above >= below), top, first)
+    return np.where((below > 0) & (below > above), bottom, kept)
+
+
+def pack_curves(
+    samples: Array, channels: Sequence[str], period_s: float, pack: ArrayPack
+) -> dict[str, Any]:
+    """Every drawn channel that the run has: for each lane the number of its array."""
+    stride = -(-len(samples) // MOST_POINTS)
+    return {
+        "step_s": stride * period_s,
+        "channels": {
+            name: [
+                pack.add(decimate(samples[:, lane, channels.index(name)], stride))
+                for lane in range(samples.shape[1])
+            ]
+            for name in DRAWN
+            if name in channels
+        },
+    }
+
+
+def compute_metrics(samples: Array, channels: Sequence[str]) -> list[dict[str, float | None]]:
+    """For each lane, rms and peak of both errors over the whole run, from every sample, in SI."""
+    lanes: list[dict[str, float | None]] = [{} for _ in range(samples.shape[1])]
+    for name in ("position_error_rad", "stiffness_error_nm_per_rad"):
+        if name not in channels:
+            continue
+        errors = samples[:, :, channels.index(name)]
+        for lane, row in enumerate(lanes):
+            known = errors[np.isfinite(errors[:, lane]), lane]
+            row[f"{name}_rms"] = float(np.sqrt(np.mean(known**2))) if known.size else None
+            row[f"{name}_peak"] = float(np.max(np.abs(known))) if known.size else None
+    return lanes
+
+
+def list_events(
+    load_mass_kg: Array, details: Mapping[str, Any], first_tick: int = 0
+) -> list[Event]:
+    """Where the hung mass changes, and the commands in `details["commands"]`; ticks from 0.
+
+    A command is {"tick": …, …} or (tick, {…}), its tick counted as `first_tick` is; its words
+    are its `label` or its kind's. A command about loads where the mass changes is that change.
+    """
+    before = np.concatenate([[0.0], load_mass_kg[:-1]])
+    edges = np.flatnonzero(load_mass_kg != before)
+    events = [
+        Event(int(tick), _describe_mass(float(before[tick]), float(load_mass_kg[tick])))
+        for tick in edges
+    ]
+    for command in details.get("commands") or ():
+        event = _read_command(command)
+        if event is None or not 0 <= event.tick - first_tick <= len(load_mass_kg):
+            continue
+        tick = event.tick - first_tick
+        if "load" in event.label.lower() and np.any(np.abs(edges - tick) <= 1):
+            continue
+        events.append(Event(tick, event.label))
+    return sorted(events, key=lambda event: event.tick)
+
+
+def _describe_mass(before: float, now: float) -> str:
+    if now == 0.0:
+        return f"{before:.3g} kg off"
+    return f"{now:.3g} kg on"
+
+
+def _read_command(command: Any) -> Event | None:
+    if isinstance(command, list | tuple) and len(command) == 2:
+        tick, content = command
+    elif isinstance(command, Mapping):
+        tick, content = command.get("tick"), command
+    else:
+        return None
+    if not isinstance(tick, int | float) or not np.isfinite(tick):
+        return None
+    words = content
+    if isinstance(content, Mapping):
+        named = (content.get(key) for key in ("label", "kind", "name"))
+        words = next((word for word in named if isinstance(word, str) and word), "command")
+        words = KINDS[words].label if words in KINDS else words
+    return Event(int(tick), str(words).replace("_", " ")[:60])

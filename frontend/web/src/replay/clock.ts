@@ -1,0 +1,84 @@
+/** The one time of the page, and what part of the run the plots show. */
+import { signal } from "@preact/signals";
+
+export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
+
+export interface Range {
+  from: number;
+  to: number;
+}
+
+const SHORTEST_RANGE_S = 0.05;
+
+export const timeS = signal(0);
+export const isPlaying = signal(false);
+export const speed = signal<number>(1);
+export const range = signal<Range>({ from: 0, to: 1 });
+
+let endS = 0;
+let frameS = 1 / 30;
+let playedAt = 0;
+
+export function setUpClock(end: number, frame: number): void {
+  endS = end;
+  frameS = frame;
+  showAll();
+}
+
+export function seek(time: number): void {
+  timeS.value = Math.min(Math.max(time, 0), endS);
+  follow();
+}
+
+/** Whole frames back or forth, from the frame shown. */
+export function stepFrames(count: number): void {
+  isPlaying.value = false;
+  seek((Math.round(timeS.peek() / frameS) + count) * frameS);
+}
+
+export function togglePlay(): void {
+  if (!isPlaying.peek() && timeS.peek() >= endS) seek(0);
+  isPlaying.value = !isPlaying.peek();
+  if (isPlaying.peek()) {
+    playedAt = performance.now();
+    requestAnimationFrame(play);
+  }
+}
+
+export function showAll(): void {
+  range.value = { from: 0, to: Math.max(endS, SHORTEST_RANGE_S) };
+}
+
+export function isWhole({ from, to }: Range): boolean {
+  return from <= 0 && to >= endS;
+}
+
+export function showRange(from: number, to: number): void {
+  const width = Math.min(Math.max(to - from, SHORTEST_RANGE_S), Math.max(endS, SHORTEST_RANGE_S));
+  const start = Math.min(Math.max((from + to - width) / 2, 0), Math.max(endS - width, 0));
+  range.value = { from: start, to: start + width };
+}
+
+/** Narrower (factor < 1) or wider, the present time staying where it is. */
+export function zoom(factor: number): void {
+  const { from, to } = range.peek();
+  const time = timeS.peek();
+  showRange(time - (time - from) * factor, time + (to - time) * factor);
+}
+
+/** Turns the page when the time leaves the part shown. */
+function follow(): void {
+  const { from, to } = range.peek();
+  const time = timeS.peek();
+  if (time > to) showRange(time - 0.1 * (to - from), time + 0.9 * (to - from));
+  else if (time < from) showRange(time - 0.9 * (to - from), time + 0.1 * (to - from));
+}
+
+function play(now: number): void {
+  if (!isPlaying.peek()) return;
+  const passed = Math.max(0, now - playedAt) / 1000;
+  playedAt = now;
+  seek(timeS.peek() + passed * speed.peek());
+  if (timeS.peek() >= endS) isPlaying.value = false;
+  else requestAnimationFrame(play);
+}

@@ -1,0 +1,156 @@
+/** Which channels are drawn where, for the lanes of a run. A new plot is a new entry here. */
+import type { PlotColour } from "../plots/definitions";
+import { DEGREES_PER_RADIAN } from "../units";
+import type { Recording } from "./data";
+import { text } from "./text";
+
+export interface Curve {
+  key: string;
+  label: string;
+  colour: PlotColour;
+  dash: readonly number[];
+  width: number;
+  values: Float32Array;
+  /** Drawn and hidden together with this curve, and covered by its entry in the legend. */
+  follows?: string;
+}
+
+/** One set of curves of a plot; where there are several, the reader chooses. */
+export interface Choice {
+  label: string;
+  curves: Curve[];
+}
+
+export interface ReplayPlot {
+  key: string;
+  title: string;
+  unit: string;
+  /** The axis never shows less than this. */
+  span: number;
+  choices: Choice[];
+}
+
+/** A lane's place in the run is its colour, dash and width in every plot. */
+export const LANE_INKS: readonly { colour: PlotColour; dash: readonly number[]; width: number }[] =
+  [
+    { colour: "blue", dash: [], width: 2.75 },
+    { colour: "vermilion", dash: [9, 4], width: 2 },
+    { colour: "green", dash: [3, 3], width: 2 },
+    { colour: "purple", dash: [10, 3, 2, 3], width: 2 },
+  ];
+const REFERENCE = { colour: "reference", width: 1.5 } as const;
+const REFERENCE_DASHES = [
+  [2, 4],
+  [7, 4],
+  [1, 2],
+  [10, 3, 2, 3],
+] as const;
+
+const { plots } = text;
+
+export function definePlots(recording: Recording): ReplayPlot[] {
+  const { run, arrays } = recording;
+
+  const read = (channel: string, factor: number): Float32Array[] => {
+    const numbers = run.curves.channels[channel] ?? [];
+    const scaled = new Map<number, Float32Array>();
+    for (const number of numbers) {
+      const values = arrays[number] as Float32Array;
+      scaled.set(number, factor === 1 ? values : values.map((value) => value * factor));
+    }
+    return numbers.map((number) => scaled.get(number) as Float32Array);
+  };
+  const lanes = (channel: string, factor: number): Curve[] =>
+    read(channel, factor).map((values, lane) => ({
+      key: `${channel}.${lane}`,
+      label: run.lanes[lane] as string,
+      ...(LANE_INKS[lane % LANE_INKS.length] as (typeof LANE_INKS)[number]),
+      values,
+    }));
+  const reference = (channel: string, factor: number): Curve[] =>
+    read(channel, factor)
+      .slice(0, 1)
+      .map((values) => ({
+        key: channel,
+        label: plots.reference,
+        ...REFERENCE,
+        dash: REFERENCE_DASHES[0],
+        values,
+      }));
+  /** The load on a lane may depend on where the lane is: one curve for all that are equal. */
+  const truth = (channel: string): Curve[] =>
+    [...new Set(read(channel, 1))].map((values, index) => ({
+      key: `${channel}.${index}`,
+      label: plots.true,
+      ...(index > 0 ? { follows: `${channel}.0` } : {}),
+      ...REFERENCE,
+      dash: REFERENCE_DASHES[index % REFERENCE_DASHES.length] as readonly number[],
+      values,
+    }));
+  const one = (...curves: Curve[][]): Choice[] => [{ label: "", curves: curves.flat() }];
+  const load = (label: string, name: string): Choice => ({
+    label,
+    curves: [...lanes(`estimate_${name}_nm`, 1), ...truth(`disturbance_${name}_nm`)],
+  });
+
+  const all: ReplayPlot[] = [
+    {
+      key: "position",
+      title: plots.position,
+      unit: "deg",
+      span: 2,
+      choices: one(
+        lanes("position_rad", DEGREES_PER_RADIAN),
+        reference("position_reference_rad", DEGREES_PER_RADIAN),
+      ),
+    },
+    {
+      key: "error",
+      title: plots.error,
+      unit: "deg",
+      span: 0.004,
+      choices: one(lanes("position_error_rad", DEGREES_PER_RADIAN)),
+    },
+    {
+      key: "stiffness",
+      title: plots.stiffness,
+      unit: "N·m/rad",
+      span: 2,
+      choices: one(
+        lanes("stiffness_nm_per_rad", 1),
+        reference("stiffness_reference_nm_per_rad", 1),
+      ),
+    },
+    {
+      key: "torque",
+      title: plots.torque,
+      unit: "N·m",
+      span: 1,
+      choices: [
+        { label: plots.torque1, curves: lanes("torque1_nm", 1) },
+        { label: plots.torque2, curves: lanes("torque2_nm", 1) },
+      ],
+    },
+    {
+      key: "disturbance",
+      title: plots.disturbance,
+      unit: "N·m",
+      span: 1,
+      choices: [
+        load(plots.link, "link"),
+        load(plots.motor1, "motor1"),
+        load(plots.motor2, "motor2"),
+      ],
+    },
+  ];
+  return all
+    .map((plot) => ({ ...plot, choices: plot.choices.filter((choice) => choice.curves.length) }))
+    .filter((plot) => plot.choices.length > 0);
+}
+
+/** The time axis of every curve: equal steps, the last point at the end of the run. */
+export function makeTimeAxis({ run }: Recording): Float64Array {
+  const any = Object.values(run.curves.channels)[0]?.[0] ?? 0;
+  const count = run.arrays.places[any]?.[1] ?? 0;
+  return Float64Array.from({ length: count }, (_, index) => index * run.curves.step_s);
+}

@@ -1,0 +1,29 @@
+/** The page of an exported run; `window.svsaReplay` lets a console or a test move it. */
+import "uplot/dist/uPlot.min.css";
+import "../theme.css";
+import "../plots/plots.css";
+import "./replay.css";
+import { render } from "preact";
+import { App } from "./app";
+import { seek, setUpClock, timeS } from "./clock";
+import { readRecording } from "./data";
+import { answerKey } from "./keys";
+import { text } from "./text";
+
+declare global {
+  interface Window {
+    svsaReplay: { time(): number; seek(timeS: number): void };
+  }
+}
+
+const host = document.getElementById("replay") as HTMLElement;
+try {
+  const recording = await readRecording();
+  setUpClock(recording.endS, recording.run.motion.step_s);
+  render(<App recording={recording} />, host);
+  window.addEventListener("keydown", answerKey);
+  window.svsaReplay = { time: () => timeS.peek(), seek };
+} catch (error) {
+  console.error(error);
+  host.textContent = text.broken;
+}
