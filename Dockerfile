@@ -13,9 +13,10 @@ RUN /opt/svsa/bin/uv build --wheel --out-dir /dist --python /opt/svsa/bin/python
  && /opt/svsa/bin/pip uninstall --quiet --yes uv
 
 FROM ${BASE_IMAGE}
-RUN useradd --create-home --uid 1000 svsa
+RUN useradd --create-home --uid 1000 svsa && install -d -o svsa -g svsa /data
 COPY --from=build /opt/svsa /opt/svsa
-ENV PATH=/opt/svsa/bin:$PATH PYTHONUNBUFFERED=1
+ENV PATH=/opt/svsa/bin:$PATH PYTHONUNBUFFERED=1 SVSA_DATA=/data
+VOLUME /data
 USER svsa
 WORKDIR /home/svsa
 RUN svsa compile

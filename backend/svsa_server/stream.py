@@ -24,7 +24,6 @@ from svsa_server.state import build_progress, build_state
 BATCH_PERIOD_S = 1.0 / 30.0
 PROGRESS_PERIOD_S = 1.0
 SLOW_AFTER_S = 0.5
-FASTEST_STREAM = 20
 HEADER = struct.Struct("<4sIQIIII")
 MAGIC = b"SVSA"
 
@@ -93,7 +92,8 @@ class SampleCursor:
         missed = 0
         if session.run_number != self._run:
             self._run, self._next = session.run_number, 0
-        speed = session.clock.speed if math.isfinite(session.clock.speed) else FASTEST_STREAM
+        clock = session.clock
+        speed = clock.speed if math.isfinite(clock.speed) else clock.real_time_factor
         stride = self._stride * max(1, round(speed))
         oldest = history.first_tick
         if slow:

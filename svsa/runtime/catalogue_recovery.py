@@ -12,7 +12,7 @@ import numpy as np
 
 from svsa.errors import SvsaError
 from svsa.runtime.catalogue_database import Database
-from svsa.runtime.catalogue_entry import RunEntry
+from svsa.runtime.catalogue_entry import RunEntry, UnknownRunError
 from svsa.runtime.metrics import Metrics, RunningMetrics
 from svsa.runtime.record_header import STREAM_FILE, RecordError, is_run_id, read_header
 from svsa.runtime.record_parquet import measure_bytes
@@ -44,27 +44,40 @@ def recover_runs(database: Database, runs: Path, trash: Path) -> Recovery:
         unfinished = (folder / STREAM_FILE).exists()
         if state not in ("", "recording", "missing") and was_deleted == deleted and not unfinished:
             continue
-        if not state and not any(path.stat().st_size for path in folder.iterdir()):
-            continue  # a folder that a recording had only begun to make
+        try:
+            entry = _recover_run(database, folder, deleted, state)
+        except (FileNotFoundError, UnknownRunError):
+            continue  # another process took it away meanwhile
+        if entry is None:
+            continue
         if not state:
-            entry = build_entry(folder)
             registered.append(folder.name)
-            database.put(entry)
-        else:
-            entry = database.get(folder.name)
-        changes: dict[str, Any] = {"deleted": _choose_time(entry, deleted)}
-        if unfinished or state in ("", "recording", "missing"):
-            changes |= _finish(folder, entry, unfinished)
-        entry = database.change(folder.name, changes)
-        if state and unfinished and entry.state == "complete":
+        elif unfinished and entry.state == "complete":
             finished.append(folder.name)
         if entry.state == "damaged":
             problems.append((folder.name, entry.message))
     for run_id in known.keys() - found:
+        if (runs / run_id).exists() or (trash / run_id).exists():
+            continue
         message = "Its folder is gone."
-        database.change(run_id, {"state": "missing", "message": message})
-        problems.append((run_id, message))
+        with contextlib.suppress(UnknownRunError):
+            database.change(run_id, {"state": "missing", "message": message})
+            problems.append((run_id, message))
     return Recovery(tuple(finished), tuple(registered), tuple(problems))
+
+
+def _recover_run(database: Database, folder: Path, deleted: bool, state: str) -> RunEntry | None:
+    """Finish and enter one run; None for a folder that a recording had only begun to make."""
+    if not state:
+        if not any(path.stat().st_size for path in folder.iterdir()):
+            return None
+        database.put(build_entry(folder))
+    entry = database.get(folder.name)
+    changes: dict[str, Any] = {"deleted": _choose_time(entry, deleted)}
+    unfinished = (folder / STREAM_FILE).exists()
+    if unfinished or state in ("", "recording", "missing"):
+        changes |= _finish(folder, entry, unfinished)
+    return database.change(folder.name, changes)
 
 
 def describe(folder: Path) -> dict[str, Any]:
