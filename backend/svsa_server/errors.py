@@ -10,8 +10,8 @@ from pydantic import BaseModel, Field
 
 from svsa.checked import explain_problems
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
-from svsa.runtime.catalogue_entry import CatalogueError, UnknownRunError
-from svsa.runtime.record_header import RecordError
+from svsa.runtime.catalogue.entry import CatalogueError, UnknownRunError
+from svsa.runtime.recording.header import RecordError
 
 LONGEST_ECHO = 200
 
@@ -54,8 +54,11 @@ def install_error_handlers(app: FastAPI) -> None:
         return _answer(409, "not_now", str(error))
 
     @app.exception_handler(RecordError)
+    def refuse_record(_: Request, error: RecordError) -> JSONResponse:
+        return _answer(409, "record", str(error))
+
     @app.exception_handler(CatalogueError)
-    def refuse_storage(_: Request, error: SvsaError) -> JSONResponse:
+    def refuse_storage(_: Request, error: CatalogueError) -> JSONResponse:
         return _answer(507, "storage", str(error))
 
     @app.exception_handler(UnknownRunError)

@@ -7,10 +7,10 @@ from datetime import UTC, datetime
 from typing import Any, NoReturn
 
 import svsa
-from svsa.runtime.catalogue import Catalogue, build_run_id
-from svsa.runtime.catalogue_entry import CatalogueError
-from svsa.runtime.record_header import RecordHeader
-from svsa.runtime.recorder import Recorder
+from svsa.runtime.catalogue.entry import CatalogueError
+from svsa.runtime.catalogue.runs import Catalogue, build_run_id
+from svsa.runtime.recording.header import RecordHeader
+from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.session import Session
 from svsa.signals import CHANNELS
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from svsa.plant.disturbances import get_hung_mass
-from svsa.runtime.record_reader import Record
+from svsa.runtime.recording.reader import Record
 from svsa.runtime.resimulation import read_origin
 from svsa.runtime.run import Run
 from svsa_scene.replay import build_replay_html

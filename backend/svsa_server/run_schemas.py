@@ -6,9 +6,9 @@ from pydantic import BaseModel, Field, model_validator
 
 from svsa.checked import Checked, quantity
 from svsa.errors import ParameterError, Violation
-from svsa.runtime.catalogue_entry import RunState
+from svsa.runtime.catalogue.entry import RunState
 from svsa.runtime.metrics import Metrics
-from svsa.runtime.record_header import LONGEST_NAME, LONGEST_NOTES, LONGEST_TAG, MOST_TAGS
+from svsa.runtime.recording.header import LONGEST_NAME, LONGEST_NOTES, LONGEST_TAG, MOST_TAGS
 from svsa.signals import Channel
 
 ExportName = Literal["csv", "parquet", "mat", "mcap"]

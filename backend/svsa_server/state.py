@@ -6,7 +6,7 @@ from dataclasses import asdict
 from svsa.control.gains import Gains
 from svsa.plant.disturbances import ScheduledLoad
 from svsa.runtime.metrics import Metrics
-from svsa.runtime.recorder import Recorder
+from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.schemas import (

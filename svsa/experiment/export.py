@@ -8,9 +8,9 @@ from svsa.errors import ParameterError, Violation
 from svsa.experiment.export_csv import write_csv
 from svsa.experiment.export_mat import write_mat
 from svsa.experiment.export_mcap import write_mcap
-from svsa.runtime.record_header import RecordError
-from svsa.runtime.record_parquet import write_parquet
-from svsa.runtime.record_reader import Record
+from svsa.runtime.recording.header import RecordError
+from svsa.runtime.recording.parquet import write_parquet
+from svsa.runtime.recording.reader import Record
 
 LONGEST_FILE_NAME = 80
 

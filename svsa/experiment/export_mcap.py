@@ -16,8 +16,8 @@ from mcap.writer import Writer
 
 import svsa
 from svsa.experiment.export_mcap_schemas import COMMAND, JOINT_STATES, build_sample_schema
-from svsa.runtime.record_header import RecordHeader
-from svsa.runtime.record_reader import Record
+from svsa.runtime.recording.header import RecordHeader
+from svsa.runtime.recording.reader import Record
 
 NANOSECONDS = 1_000_000_000
 ROWS_A_STRETCH = 4096

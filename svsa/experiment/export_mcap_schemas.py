@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from svsa.runtime.record_header import RecordHeader
+from svsa.runtime.recording.header import RecordHeader
 
 _TIMESTAMP: dict[str, Any] = {
     "type": "object",

@@ -2,14 +2,17 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Picture
 
 from svsa.experiment.paper import LOAD_TIME_S, get_figure
-from svsa.experiment.reproduce import Reproduction
-from svsa.experiment.simulate import Result
+
+if TYPE_CHECKING:
+    from svsa.experiment.reproduce import Reproduction
+    from svsa.experiment.simulate import Result
 
 REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zorder": 3}
 LAW_STYLES = {
@@ -20,7 +23,7 @@ LAW_STYLES = {
 CHANNEL_COLORS = ("#0072B2", "#D55E00", "#009E73")
 
 
-def draw_figure(runs: Sequence[Reproduction]) -> Picture:
+def draw_figure(runs: "Sequence[Reproduction]") -> Picture:
     """One figure of the paper: tracking, position error, stiffness and its error."""
     figure = get_figure(runs[0].figure)
     picture = Picture(figsize=(8.0, 9.0), layout="constrained")
@@ -49,7 +52,7 @@ def draw_figure(runs: Sequence[Reproduction]) -> Picture:
     return picture
 
 
-def plot_run(result: Result) -> Picture:
+def plot_run(result: "Result") -> Picture:
     """One run: position, its error, stiffness, torques, disturbance true and estimated."""
     picture = Picture(figsize=(8.0, 10.0), layout="constrained")
     position, error, stiffness, torque, disturbance = picture.subplots(5, 1, sharex=True)
@@ -81,7 +84,7 @@ def plot_run(result: Result) -> Picture:
     return picture
 
 
-def save_figures(runs: Sequence[Reproduction], folder: Path) -> list[Path]:
+def save_figures(runs: "Sequence[Reproduction]", folder: Path) -> list[Path]:
     """One PNG a figure in `folder`; returns their paths. Raises `OSError` where it cannot."""
     folder.mkdir(parents=True, exist_ok=True)
     paths = []

@@ -7,8 +7,8 @@ import numpy as np
 
 from svsa.runtime.command import Command, read_command, simulate_again
 from svsa.runtime.configuration import Configuration
-from svsa.runtime.record_header import RecordError
-from svsa.runtime.record_reader import Record
+from svsa.runtime.recording.header import RecordError
+from svsa.runtime.recording.reader import Record
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from svsa.runtime.command import KINDS, Command, build_command
 from svsa.runtime.configuration import MOST_LANES, Configuration
 from svsa.runtime.history import History
 from svsa.runtime.metrics import RunningMetrics
-from svsa.runtime.recorder import Recorder
+from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.run import Run
 
 HISTORY_TICKS = 32_768

@@ -7,9 +7,9 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from svsa.runtime.catalogue import Catalogue
-from svsa.runtime.catalogue_database import Database
-from svsa.runtime.catalogue_entry import RunEntry
+from svsa.runtime.catalogue.database import Database
+from svsa.runtime.catalogue.entry import RunEntry
+from svsa.runtime.catalogue.runs import Catalogue
 from svsa.runtime.metrics import Metrics
 
 RUNS = 10_000

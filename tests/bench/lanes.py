@@ -16,8 +16,7 @@ from svsa.runtime.loop import INITIAL, Inputs, advance_tick, build_blocks
 from svsa.runtime.run import Run
 from svsa.runtime.stepwise import Controller
 from svsa.signals import CHANNELS
-
-from .memory import EVERY_EFFECT
+from tests.experiment.sessions import EVERY_EFFECT
 
 REPEATS = 7
 COMPILED_TICKS, PYTHON_TICKS = 20_000, 4_000

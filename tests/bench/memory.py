@@ -6,25 +6,9 @@ import time
 from pathlib import Path
 
 import svsa
-from svsa.plant.effects import (
-    CurrentLag,
-    Encoders,
-    Friction,
-    LinkGravity,
-    SensorNoise,
-    StateEstimation,
-)
 from svsa.runtime.session import Session
+from tests.experiment.sessions import EVERY_EFFECT
 
-EVERY_EFFECT = svsa.Effects(
-    encoders=Encoders(),
-    estimation=StateEstimation(),
-    delay_samples=1,
-    friction=Friction(),
-    current_lag=CurrentLag(),
-    noise=SensorNoise(),
-    gravity=LinkGravity(),
-)
 RIVALS = (svsa.Lane(law="fl"), svsa.Lane(law="ndobc"), svsa.Lane(law="fl"))
 MINUTE_S = 60.0
 

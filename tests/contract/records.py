@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from svsa.runtime.record_header import RecordHeader
+from svsa.runtime.recording.header import RecordHeader
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 
 PERIOD_S = 0.001

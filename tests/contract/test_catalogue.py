@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from svsa.errors import ParameterError, StateError
-from svsa.runtime.catalogue import Catalogue, build_run_id, find_data_folder
-from svsa.runtime.catalogue_entry import CatalogueError, UnknownRunError
+from svsa.runtime.catalogue.entry import CatalogueError, UnknownRunError
+from svsa.runtime.catalogue.runs import Catalogue, build_run_id, find_data_folder
 from svsa.runtime.metrics import compute_metrics
-from svsa.runtime.record_header import RecordError, is_run_id
-from svsa.runtime.record_writer import write_record
+from svsa.runtime.recording.header import RecordError, is_run_id
+from svsa.runtime.recording.writer import write_record
 
 from .records import PERIOD_S, build_header, build_samples
 
@@ -197,7 +197,7 @@ def test_a_run_that_is_being_recorded_is_not_deleted(catalogue: Catalogue) -> No
 
 CHILD = """
 import os, signal, sys
-from svsa.runtime.catalogue import Catalogue
+from svsa.runtime.catalogue.runs import Catalogue
 from tests.contract.records import build_header, build_samples
 recorder = Catalogue(sys.argv[1]).record(build_header("run-9"))
 recorder.write_samples(0, build_samples(400))

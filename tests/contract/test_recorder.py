@@ -17,11 +17,11 @@ import pyarrow.parquet as pq
 import pytest
 
 from svsa.errors import ParameterError, SvsaError
-from svsa.runtime import recorder as recorder_module
-from svsa.runtime.record_header import RecordError, RecordHeader, parse_header
-from svsa.runtime.record_reader import open_record, read_record, recover
-from svsa.runtime.record_writer import write_record
-from svsa.runtime.recorder import Recorder
+from svsa.runtime.recording import recorder as recorder_module
+from svsa.runtime.recording.header import RecordError, RecordHeader, parse_header
+from svsa.runtime.recording.reader import open_record, read_record, recover
+from svsa.runtime.recording.recorder import Recorder
+from svsa.runtime.recording.writer import write_record
 
 from .records import PERIOD_S, build_header, build_samples
 
@@ -104,7 +104,7 @@ def test_what_is_handed_over_is_with_the_system_within_half_a_second(tmp_path: P
 CHILD = """
 import sys, time
 from pathlib import Path
-from svsa.runtime.recorder import Recorder
+from svsa.runtime.recording.recorder import Recorder
 from tests.contract.records import build_header, build_samples
 recorder = Recorder(Path(sys.argv[1]), build_header())
 samples = build_samples(20_000)

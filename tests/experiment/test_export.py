@@ -17,9 +17,9 @@ from mcap.reader import make_reader
 from svsa.errors import ParameterError
 from svsa.experiment.export import EXPORT_KINDS, build_file_name, export
 from svsa.experiment.export_mat import build_identifiers
-from svsa.runtime.record_header import RecordError
-from svsa.runtime.record_reader import Record, build_record, open_record
-from svsa.runtime.record_writer import write_record
+from svsa.runtime.recording.header import RecordError
+from svsa.runtime.recording.reader import Record, build_record, open_record
+from svsa.runtime.recording.writer import write_record
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 
 from ..contract.records import build_header, build_samples

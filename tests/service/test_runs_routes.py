@@ -13,11 +13,12 @@ import pytest
 import uvicorn
 from fastapi import FastAPI
 
-from svsa.runtime.catalogue import Catalogue
-from svsa.runtime.record_decimation import decimate
-from svsa.runtime.record_writer import write_record
+from svsa.runtime.catalogue.runs import Catalogue
+from svsa.runtime.recording.decimation import decimate
+from svsa.runtime.recording.writer import write_record
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.errors import install_error_handlers
+from svsa_server.recording import NoCatalogue
 from svsa_server.routes import runs
 
 from ..contract.records import build_header, build_samples
@@ -212,13 +213,13 @@ def test_a_run_that_cannot_be_read_is_told(client: httpx.Client, catalogue: Cata
 
 
 def test_a_lab_without_a_folder_for_runs_says_so(client: httpx.Client, app: FastAPI) -> None:
-    kept, app.state.catalogue = app.state.catalogue, None
+    kept, app.state.catalogue = app.state.catalogue, NoCatalogue("Runs cannot be kept in /x.")
     try:
         answer = client.get("runs")
     finally:
         app.state.catalogue = kept
-    assert answer.status_code == 409
-    assert "keeps no runs" in answer.json()["message"]
+    assert answer.status_code == 507
+    assert "cannot be kept" in answer.json()["message"]
 
 
 @pytest.mark.parametrize("points", [2, 3, 10, 99, 100, 5000])

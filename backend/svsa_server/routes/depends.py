@@ -20,7 +20,7 @@ def find_session(
 NamedSession = Annotated[Session, Depends(find_session)]
 
 REFUSALS: dict[int | str, dict[str, Any]] = {
-    404: {"model": ErrorModel, "description": "No such session or load"},
-    409: {"model": ErrorModel, "description": "Not while the session is in this state"},
+    404: {"model": ErrorModel, "description": "No such session, load or run"},
+    409: {"model": ErrorModel, "description": "Not while the session or run is as it is"},
     422: {"model": ErrorModel, "description": "Refused values; nothing was changed"},
 }

@@ -1,6 +1,5 @@
 """Recorded runs: list, read, rename, delete, take back, export, look at the samples."""
 
-import contextlib
 import dataclasses
 import tempfile
 from collections.abc import Iterator
@@ -10,21 +9,18 @@ import msgspec
 from fastapi import APIRouter, Body, Depends, Path, Query, Request
 from fastapi.responses import Response, StreamingResponse
 
-from svsa.errors import ParameterError, StateError, Violation
+from svsa.errors import ParameterError, Violation
 from svsa.experiment.export import build_file_name, export, get_kind
-from svsa.runtime.catalogue import Catalogue
-from svsa.runtime.catalogue_entry import (
+from svsa.runtime.catalogue.entry import (
     LONGEST_SEARCH,
     MOST_PAGE_SIZE,
     MOST_PAGES,
-    CatalogueError,
     RunEntry,
-    UnknownRunError,
 )
-from svsa.runtime.record_decimation import decimate
-from svsa.runtime.record_header import RecordError
-from svsa.runtime.record_reader import Record
-from svsa_server.errors import ErrorModel, UnknownError
+from svsa.runtime.catalogue.runs import Catalogue
+from svsa.runtime.recording.decimation import decimate
+from svsa.runtime.recording.reader import Record
+from svsa_server.routes.depends import REFUSALS
 from svsa_server.run_schemas import (
     ExportName,
     RunCommand,
@@ -34,35 +30,17 @@ from svsa_server.run_schemas import (
     RunSamples,
     RunSummary,
 )
+from svsa_server.stream import DEFAULT_CHANNELS
 
-REFUSALS: dict[int | str, dict[str, Any]] = {
-    404: {"model": ErrorModel, "description": "No such run"},
-    409: {"model": ErrorModel, "description": "Not with the run, or the disk, as it is"},
-    422: {"model": ErrorModel, "description": "Refused values; nothing was changed"},
-}
 MOST_POINTS = 20_000
 MOST_COMMANDS = 1000
 CHUNK_BYTES = 1 << 18
-PLOTTED = (
-    "position_reference_rad",
-    "position_rad",
-    "position_error_rad",
-    "stiffness_reference_nm_per_rad",
-    "stiffness_nm_per_rad",
-    "torque1_nm",
-    "torque2_nm",
-)
-
 router = APIRouter(prefix="/runs", tags=["runs"], responses=REFUSALS)
 
 
-def find_catalogue(request: Request) -> Iterator[Catalogue]:
-    """The runs of this server; what goes wrong with them in the words of the server's errors."""
-    catalogue: Catalogue | None = request.app.state.catalogue
-    if catalogue is None:
-        raise StateError("This lab keeps no runs: its folder for them cannot be used.")
-    with _translate():
-        yield catalogue
+def find_catalogue(request: Request) -> Catalogue:
+    """The runs of this server."""
+    return request.app.state.catalogue
 
 
 Runs = Annotated[Catalogue, Depends(find_catalogue)]
@@ -206,7 +184,7 @@ def read_samples(
 def _choose_channels(record: Record, channels: str | None) -> list[str]:
     there = record.header.channel_names
     if channels is None:
-        return [name for name in PLOTTED if name in there] or list(there)
+        return [name for name in DEFAULT_CHANNELS if name in there] or list(there)
     names = list(dict.fromkeys(name.strip() for name in channels.split(",")))
     for name in names:
         if name not in there:
@@ -233,13 +211,3 @@ def _read_chunks(file: IO[bytes]) -> Iterator[bytes]:
 
 def _list_values(entry: RunEntry) -> dict[str, Any]:
     return {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}
-
-
-@contextlib.contextmanager
-def _translate() -> Iterator[None]:
-    try:
-        yield
-    except UnknownRunError as error:
-        raise UnknownError(str(error)) from None
-    except (RecordError, CatalogueError) as error:
-        raise StateError(str(error)) from None

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from svsa.errors import SvsaError
-from svsa.runtime.catalogue_database import Database
-from svsa.runtime.catalogue_entry import RunEntry, UnknownRunError
+from svsa.runtime.catalogue.database import Database
+from svsa.runtime.catalogue.entry import RunEntry, UnknownRunError
 from svsa.runtime.metrics import Metrics, RunningMetrics
-from svsa.runtime.record_header import STREAM_FILE, RecordError, is_run_id, read_header
-from svsa.runtime.record_parquet import measure_bytes
-from svsa.runtime.record_reader import Record, open_record, recover
+from svsa.runtime.recording.header import STREAM_FILE, RecordError, is_run_id, read_header
+from svsa.runtime.recording.parquet import measure_bytes
+from svsa.runtime.recording.reader import Record, open_record, recover
 from svsa.signals import CHANNEL_NAMES
 
 CUT_OFF = "The recording was cut off; what had been written is here."

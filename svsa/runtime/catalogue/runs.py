@@ -13,16 +13,16 @@ from pathlib import Path
 from typing import Any
 
 from svsa.errors import StateError
-from svsa.runtime.catalogue_database import Database
-from svsa.runtime.catalogue_entry import (
+from svsa.runtime.catalogue.database import Database
+from svsa.runtime.catalogue.entry import (
     CatalogueError,
     Query,
     RunEntry,
     RunPage,
     UnknownRunError,
 )
-from svsa.runtime.catalogue_recovery import Recovery, build_entry, describe, recover_runs
-from svsa.runtime.record_header import (
+from svsa.runtime.catalogue.recovery import Recovery, build_entry, describe, recover_runs
+from svsa.runtime.recording.header import (
     RecordError,
     RecordHeader,
     check_texts,
@@ -30,9 +30,9 @@ from svsa.runtime.record_header import (
     read_header,
     write_header,
 )
-from svsa.runtime.record_parquet import measure_bytes
-from svsa.runtime.record_reader import Record, open_record
-from svsa.runtime.recorder import Recorder, RecordStatus
+from svsa.runtime.recording.parquet import measure_bytes
+from svsa.runtime.recording.reader import Record, open_record
+from svsa.runtime.recording.recorder import Recorder, RecordStatus
 
 DATA_VARIABLE = "SVSA_DATA"
 

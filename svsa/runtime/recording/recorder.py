@@ -14,9 +14,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from svsa.runtime.record_header import RecordError, RecordHeader
-from svsa.runtime.record_parquet import ROWS_A_GROUP, measure_bytes, write_command
-from svsa.runtime.record_writer import RecordWriter
+from svsa.runtime.recording.header import RecordError, RecordHeader
+from svsa.runtime.recording.parquet import ROWS_A_GROUP, measure_bytes, write_command
+from svsa.runtime.recording.writer import RecordWriter
 
 FLUSH_PERIOD_S = 0.2
 LONGEST_CLOSE_S = 5.0

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from svsa.runtime.catalogue_entry import (
+from svsa.runtime.catalogue.entry import (
     CatalogueError,
     Query,
     RunEntry,

@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from svsa.runtime.record_header import (
+from svsa.runtime.recording.header import (
     PARQUET_FILE,
     STREAM_FILE,
     RecordError,
     RecordHeader,
     read_header,
 )
-from svsa.runtime.record_lock import claim
-from svsa.runtime.record_parquet import (
+from svsa.runtime.recording.lock import claim
+from svsa.runtime.recording.parquet import (
     ROWS_A_GROUP,
     Commands,
     Finished,
@@ -24,7 +24,7 @@ from svsa.runtime.record_parquet import (
     open_parquet,
     read_commands,
 )
-from svsa.runtime.record_stream import (
+from svsa.runtime.recording.stream import (
     TIME,
     build_batch,
     build_schema,
@@ -72,7 +72,7 @@ class Record:
     def iterate_batches(
         self, columns: Sequence[str] | None = None, start: int = 0, stop: int | None = None
     ) -> Iterator[pa.RecordBatch]:
-        """Rows start … stop of some columns of the file (see `record_stream`) or of all."""
+        """Rows start … stop of some columns of the file (see `stream`) or of all."""
         stop = self.tick_count if stop is None else min(stop, self.tick_count)
         return self._read(columns, start, stop)
 

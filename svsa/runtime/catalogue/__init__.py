@@ -1,0 +1,1 @@
+"""The runs on this machine: an index in SQLite over the folders of their records."""

@@ -1,0 +1,1 @@
+"""Records of runs: written while they go on, recovered after a crash, read back."""
