@@ -107,7 +107,7 @@ def set_stage(server: viser.ViserServer, ground: float) -> None:
         fade_from="origin",
     )
     camera = server.initial_camera
-    camera.position = (6.85, 4.45, 1.45)
+    camera.position = (7.84, 5.06, 1.74)
     camera.look_at = (-0.75, -0.27, -0.74)
     camera.fov = math.radians(30.0)
     camera.near = 0.1
