@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.contract.test_recorder import mount_small_disk
 from tests.lab import Lab, run_lab
 
 
@@ -106,6 +107,25 @@ def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None
         assert runs[0]["first_tick"] + runs[0]["ticks"] > ticks - 600
         compared = lab.client.post(f"/api/v1/runs/{runs[0]['id']}/compare").json()
         assert compared["identical"], json.dumps(compared)
+
+
+def test_a_full_disk_is_told_in_the_state_while_control_goes_on(tmp_path: Path) -> None:
+    with (
+        mount_small_disk(tmp_path / "disk", "600k") as disk,
+        run_lab(data=str(disk)) as lab,
+    ):
+        lab.client.put(lab.session + "/speed", json={"factor": 20}).raise_for_status()
+        lab.client.post(lab.session + "/recording", json={}).raise_for_status()
+        for _ in range(300):
+            state = lab.read()
+            if state["recording"]["state"] == "failed":
+                break
+            time.sleep(0.1)
+        assert state["recording"]["state"] == "failed"
+        assert "No space left" in state["recording"]["message"]
+        assert state["status"] == "running"
+        time.sleep(0.2)
+        assert lab.read()["tick"] > state["tick"]
 
 
 def test_a_folder_that_cannot_be_written_stops_no_control(tmp_path: Path) -> None:
