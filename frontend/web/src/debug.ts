@@ -3,6 +3,7 @@
  *
  *     svsa.channels()                          names of the channels in the stream
  *     svsa.series("position_error_rad")        { time: [s …], value: [rad …] }, oldest first
+ *     svsa.series("position_error_rad", 2)     the same of lane 2, NaN before the lane began
  */
 import { samples } from "./state/session";
 
@@ -13,7 +14,7 @@ export interface Series {
 
 export interface DebugDoor {
   channels(): string[];
-  series(channel: string): Series;
+  series(channel: string, lane?: number): Series;
 }
 
 declare global {
@@ -22,15 +23,18 @@ declare global {
   }
 }
 
-function series(channel: string): Series {
+function series(channel: string, lane = 1): Series {
   const { ring } = samples;
   if (!ring.channels.includes(channel)) {
     throw new RangeError(`"${channel}" is not streamed: it must be one of ${ring.channels}`);
   }
+  if (!Number.isInteger(lane) || lane < 1 || lane > Math.max(1, ring.lanes)) {
+    throw new RangeError(`lane ${lane} is not streamed: it must be from 1 to ${ring.lanes}`);
+  }
   const time = new Float64Array(ring.length);
   const value = new Float32Array(ring.length);
   ring.copyTime(0, time);
-  ring.copyChannel(channel, 0, value);
+  ring.copyChannel(channel, 0, value, 1, lane);
   return { time: Array.from(time), value: Array.from(value) };
 }
 

@@ -1,6 +1,7 @@
 import "uplot/dist/uPlot.min.css";
 import "./theme.css";
 import "./layout/layout.css";
+import "./layout/comparison.css";
 import "./plots/plots.css";
 import "./controls/controls.css";
 import { render } from "preact";

@@ -28,6 +28,12 @@ export function formatInput(value: number, digits = 5): string {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** A duration as minutes and whole seconds: 75.25 is 1:15. */
+export function formatSeconds(seconds: number): string {
+  const whole = Math.floor(Math.max(0, seconds) + 1e-6);
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}
+
 /** Session time as minutes and seconds: 75.25 is 1:15.2. */
 export function formatTime(seconds: number): string {
   const tenths = Math.floor(Math.max(0, seconds) * 10 + 1e-6);

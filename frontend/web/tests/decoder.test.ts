@@ -1,7 +1,10 @@
 import { describe, expect, it } from "vitest";
 import { decodeBatch, HEADER_BYTES, MAGIC, StreamFormatError } from "../src/stream/decoder";
 
-function batch(rows: number[][], { magic = MAGIC, firstTick = 5n, count = rows.length } = {}) {
+function batch(
+  rows: number[][],
+  { magic = MAGIC, firstTick = 5n, count = rows.length, lanes = 1 } = {},
+) {
   const width = rows[0]?.length ?? 0;
   const message = new ArrayBuffer(HEADER_BYTES + 4 * rows.length * width);
   const view = new DataView(message);
@@ -11,6 +14,7 @@ function batch(rows: number[][], { magic = MAGIC, firstTick = 5n, count = rows.l
   view.setUint32(16, 5, true);
   view.setUint32(20, count, true);
   view.setUint32(24, 7, true);
+  view.setUint32(28, lanes, true);
   rows.flat().forEach((value, index) => {
     view.setFloat32(HEADER_BYTES + 4 * index, value, true);
   });
@@ -31,6 +35,16 @@ describe("decodeBatch", () => {
     expect([...decoded.values]).toEqual([1, 2, 3, 4, 5, -6.5]);
   });
 
+  it("reads the lanes of each sample one after the other", () => {
+    const rows = [
+      [1, 2, 10, 20],
+      [3, 4, 30, 40],
+    ];
+    const decoded = decodeBatch(batch(rows, { lanes: 2 }), 2);
+    expect(decoded).toMatchObject({ count: 2, lanes: 2 });
+    expect([...decoded.values]).toEqual(rows.flat());
+  });
+
   it("begins with the letters SVSA", () => {
     expect(new TextDecoder().decode(batch([[0]]).slice(0, 4))).toBe("SVSA");
   });
@@ -47,6 +61,7 @@ describe("decodeBatch", () => {
     ["another magic number", batch([[1]], { magic: 1 }), 1],
     ["a count that does not fit", batch([[1]], { count: 2 }), 1],
     ["another number of channels", batch([[1, 2]]), 3],
+    ["another number of lanes", batch([[1, 2]], { lanes: 2 }), 2],
     ["a cut header", new ArrayBuffer(12), 1],
   ])("refuses %s", (_, message, channels) => {
     expect(() => decodeBatch(message, channels)).toThrow(StreamFormatError);

@@ -6,7 +6,7 @@ import { SampleRing } from "../src/stream/ring";
 function batch(firstTick: number, count: number): Batch {
   const ticks = Array.from({ length: count }, (_, row) => firstTick + 5 * row);
   const values = new Float32Array(ticks.flatMap((tick) => [tick, -tick]));
-  return { run: 1, firstTick, stride: 5, count, missed: 0, values };
+  return { run: 1, firstTick, stride: 5, count, missed: 0, lanes: 1, values };
 }
 
 function contents(ring: SampleRing, first = 0, factor = 1) {
@@ -80,5 +80,42 @@ describe("SampleRing", () => {
     const out = new Float32Array(2);
     ring.copyChannel("c", 0, out);
     expect([...out]).toEqual([Number.NaN, Number.NaN]);
+  });
+});
+
+/** Channel a of two lanes at one tick. */
+const pair = (tick: number, ...values: number[]): Batch => ({
+  ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0 },
+  lanes: values.length,
+  values: new Float32Array(values),
+});
+
+function lane(ring: SampleRing, number: number): number[] {
+  const out = new Float32Array(ring.length);
+  ring.copyChannel("a", 0, out, 1, number);
+  return [...out];
+}
+
+describe("the lanes of a SampleRing", () => {
+  it("begin without a past, and go with theirs", () => {
+    const ring = new SampleRing(10, ["a"]);
+    ring.append(pair(0, 1), 1);
+    ring.append(pair(1, 2, 20), 1);
+    ring.append(pair(2, 3, 30), 1);
+    expect(ring.lanes).toBe(2);
+    expect(lane(ring, 1)).toEqual([1, 2, 3]);
+    expect(lane(ring, 2)).toEqual([Number.NaN, 20, 30]);
+    expect(ring.newest("a", 2)).toBe(30);
+    ring.append(pair(3, 4), 1);
+    ring.append(pair(4, 5, 50), 1);
+    expect(lane(ring, 1)).toEqual([1, 2, 3, 4, 5]);
+    expect(lane(ring, 2)).toEqual([Number.NaN, Number.NaN, Number.NaN, Number.NaN, 50]);
+  });
+
+  it("are no numbers where there are none", () => {
+    const ring = new SampleRing(10, ["a"]);
+    ring.append(pair(0, 1), 1);
+    expect(lane(ring, 3)).toEqual([Number.NaN]);
+    expect(ring.newest("a", 3)).toBeNaN();
   });
 });

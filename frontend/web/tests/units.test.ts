@@ -1,5 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { formatInput, formatNumber, formatTime, toDegrees, toRadians } from "../src/units";
+import {
+  formatInput,
+  formatNumber,
+  formatSeconds,
+  formatTime,
+  toDegrees,
+  toRadians,
+} from "../src/units";
 
 describe("units", () => {
   it("turns radians into degrees and back", () => {
@@ -30,5 +37,16 @@ describe("units", () => {
     expect(formatTime(0)).toBe("0:00.0");
     expect(formatTime(75.25)).toBe("1:15.2");
     expect(formatTime(59.999)).toBe("0:59.9");
+  });
+});
+
+describe("formatSeconds", () => {
+  it.each([
+    [0, "0:00"],
+    [12.9, "0:12"],
+    [75.25, "1:15"],
+    [3600, "60:00"],
+  ])("%s s is %s", (seconds, shown) => {
+    expect(formatSeconds(seconds)).toBe(shown);
   });
 });

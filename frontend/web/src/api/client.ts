@@ -62,6 +62,11 @@ export const putController = (law: Law) => call("put", "/controller", { law });
 export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
+export const putLanes = (laws: readonly Law[]) =>
+  call("put", "/lanes", { rivals: laws.map((law) => ({ law })) });
+export const startRecording = (name: string) =>
+  call("post", "/recording", { name, tags: [], notes: "" });
+export const stopRecording = () => call("delete", "/recording");
 export const putSpeed = (factor: Speed) => call("put", "/speed", { factor });
 export const start = () => call("post", "/start");
 export const pause = () => call("post", "/pause");
@@ -80,5 +85,6 @@ export function streamAddress(rateHz: number, historyS: number): URL {
   address.protocol = address.protocol.replace("http", "ws");
   address.searchParams.set("rate_hz", String(rateHz));
   address.searchParams.set("history_s", String(historyS));
+  address.searchParams.set("lanes", "all");
   return address;
 }

@@ -1,4 +1,4 @@
-import { useId } from "preact/hooks";
+import { useId, useState } from "preact/hooks";
 
 export interface Option<T extends string> {
   value: T;
@@ -10,12 +10,19 @@ interface ChoiceProps<T extends string> {
   options: readonly Option<T>[];
   value: T;
   describedBy?: string;
-  onChoose: (value: T) => void;
+  /** Resolves when the choice was taken or refused; until then it stands as chosen. */
+  onChoose: (value: T) => unknown;
 }
 
 /** One of a few, all in sight. */
 export function Choice<T extends string>(props: ChoiceProps<T>) {
   const group = useId();
+  const [pending, setPending] = useState<T | null>(null);
+  const choose = async (value: T) => {
+    setPending(value);
+    await props.onChoose(value);
+    setPending(null);
+  };
   return (
     <div class="choice" role="radiogroup" aria-label={props.label}>
       {props.options.map((option) => (
@@ -23,9 +30,9 @@ export function Choice<T extends string>(props: ChoiceProps<T>) {
           <input
             type="radio"
             name={group}
-            checked={props.value === option.value}
+            checked={(pending ?? props.value) === option.value}
             aria-describedby={props.describedBy}
-            onChange={() => props.onChoose(option.value)}
+            onChange={() => void choose(option.value)}
           />
           <span>{option.label}</span>
         </label>

@@ -1,9 +1,11 @@
 import { useId } from "preact/hooks";
-import { putController } from "../api/client";
-import type { SessionState } from "../api/types";
+import { putController, putLanes } from "../api/client";
+import type { Law, SessionState } from "../api/types";
 import { perform } from "../state/actions";
+import { otherLaw } from "../state/lanes";
 import { text } from "../text/en";
 import { Choice } from "./choice";
+import { Compare } from "./compare";
 import { Gains } from "./gains";
 import { Group } from "./group";
 import { Problem } from "./problem";
@@ -12,6 +14,14 @@ const LAWS = [
   { value: "fl", label: text.controller.fl },
   { value: "ndobc", label: text.controller.ndobc },
 ] as const;
+
+/** Takes a law; one that ran beside as a rival changes places with it. */
+async function chooseLaw(law: Law, state: SessionState): Promise<SessionState> {
+  const { rivals } = state.configuration;
+  const answer = await putController(law);
+  const isDouble = rivals.length === 1 && rivals[0]?.law === law && state.recording === null;
+  return isDouble ? putLanes([otherLaw(law)]) : answer;
+}
 
 export function Controller({ state }: { state: SessionState }) {
   const { law, gains } = state.configuration;
@@ -25,7 +35,7 @@ export function Controller({ state }: { state: SessionState }) {
           options={LAWS}
           value={law}
           describedBy={id}
-          onChoose={(next) => void perform("controller.law", () => putController(next))}
+          onChoose={(next) => perform("controller.law", () => chooseLaw(next, state))}
         />
       }
     >
@@ -33,6 +43,7 @@ export function Controller({ state }: { state: SessionState }) {
         {law === "fl" ? text.controller.flDoes : text.controller.ndobcDoes}
       </p>
       <Problem control="controller.law" />
+      <Compare state={state} />
       <Gains gains={gains} />
     </Group>
   );

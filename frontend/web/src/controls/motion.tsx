@@ -66,12 +66,7 @@ export function Motion({ state }: { state: SessionState }) {
     <Group
       title={text.motion.title}
       aside={
-        <Choice
-          label={text.motion.kind}
-          options={KINDS}
-          value={reference.kind}
-          onChoose={(kind) => void choose(kind)}
-        />
+        <Choice label={text.motion.kind} options={KINDS} value={reference.kind} onChoose={choose} />
       }
     >
       <Problem control="motion.kind" />

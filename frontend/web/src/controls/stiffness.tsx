@@ -80,7 +80,7 @@ export function Stiffness({ state }: { state: SessionState }) {
           label={text.stiffness.kind}
           options={KINDS}
           value={reference.kind}
-          onChoose={(kind) => void choose(kind)}
+          onChoose={choose}
         />
       }
     >

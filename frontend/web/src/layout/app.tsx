@@ -4,6 +4,7 @@ import { Plots } from "../plots/plots";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
 import { Banners } from "./banners";
+import { Comparison } from "./comparison";
 import { Login } from "./login";
 import { Readout } from "./readout";
 import { TopBar } from "./topbar";
@@ -21,7 +22,7 @@ export function App() {
       ) : (
         <main class="lab">
           <View />
-          <Readout state={state} />
+          {state.lanes.length > 1 ? <Comparison lanes={state.lanes} /> : <Readout state={state} />}
           <LoadButton state={state} />
           <Plots />
           <Controls state={state} />

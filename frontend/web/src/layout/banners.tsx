@@ -1,4 +1,4 @@
-import { reset } from "../api/client";
+import { reset, stopRecording } from "../api/client";
 import { Problem } from "../controls/problem";
 import { perform } from "../state/actions";
 import { phase, session } from "../state/session";
@@ -7,6 +7,7 @@ import { text } from "../text/en";
 /** What must not be overlooked: no connection, a fault, a refused command of the top bar. */
 export function Banners() {
   const fault = session.value?.fault;
+  const recording = session.value?.recording;
   const isLost = phase.value === "lost";
   return (
     <div class="banners">
@@ -33,6 +34,24 @@ export function Banners() {
             onClick={() => void perform("session", reset)}
           >
             {text.fault.reset}
+          </button>
+        </div>
+      )}
+      {recording?.state === "failed" && (
+        <div class="banner is-fault" role="alert">
+          <span class="banner-sign" aria-hidden="true">
+            ▲
+          </span>
+          <p>
+            <strong>{text.recording.failed}</strong> {recording.message}
+          </p>
+          <button
+            type="button"
+            class="button"
+            disabled={isLost}
+            onClick={() => void perform("session", stopRecording)}
+          >
+            {text.recording.close}
           </button>
         </div>
       )}

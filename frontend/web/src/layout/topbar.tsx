@@ -3,6 +3,7 @@ import { isLive, missedSamples, phase, session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { Clock } from "./clock";
+import { RecordButton } from "./record";
 import { FigurePicker, Transport } from "./transport";
 
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
@@ -71,6 +72,7 @@ export function TopBar() {
         <fieldset class="topbar-controls" disabled={!isLive.value} aria-label={text.session}>
           <FigurePicker state={state} />
           <Transport state={state} />
+          <RecordButton state={state} />
         </fieldset>
       )}
       <Status />

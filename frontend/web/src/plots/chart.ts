@@ -1,13 +1,13 @@
-/** One uPlot: made from a definition, fed from the ring without allocating samples. */
+/** One uPlot: made from a definition and one of its choices, fed from the ring without allocating samples. */
 import uPlot from "uplot";
 import { LONGEST_WINDOW_S, RATE_HZ, samples, session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
-import type { Bound, PlotDefinition, Trace } from "./definitions";
+import type { Bound, PlotChoice, PlotDefinition, Trace } from "./definitions";
 import type { TimeView } from "./frame";
 import { drawBounds, drawEventLabels, drawEvents } from "./marks";
 import { palette } from "./palette";
-import { includeBounds, niceRange } from "./range";
+import { extentOf, includeBounds, niceRange } from "./range";
 
 const Y_AXIS_PX = 50;
 const X_AXIS_PX = 24;
@@ -28,11 +28,12 @@ export class Chart {
   constructor(
     host: HTMLElement,
     private readonly definition: PlotDefinition,
+    private readonly choice: PlotChoice,
     place: ChartPlace,
     onCursor: () => void,
   ) {
     const capacity = LONGEST_WINDOW_S * RATE_HZ + 1;
-    this.#columns = definition.traces.map(() => new Float32Array(capacity));
+    this.#columns = choice.traces.map(() => new Float32Array(capacity));
     this.#plot = new uPlot(
       {
         width: Math.max(1, host.clientWidth),
@@ -45,9 +46,9 @@ export class Chart {
           points: { size: 7 },
           sync: { key: "svsa", scales: ["x", null] },
         },
-        scales: { x: { time: false }, y: { range: (_, low, high) => this.#range(low, high) } },
+        scales: { x: { time: false }, y: { range: () => this.#range() } },
         axes: [this.#timeAxis(place.isLast), this.#valueAxis()],
-        series: [{}, ...definition.traces.map(drawnTrace)],
+        series: [{}, ...choice.traces.map(drawnTrace)],
         hooks: {
           drawClear: [drawEvents],
           draw: [
@@ -57,7 +58,7 @@ export class Chart {
           setCursor: [onCursor],
         },
       },
-      [[], ...definition.traces.map(() => [])],
+      [[], ...choice.traces.map(() => [])],
       host,
     );
   }
@@ -65,9 +66,10 @@ export class Chart {
   draw(view: TimeView): void {
     this.#view = view;
     const count = view.time.length;
-    const columns = this.definition.traces.map((trace, index) => {
+    const { factor } = this.definition;
+    const columns = this.choice.traces.map((trace, index) => {
       const column = this.#columns[index] as Float32Array;
-      samples.ring.copyChannel(trace.channel, view.first, column, this.definition.factor);
+      samples.ring.copyChannel(trace.channel, view.first, column, factor, trace.lane);
       return column.subarray(0, count);
     });
     this.#plot.batch(() => {
@@ -97,10 +99,14 @@ export class Chart {
 
   #bounds(): Bound[] {
     const state = session.peek();
-    return state === null ? [] : (this.definition.bounds?.(state) ?? []);
+    return state === null ? [] : (this.choice.bounds?.(state) ?? []);
   }
 
-  #range(low: number | null, high: number | null): [number, number] {
+  /** Over the curves shown; uPlot's own limits are no numbers where a lane has no past. */
+  #range(): [number, number] {
+    const count = this.#view?.time.length ?? 0;
+    const shown = this.#columns.filter((_, index) => this.#plot?.series[index + 1]?.show);
+    const [low, high] = extentOf(shown.map((column) => column.subarray(0, count)));
     const [bottom, top] = niceRange(low, high, this.definition.span);
     return includeBounds(
       bottom,
@@ -154,8 +160,8 @@ function drawnTrace(trace: Trace): uPlot.Series {
   return {
     label: trace.label,
     stroke: () => palette.peek()[trace.colour],
-    width: trace.width ?? 1.5,
+    width: trace.width,
     points: { show: false },
-    ...(trace.dashed ? { dash: [6, 5] } : {}),
+    ...(trace.dash.length > 0 ? { dash: [...trace.dash] } : {}),
   };
 }

@@ -72,6 +72,7 @@ export function drawBounds(plot: uPlot, bounds: readonly Bound[]): void {
   if (min === undefined || max === undefined) return;
   const { ctx: context, bbox } = plot;
   context.save();
+  context.setLineDash([]);
   context.lineWidth = devicePixelRatio;
   context.font = `${LABEL_PX * devicePixelRatio}px system-ui, sans-serif`;
   context.textBaseline = "middle";

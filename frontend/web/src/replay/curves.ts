@@ -1,5 +1,6 @@
 /** Which channels are drawn where, for the lanes of a run. A new plot is a new entry here. */
 import type { PlotColour } from "../plots/definitions";
+import { inkOf } from "../plots/inks";
 import { DEGREES_PER_RADIAN } from "../units";
 import type { Recording } from "./data";
 import { text } from "./text";
@@ -30,14 +31,6 @@ export interface ReplayPlot {
   choices: Choice[];
 }
 
-/** A lane's place in the run is its colour, dash and width in every plot. */
-export const LANE_INKS: readonly { colour: PlotColour; dash: readonly number[]; width: number }[] =
-  [
-    { colour: "blue", dash: [], width: 2.75 },
-    { colour: "vermilion", dash: [9, 4], width: 2 },
-    { colour: "green", dash: [3, 3], width: 2 },
-    { colour: "purple", dash: [10, 3, 2, 3], width: 2 },
-  ];
 const REFERENCE = { colour: "reference", width: 1.5 } as const;
 const REFERENCE_DASHES = [
   [2, 4],
@@ -64,7 +57,7 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     read(channel, factor).map((values, lane) => ({
       key: `${channel}.${lane}`,
       label: run.lanes[lane] as string,
-      ...(LANE_INKS[lane % LANE_INKS.length] as (typeof LANE_INKS)[number]),
+      ...inkOf(lane + 1),
       values,
     }));
   const reference = (channel: string, factor: number): Curve[] =>

@@ -1,6 +1,6 @@
+import { inkOf } from "../plots/inks";
 import { formatNumber, toDegrees } from "../units";
 import { isPlaying, seek } from "./clock";
-import { LANE_INKS } from "./curves";
 import type { Recording, Run } from "./data";
 import { Swatch } from "./plot";
 import { text } from "./text";
@@ -44,7 +44,7 @@ function Metrics({ run }: { run: Run }) {
           return (
             <tr key={`${index}.${lane}`}>
               <th scope="row">
-                <Swatch curve={LANE_INKS[index % LANE_INKS.length] as (typeof LANE_INKS)[number]} />
+                <Swatch curve={inkOf(index + 1)} />
                 <span class="legend-name">{lane}</span>
               </th>
               <td>{degrees(row.position_error_rad_rms)}</td>

@@ -1,7 +1,7 @@
 /**
  * One binary message of the stream, little-endian:
- * u32 magic "SVSA", u32 run, u64 first tick, u32 stride, u32 count, u32 missed, u32 reserved,
- * then float32[count][channels], row by row. Sample i is at tick first + i·stride.
+ * u32 magic "SVSA", u32 run, u64 first tick, u32 stride, u32 count, u32 missed, u32 lanes,
+ * then float32[count][lanes][channels]. Sample i is at tick first + i·stride.
  */
 
 export const HEADER_BYTES = 32;
@@ -14,7 +14,8 @@ export interface Batch {
   count: number;
   /** Samples that the server dropped for this client before this batch. */
   missed: number;
-  /** Row-major: values[i * channels + c]. */
+  lanes: number;
+  /** Row-major: values[(i * lanes + l) * channels + c]. */
   values: Float32Array;
 }
 
@@ -34,10 +35,12 @@ export function decodeBatch(message: ArrayBuffer, channels: number): Batch {
     throw new StreamFormatError(`a batch begins with 0x${magic.toString(16)}: it must be "SVSA"`);
   }
   const count = header.getUint32(20, true);
-  const expected = HEADER_BYTES + 4 * count * channels;
+  const lanes = header.getUint32(28, true);
+  const size = count * lanes * channels;
+  const expected = HEADER_BYTES + 4 * size;
   if (message.byteLength !== expected) {
     throw new StreamFormatError(
-      `a batch has ${message.byteLength} bytes: ${count} samples of ${channels} channels have ${expected}`,
+      `a batch has ${message.byteLength} bytes: ${count} samples of ${lanes} lanes of ${channels} channels have ${expected}`,
     );
   }
   return {
@@ -46,6 +49,7 @@ export function decodeBatch(message: ArrayBuffer, channels: number): Batch {
     stride: header.getUint32(16, true),
     count,
     missed: header.getUint32(24, true),
-    values: new Float32Array(message, HEADER_BYTES, count * channels),
+    lanes,
+    values: new Float32Array(message, HEADER_BYTES, size),
   };
 }

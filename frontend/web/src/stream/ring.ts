@@ -1,11 +1,15 @@
-/** The newest samples of a session, one column a channel, in arrays that are never reallocated. */
+/**
+ * The newest samples of a session, one column a channel and lane, in arrays that are never
+ * reallocated. A lane is there from the first batch that has it, with no number before, and goes
+ * with its past with the first batch that has it no more.
+ */
 import type { Batch } from "./decoder";
 
 export class SampleRing {
   readonly capacity: number;
   readonly channels: readonly string[];
   readonly #time: Float64Array;
-  readonly #columns: Map<string, Float32Array>;
+  readonly #lanes: Map<string, Float32Array>[] = [];
   #next = 0;
   #length = 0;
 
@@ -13,7 +17,6 @@ export class SampleRing {
     this.capacity = capacity;
     this.channels = channels;
     this.#time = new Float64Array(capacity);
-    this.#columns = new Map(channels.map((name) => [name, new Float32Array(capacity)]));
   }
 
   get length(): number {
@@ -25,28 +28,36 @@ export class SampleRing {
     return this.#length === 0 ? Number.NaN : (this.#time[this.#slot(this.#length - 1)] as number);
   }
 
+  /** How many lanes there are. */
+  get lanes(): number {
+    return this.#lanes.length;
+  }
+
   clear(): void {
     this.#next = 0;
     this.#length = 0;
   }
 
   append(batch: Batch, periodS: number): void {
-    const width = this.channels.length;
+    this.#setLanes(batch.lanes);
+    const width = batch.lanes * this.channels.length;
     const skipped = Math.max(0, batch.count - this.capacity);
     for (let row = skipped; row < batch.count; row++) {
       this.#time[this.#next] = (batch.firstTick + row * batch.stride) * periodS;
       let source = row * width;
-      for (const column of this.#columns.values()) {
-        column[this.#next] = batch.values[source++] as number;
+      for (const columns of this.#lanes) {
+        for (const column of columns.values()) {
+          column[this.#next] = batch.values[source++] as number;
+        }
       }
       this.#next = (this.#next + 1) % this.capacity;
       this.#length = Math.min(this.#length + 1, this.capacity);
     }
   }
 
-  /** Newest value of a channel; NaN when there is none. */
-  newest(channel: string): number {
-    const column = this.#columns.get(channel);
+  /** Newest value of a channel of lane 1, 2, …; NaN when there is none. */
+  newest(channel: string, lane = 1): number {
+    const column = this.#column(channel, lane);
     if (column === undefined || this.#length === 0) return Number.NaN;
     return column[this.#slot(this.#length - 1)] as number;
   }
@@ -68,13 +79,28 @@ export class SampleRing {
     return this.#copy(this.#time, first, out, 1);
   }
 
-  /** Copies a channel times `factor` from sample `first` on into `out`; an unknown channel is NaN. */
-  copyChannel(channel: string, first: number, out: Float32Array, factor = 1): number {
-    const column = this.#columns.get(channel);
+  /**
+   * Copies a channel of lane 1, 2, … times `factor` from sample `first` on into `out`; NaN for a
+   * channel or a lane that there is not.
+   */
+  copyChannel(channel: string, first: number, out: Float32Array, factor = 1, lane = 1): number {
+    const column = this.#column(channel, lane);
     if (column !== undefined) return this.#copy(column, first, out, factor);
     const count = Math.min(this.#length - first, out.length);
     out.fill(Number.NaN, 0, count);
     return count;
+  }
+
+  #column(channel: string, lane: number): Float32Array | undefined {
+    return this.#lanes[lane - 1]?.get(channel);
+  }
+
+  #setLanes(count: number): void {
+    this.#lanes.length = Math.min(this.#lanes.length, count);
+    while (this.#lanes.length < count) {
+      const column = () => new Float32Array(this.capacity).fill(Number.NaN);
+      this.#lanes.push(new Map(this.channels.map((name) => [name, column()])));
+    }
   }
 
   #slot(index: number): number {

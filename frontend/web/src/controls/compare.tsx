@@ -1,0 +1,42 @@
+import { useId } from "preact/hooks";
+import { putLanes } from "../api/client";
+import type { SessionState } from "../api/types";
+import { inkOf } from "../plots/inks";
+import { Swatch } from "../plots/legend";
+import { perform } from "../state/actions";
+import { otherLaw } from "../state/lanes";
+import { text } from "../text/en";
+import { Problem } from "./problem";
+
+const CONTROL = "controller.compare";
+
+/** The other law beside the session's own, switched on and off. */
+export function Compare({ state }: { state: SessionState }) {
+  const { law, rivals } = state.configuration;
+  const id = useId();
+  const isOn = rivals.length > 0;
+  const isRecording = state.recording !== null;
+  const rival = rivals[0]?.law ?? otherLaw(law);
+  return (
+    <>
+      <button
+        type="button"
+        role="switch"
+        class="compare"
+        aria-checked={isOn}
+        aria-describedby={id}
+        disabled={isRecording}
+        title={isRecording ? text.compare.whileRecording : text.compare.does}
+        onClick={() => void perform(CONTROL, () => putLanes(isOn ? [] : [rival]))}
+      >
+        <span class="compare-track" aria-hidden="true" />
+        <span class="compare-words">{text.compare.with(text.controller[rival])}</span>
+        <Swatch look={inkOf(2)} />
+      </button>
+      <span class="visually-hidden" id={id}>
+        {isRecording ? text.compare.whileRecording : text.compare.does}
+      </span>
+      <Problem control={CONTROL} />
+    </>
+  );
+}

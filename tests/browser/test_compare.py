@@ -1,0 +1,103 @@
+"""Two laws side by side in the page, and the record button, against a real server."""
+
+import re
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.test_page import ONE_DEGREE, open_page, wait_for_samples
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+# The smallest and the largest position error of a lane from a session time on, in rad.
+ERRORS = """([lane, since]) => {
+    const { time, value } = window.svsa.series("position_error_rad", lane);
+    const sizes = value.filter((_, i) => time[i] >= since).map(Math.abs);
+    return [Math.min(...sizes), Math.max(...sizes)];
+}"""
+HAS_LANE_2 = """() => {
+    try {
+        return window.svsa.series("position_error_rad", 2).value.some(Number.isFinite);
+    } catch {
+        return false;
+    }
+}"""
+
+
+@pytest.fixture(autouse=True)
+def alone(lab: Lab) -> None:
+    """One lane and no recording, whatever a test before left."""
+    lab.client.delete(lab.session + "/recording")
+    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+
+
+def find_switch(page: Page) -> Locator:
+    return page.get_by_role("switch", name=re.compile("^Compare with"))
+
+
+def test_fl_beside_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    switch = find_switch(page)
+    expect(switch).to_have_accessible_name("Compare with FL")
+    switch.click()
+    expect(switch).to_be_checked()
+    page.wait_for_function(HAS_LANE_2)
+    table = page.get_by_role("table", name=re.compile("controller does better"))
+    expect(table.get_by_role("rowheader")).to_have_text(["NDOBC", "FL"])
+
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    onset = lab.read()["loads"][0]["start_s"]
+    wait_for_samples(page, onset + 2.5)
+    steady = onset + 1.5
+    assert page.evaluate(ERRORS, [1, steady])[1] < 0.1 * ONE_DEGREE
+    assert page.evaluate(ERRORS, [2, steady])[0] > 8 * ONE_DEGREE
+    expect(table.get_by_role("row", name=re.compile("NDOBC")).get_by_text("best")).to_have_count(3)
+    for plot in ("Position", "Position error", "Stiffness", "Torque", "Disturbance"):
+        legend = page.get_by_role("region", name=plot, exact=True)
+        expect(legend.get_by_role("button", name=re.compile("^FL"))).to_be_visible()
+
+    switch.click()
+    expect(switch).not_to_be_checked()
+    expect(table).to_have_count(0)
+    assert lab.read()["configuration"]["rivals"] == []
+    wait_for_samples(page, page.evaluate("() => window.svsa.series('position_rad').time.at(-1)"))
+    assert not page.evaluate(HAS_LANE_2)
+
+
+def test_everything_for_the_work_is_seen_while_comparing(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    find_switch(page).click()
+    parts = [
+        page.get_by_role("button", name=re.compile("Hang 3 kg")),
+        page.get_by_role("table", name=re.compile("controller does better")),
+        page.get_by_role("region", name="Position", exact=True),
+        find_switch(page),
+        page.locator("iframe"),
+    ]
+    for part in parts:
+        expect(part).to_be_in_viewport(ratio=1)
+
+
+def test_the_law_and_its_rival_change_places(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    find_switch(page).click()
+    expect(find_switch(page)).to_be_checked()
+    page.get_by_role("radio", name="FL", exact=True).check(force=True)
+    expect(find_switch(page)).to_have_accessible_name("Compare with NDOBC")
+    assert [lane["law"] for lane in lab.read()["lanes"]] == ["fl", "ndobc"]
+
+
+def test_a_recording_is_begun_told_and_ended(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    page.get_by_role("button", name="Record", exact=True).click()
+    recording = page.get_by_role("button", name=re.compile(r"^Recording 0:0[1-9]"))
+    expect(recording).to_be_visible()
+    assert lab.read()["recording"]["state"] == "recording"
+    expect(find_switch(page)).to_be_disabled()
+    expect(find_switch(page)).to_have_attribute("title", re.compile("stop it first"))
+    recording.click()
+    expect(page.get_by_role("button", name="Record", exact=True)).to_be_visible()
+    expect(find_switch(page)).to_be_enabled()
+    assert lab.read()["recording"] is None
