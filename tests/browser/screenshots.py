@@ -14,12 +14,13 @@ COLORS = 256
 
 
 def take_screenshots() -> None:
-    """The dashboard 4 s after the 3 kg load, light and dark."""
+    """FL beside NDOBC 4 s after the 3 kg load, light and dark."""
     FOLDER.mkdir(exist_ok=True)
     with run_lab() as lab, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=find_chromium(), args=ARGUMENTS)
         for scheme in ("light", "dark"):
             lab.load_figure()
+            lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
             context = browser.new_context(
                 viewport={"width": 1280, "height": 720}, color_scheme=scheme
             )
