@@ -1,4 +1,5 @@
 # make run     the running lab            make check   format, lint, types, layers
+# make bench-demo  the lab on the emulated rig
 # make test    every test                 make format  put the code into shape
 PYTHON ?= python3
 BIN := .venv/bin
@@ -7,10 +8,13 @@ PAGE := backend/svsa_server/page/index.html
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print)
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 
-.PHONY: run test check format page schema lock screenshots bench clean
+.PHONY: run bench-demo test check format page schema lock screenshots bench clean
 
 run: .venv/installed $(PAGE)
 	@$(BIN)/svsa serve --port $(PORT)
+
+bench-demo: .venv/installed $(PAGE)
+	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
 test: .venv/installed $(PAGE)
 	$(BIN)/pytest $(ARGS)

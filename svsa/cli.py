@@ -11,10 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.progress import Progress
 from rich.table import Table
 
 from svsa.compilation import is_compiled_before
 from svsa.errors import SvsaError
+from svsa.experiment.identify_command import identify
+from svsa.hardware.command import bench_check, bench_home
+from svsa.rig.command import rig
 
 if TYPE_CHECKING:
     from svsa.experiment.reproduce import Reproduction
@@ -30,21 +34,24 @@ _messages = Console(stderr=True)
 @app.command()
 def reproduce(
     figure: Annotated[
-        list[str] | None, typer.Option(help="4a, 4b or 5; again for more. All if left out.")
+        list[str] | None,
+        typer.Option(help="4a, 4b, 5, or on the emulated rig 6a, 6b, 7; 4a, 4b and 5 if left out."),
     ] = None,
     output: Annotated[Path, typer.Option(help="Folder for the pictures.")] = Path("figures"),
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers, draw nothing.")
     ] = False,
 ) -> None:
-    """Run the paper's Figures 4A, 4B and 5 with FL and NDOBC."""
+    """Run the paper's figures with FL and NDOBC: 4A, 4B, 5 simulated, 6A, 6B, 7 through CAN."""
     from svsa.experiment.figures import save_figures
     from svsa.experiment.paper import FIGURES
     from svsa.experiment.reproduce import reproduce as run_figures
 
     prepare()
-    with _messages.status("Running the figures …"):
-        runs = run_figures(tuple(figure) if figure else tuple(FIGURES))
+    with Progress(console=_messages, transient=True) as bar:
+        task = bar.add_task("Running the figures", total=1.0)
+        keys = tuple(figure) if figure else tuple(FIGURES)
+        runs = run_figures(keys, lambda done: bar.update(task, completed=done))
     if as_json:
         rows = [{"figure": run.figure, "controller": run.controller, **run.numbers} for run in runs]
         print(json.dumps({"runs": rows}, indent=2))
@@ -53,6 +60,21 @@ def reproduce(
     with _messages.status("Drawing …"):
         paths = save_figures(runs, output)
     Console().print("Pictures: " + ", ".join(str(path) for path in paths))
+
+
+app.command("rig")(rig)
+app.command("identify")(identify)
+app.command("bench-check")(bench_check)
+app.command("bench-home")(bench_home)
+
+
+@app.command("bench-dbc")
+def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) -> None:
+    """Print the frames of a bench as a DBC file, which CAN tools read to decode a capture."""
+    from svsa.hardware.bench import read_bench
+    from svsa.hardware.dbc import describe_bench
+
+    print(describe_bench(read_bench(file)))
 
 
 @app.command("compile")

@@ -60,7 +60,11 @@ class Disturbance(NamedTuple):
 
 @dataclass(frozen=True)
 class Channel:
-    """One column of the samples: its name (ends in the unit), unit and a label to read."""
+    """One column of the samples: its name (ends in the unit), unit and a label to read.
+
+    On a bench the disturbances w are not known (NaN), and positions are as measured; the
+    residuals are against its simulated twin, and 0 in every other lane.
+    """
 
     name: str
     unit: str
@@ -94,6 +98,8 @@ CHANNELS = (
     Channel("estimate_link_nm", "N·m", "Estimate ŵ2"),
     Channel("estimate_motor1_nm", "N·m", "Estimate ŵ4"),
     Channel("estimate_motor2_nm", "N·m", "Estimate ŵ6"),
+    Channel("position_residual_rad", "rad", "Position q, bench − twin"),
+    Channel("stiffness_residual_nm_per_rad", "N·m/rad", "Stiffness σ, bench − twin"),
 )
 
 CHANNEL_NAMES = tuple(channel.name for channel in CHANNELS)

@@ -7,13 +7,14 @@ from collections.abc import AsyncIterator
 from fastapi import APIRouter, FastAPI
 
 import svsa
+from svsa.runtime.session import Session
 from svsa_server.access import AccessGuard, SharedSecret
 from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
-from svsa_server.laboratory import Laboratory
+from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
-from svsa_server.routes import lab, loads, recordings, runs, sessions, settings
+from svsa_server.routes import bench, lab, loads, recordings, runs, sessions, settings
 from svsa_server.scene_bridge import SceneBridge
 from svsa_server.viser_proxy import ViserProxy
 
@@ -24,8 +25,11 @@ _DESCRIPTION = (
 )
 
 
-def build_app(config: Settings | None = None) -> FastAPI:
-    """The lab as an ASGI application; sessions and the 3D view live as long as it runs."""
+def build_app(config: Settings | None = None, shared: Session | None = None) -> FastAPI:
+    """The lab as an ASGI application; sessions and the 3D view live as long as it runs.
+
+    shared: the session that everyone shares; a simulated one if left out.
+    """
     config = config or Settings()
     secret = SharedSecret(config.secret_text) if config.secret_text else None
     app = FastAPI(
@@ -36,10 +40,11 @@ def build_app(config: Settings | None = None) -> FastAPI:
     )
     app.state.secret = secret
     app.state.config = config
+    app.state.shared = shared
     app.add_middleware(AccessGuard, secret=secret)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
-    for part in (lab, sessions, settings, loads, recordings, runs):
+    for part in (lab, sessions, bench, settings, loads, recordings, runs):
         api.include_router(part.router)
     app.include_router(api)
     app.router.routes.extend(build_page_routes())
@@ -50,7 +55,8 @@ def build_app(config: Settings | None = None) -> FastAPI:
 async def _live(app: FastAPI) -> AsyncIterator[None]:
     """Start the sessions and the 3D view, and end them with the server."""
     config: Settings = app.state.config
-    laboratory = Laboratory(config.most_sessions, config.idle_s)
+    shared = app.state.shared or build_shared_session(None)
+    laboratory = Laboratory(shared, config.most_sessions, config.idle_s)
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)

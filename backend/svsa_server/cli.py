@@ -1,6 +1,7 @@
 """The commands that the server adds to `svsa`."""
 
 import json
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -12,6 +13,9 @@ def serve(
         typer.Option(help="Address; 'auto' is every address with SVSA_SECRET, else 127.0.0.1."),
     ] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8000,
+    bench: Annotated[
+        Path | None, typer.Option(help="Bench file: drive this bench; simulate if left out.")
+    ] = None,
 ) -> None:
     """Start the lab: the page, the REST interface, the streams and the 3D view.
 
@@ -19,7 +23,7 @@ def serve(
     """
     from svsa_server.serve import run_server
 
-    run_server(host, port)
+    run_server(host, port, bench)
 
 
 def openapi() -> None:

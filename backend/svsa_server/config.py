@@ -1,6 +1,7 @@
 """Where and how the lab is served: read from SVSA_… variables, checked at the start."""
 
 import ipaddress
+from pathlib import Path
 
 from pydantic import Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
@@ -14,6 +15,7 @@ class Settings(BaseSettings):
     """Deployment: SVSA_SECRET is the shared secret that everyone who uses the lab knows.
 
     SVSA_MOST_SESSIONS: private sessions at once. SVSA_IDLE_S: how long one lives unused, s.
+    SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
     """
 
     model_config = SettingsConfigDict(env_prefix="SVSA_", extra="ignore", frozen=True)
@@ -21,6 +23,7 @@ class Settings(BaseSettings):
     secret: SecretStr | None = None
     most_sessions: int = Field(default=48, ge=0, le=1000)
     idle_s: float = Field(default=600.0, ge=1)
+    bench: Path | None = None
 
     @property
     def secret_text(self) -> str | None:

@@ -5,12 +5,18 @@ import logging
 import math
 import secrets
 import time
+from pathlib import Path
+
+import numpy as np
 
 from svsa.errors import StateError
 from svsa.experiment.paper import get_figure
-from svsa.plant.disturbances import get_hung_mass
+from svsa.hardware.bench import read_bench
+from svsa.plant.disturbances import Load, get_hung_mass
+from svsa.rig.control import RigControl, RigError
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
+from svsa.runtime.realtime.session import BenchSession, Hang
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose
@@ -26,18 +32,15 @@ _log = logging.getLogger("svsa")
 class Laboratory:
     """The sessions by name: the shared one, and private ones that end when nobody uses them.
 
-    The shared one starts on Figure 4A, the load in your hand. most_sessions: private ones
-    at once. idle_s: how long a private session lives without a request or a stream, s.
+    most_sessions: private ones at once. idle_s: how long a private session lives without a
+    request or a stream, s.
     """
 
-    def __init__(self, most_sessions: int, idle_s: float) -> None:
-        shared = Session(SHARED_SESSION, get_figure("4a").build_configuration(load=False))
-        shared.start()
+    def __init__(self, shared: Session, most_sessions: int, idle_s: float) -> None:
         self.sessions = {shared.name: shared}
         self._most_sessions = most_sessions
         self._idle_s = idle_s
         self._last_use = {shared.name: math.inf}
-        self._watchers: dict[str, int] = {}
 
     def get(self, name: str) -> Session:
         """The session of this name, which counts as using it; raises `UnknownError`."""
@@ -90,8 +93,8 @@ class Laboratory:
 
     def watch(self, name: str, watchers: int) -> None:
         """A stream of this session begins (+1) or ends (−1): a watched session is not idle."""
-        self._watchers[name] = self._watchers.get(name, 0) + watchers
-        if name in self._last_use:
+        if name in self.sessions:
+            self.sessions[name].watchers += watchers
             self._last_use[name] = max(self._last_use[name], time.monotonic())
 
     async def run(self) -> None:
@@ -125,13 +128,12 @@ class Laboratory:
 
     def _end_idle(self, now: float) -> None:
         for name, last in list(self._last_use.items()):
-            if now - last > self._idle_s and not self._watchers.get(name):
+            if now - last > self._idle_s and not self.sessions[name].watchers:
                 self._remove(name)
 
     def _remove(self, name: str) -> None:
         self.sessions.pop(name).close()
         del self._last_use[name]
-        self._watchers.pop(name, None)
 
     def read_pose(self) -> ActuatorPose | None:
         """The shared session's newest sample as the 3D view needs it; None before the first."""
@@ -141,7 +143,8 @@ class Laboratory:
             return None
 
         def read(channel: str) -> float:
-            return float(newest[CHANNEL_INDEX[channel]])
+            """A bench does not know its disturbance: nothing is drawn of it."""
+            return float(np.nan_to_num(newest[CHANNEL_INDEX[channel]]))
 
         return ActuatorPose(
             position_rad=read("position_rad"),
@@ -156,6 +159,35 @@ class Laboratory:
             load_mass_kg=_find_hung_mass(session),
             deflection_limit_rad=read("deflection_limit_rad"),
         )
+
+
+def build_shared_session(bench: Path | None) -> Session:
+    """The session that everyone shares: Figure 4A running with the load in your hand, or a bench.
+
+    Raises `BenchError` where the bench cannot be opened.
+    """
+    configuration = get_figure("4a").build_configuration(load=False)
+    if bench is not None:
+        return BenchSession(SHARED_SESSION, bench, configuration, find_rig(bench))
+    session = Session(SHARED_SESSION, configuration)
+    session.start()
+    return session
+
+
+def find_rig(bench: Path) -> Hang:
+    """What hangs loads on the bench: its emulated rig, or a person who needs no telling."""
+    emulator = read_bench(bench).emulator
+    if emulator is None:
+        return lambda _: None
+
+    def hang(loads: tuple[Load, ...]) -> None:
+        try:
+            with RigControl(emulator.control_port, timeout_s=0.2) as control:
+                control.set_loads(loads)
+        except RigError as error:
+            _log.warning("The load is not on the emulated rig. %s", error)
+
+    return hang
 
 
 def build_name() -> str:

@@ -15,6 +15,7 @@ from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.configuration import MOST_LANES, Lane, Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.session import Event
+from svsa_server.bench_schemas import BenchState
 
 _Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_PER_S)]
 Pole = _Part | tuple[_Part, _Part]
@@ -236,6 +237,7 @@ class SessionProgress(BaseModel):
     metrics: SessionMetrics = Field(description="Of lane 1")
     lanes: list[LaneMetrics]
     recording: RecordingState | None
+    bench: BenchState | None = Field(description="Null for a simulated session")
 
 
 class SessionState(SessionProgress):
@@ -246,7 +248,9 @@ class SessionState(SessionProgress):
     configuration: ConfigurationState
     loads: list[LoadState]
     events: list[Event]
-    sample: dict[str, float] | None = Field(description="The newest sample, by channel")
+    sample: dict[str, float | None] | None = Field(
+        description="The newest sample, by channel; null where a bench does not know it"
+    )
 
 
 class FigureState(BaseModel):

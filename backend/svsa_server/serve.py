@@ -1,6 +1,7 @@
 """Listen, say where, and serve until told to stop."""
 
 import socket
+from pathlib import Path
 
 import uvicorn
 from rich.console import Console
@@ -8,6 +9,7 @@ from rich.console import Console
 from svsa.cli import prepare
 from svsa.errors import SvsaError
 from svsa_server.config import Settings
+from svsa_server.console import HINT, watch_keyboard
 
 SEND_BUFFER_BYTES = 64 * 1024
 
@@ -47,18 +49,24 @@ class AnnouncedServer(uvicorn.Server):
             Console(soft_wrap=True).print(self.announcement, highlight=False)
 
 
-def run_server(host: str, port: int) -> None:
-    """Serve the lab until a signal ends it; raises `SecurityError` and `ListenError`."""
+def run_server(host: str, port: int, bench: Path | None) -> None:
+    """Serve the lab until a signal ends it, with a bench where its file is given.
+
+    Raises `SecurityError`, `ListenError`, and `BenchError` where the bench cannot be opened.
+    """
     config = Settings()
+    bench = bench or config.bench
     chosen = config.choose_host(host)
     config.check_exposure(chosen)
     listener = bind(chosen, port)
     prepare()
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
+    from svsa_server.laboratory import build_shared_session
 
+    shared = build_shared_session(bench)
     server = AnnouncedServer(
         uvicorn.Config(
-            build_app(config),
+            build_app(config, shared),
             log_level="warning",
             ws_max_size=65536,
             ws_per_message_deflate=False,
@@ -66,7 +74,10 @@ def run_server(host: str, port: int) -> None:
         )
     )
     server.announcement = describe_address(host, chosen, listener.getsockname()[1])
-    server.run(sockets=[listener])
+    with watch_keyboard(shared.stop_from_keyboard) as watched:
+        if watched and bench:
+            server.announcement += f"\n{HINT}"
+        server.run(sockets=[listener])
 
 
 def describe_address(asked: str, host: str, port: int) -> str:

@@ -3,12 +3,16 @@
 import math
 from dataclasses import asdict
 
+import numpy as np
+
 from svsa.control.gains import Gains
 from svsa.plant.disturbances import ScheduledLoad
 from svsa.runtime.metrics import Metrics
+from svsa.runtime.realtime.session import BenchSession
 from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
+from svsa_server.bench_state import build_bench_state
 from svsa_server.schemas import (
     ConfigurationState,
     GainsState,
@@ -33,13 +37,14 @@ def build_progress(session: Session) -> SessionProgress:
         speed="max" if math.isinf(clock.speed) else clock.speed,
         real_time_factor=clock.real_time_factor,
         stretched_s=clock.stretched_s,
-        fault=run.fault,
+        fault=session.fault,
         metrics=SessionMetrics(**_summarize(session, 0)),
         lanes=[
             LaneMetrics(lane=number + 1, law=lane.law, **_summarize(session, number))
             for number, lane in enumerate(run.configuration.lanes)
         ],
         recording=_build_recording(session.recorder),
+        bench=build_bench_state(session) if isinstance(session, BenchSession) else None,
     )
 
 
@@ -54,7 +59,7 @@ def build_state(session: Session) -> SessionState:
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
         events=list(session.events),
-        sample=None if newest is None else dict(zip(CHANNEL_NAMES, newest.tolist(), strict=True)),
+        sample=None if newest is None else _name_values(newest),
     )
 
 
@@ -107,3 +112,9 @@ def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadSta
         active=scheduled.start_tick <= tick < scheduled.end_tick,
         load=scheduled.load,
     )
+
+
+def _name_values(row: np.ndarray) -> dict[str, float | None]:
+    """A sample by channel; what is not known (NaN) is null."""
+    pairs = zip(CHANNEL_NAMES, row.tolist(), strict=True)
+    return {name: value if math.isfinite(value) else None for name, value in pairs}

@@ -129,7 +129,7 @@ async def stream_session(websocket: WebSocket, session: Session) -> None:
         await websocket.close(1008)
         return
     sender = asyncio.create_task(_send(websocket, session, cursor, channels))
-    listener = asyncio.create_task(_listen(websocket))
+    listener = asyncio.create_task(_listen(websocket, session))
     try:
         await asyncio.wait({sender, listener}, return_when=asyncio.FIRST_COMPLETED)
     finally:
@@ -138,10 +138,10 @@ async def stream_session(websocket: WebSocket, session: Session) -> None:
         await asyncio.gather(sender, listener, return_exceptions=True)
 
 
-async def _listen(websocket: WebSocket) -> None:
-    """Wait for the client to leave; what it says is not needed."""
+async def _listen(websocket: WebSocket, session: Session) -> None:
+    """Wait for the client to leave; whatever it says holds the dead-man's switch of a bench."""
     while (await websocket.receive())["type"] != "websocket.disconnect":
-        pass
+        session.hear_operator()
 
 
 async def _send(

@@ -1,10 +1,10 @@
-"""The paper's simulated experiments as data: Figures 4A, 4B and 5."""
+"""The paper's experiments as data: Figures 4A, 4B and 5 simulated, 6A, 6B and 7 on a bench."""
 
 import math
 from typing import NamedTuple
 
 from svsa.errors import ParameterError, Violation
-from svsa.plant.disturbances import PaperLoad
+from svsa.plant.disturbances import PAPER_TORQUE_NM, ConstantLoad, Load, PaperLoad
 from svsa.reference.trajectories import (
     ConstantStiffness,
     SinePosition,
@@ -21,17 +21,18 @@ STEADY_S = (8.0, 20.0)
 
 
 class Figure(NamedTuple):
-    """One figure: its key, title, references, and what the paper claims of it."""
+    """One figure: its key, title, references, load, and what the paper claims of it."""
 
     key: str
     title: str
     position: SinePosition
     stiffness: StiffnessReference
     claim: str
+    hung: Load = PaperLoad(start_s=LOAD_TIME_S)
 
     def build_configuration(self, law: Law = "ndobc", load: bool = True) -> Configuration:
         """The run behind the figure; load: with the paper's 3 kg at 5 s."""
-        loads = (PaperLoad(start_s=LOAD_TIME_S),) if load else ()
+        loads = (self.hung,) if load else ()
         return Configuration(
             **dict(load_prototype()),
             law=law,
@@ -80,10 +81,33 @@ FIGURES = {
     )
 }
 
+# 3 kg on a cable over a pulley of 68 mm: a torque on the link alone, from one moment on.
+CABLE_PULL = ConstantLoad(start_s=LOAD_TIME_S, torque_nm=(PAPER_TORQUE_NM, 0.0, 0.0))
+
+_CLAIM_BENCH = (
+    "After the load NDOBC goes on tracking and FL does not; the load moves the link less where"
+    " it is stiff."
+)
+
+BENCH_FIGURES = {
+    key: FIGURES[origin]._replace(key=key, title=title, claim=claim, hung=CABLE_PULL)
+    for key, origin, title, claim in (
+        ("6a", "4a", "Figure 6A: bench, low stiffness, 15 N·m/rad", _CLAIM_BENCH),
+        ("6b", "4b", "Figure 6B: bench, high stiffness, 60 N·m/rad", _CLAIM_BENCH),
+        (
+            "7",
+            "5",
+            "Figure 7: bench, variable stiffness, 35 + sin N·m/rad",
+            "The stiffness shows no change at the load with NDOBC, and an error with FL.",
+        ),
+    )
+}
+
 
 def get_figure(key: str) -> Figure:
-    """A figure of the paper by its key ("4a", "4b", "5"); raises `ParameterError`."""
-    figure = FIGURES.get(str(key).lower())
+    """A figure of the paper by its key ("4a" … "7"); raises `ParameterError`."""
+    figures = FIGURES | BENCH_FIGURES
+    figure = figures.get(str(key).lower())
     if figure is None:
-        raise ParameterError(Violation("figure", key, "", "one of " + ", ".join(FIGURES)))
+        raise ParameterError(Violation("figure", key, "", "one of " + ", ".join(figures)))
     return figure

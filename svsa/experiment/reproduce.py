@@ -1,10 +1,20 @@
 """The paper's figures again: both laws, the table of numbers, one picture each."""
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from svsa.errors import FaultError
-from svsa.experiment.paper import BEFORE_S, FIGURES, LOAD_TIME_S, PEAK_S, STEADY_S, get_figure
+from svsa.experiment.paper import (
+    BEFORE_S,
+    BENCH_FIGURES,
+    DURATION_S,
+    FIGURES,
+    LOAD_TIME_S,
+    PEAK_S,
+    STEADY_S,
+    get_figure,
+)
 from svsa.experiment.simulate import Result, simulate
 from svsa.runtime.configuration import Law
 
@@ -20,18 +30,30 @@ class Reproduction(NamedTuple):
     numbers: dict[str, Any]
 
 
-def reproduce(figures: tuple[str, ...] = tuple(FIGURES)) -> list[Reproduction]:
-    """Run figures of the paper with FL and NDOBC, with the paper's load at 5 s.
+def reproduce(
+    figures: tuple[str, ...] = tuple(FIGURES), progress: Callable[[float], None] = lambda _: None
+) -> list[Reproduction]:
+    """Run figures of the paper with FL and NDOBC, with the figure's load at 5 s.
 
-    Raises `FaultError` if a run leaves the domain of the model, `ParameterError` for a
-    figure that does not exist.
+    Figures 6A, 6B and 7 run on the emulated rig, through CAN, in lockstep. progress: told
+    the share done. Raises `FaultError` if a run leaves the domain of the model,
+    `ParameterError` for a figure that does not exist.
     """
-    keys = [get_figure(key).key for key in figures]
-    return [_run_figure(key, law) for key in keys for law in LAWS]
+    runs: list[tuple[str, Law]] = [(get_figure(key).key, law) for key in figures for law in LAWS]
+    found = []
+    for number, (key, law) in enumerate(runs):
+        found.append(_run_figure(key, law, lambda done, n=number: progress((n + done) / len(runs))))
+        progress((number + 1) / len(runs))
+    return found
 
 
-def _run_figure(key: str, law: Law) -> Reproduction:
-    result = simulate(key, law)
+def _run_figure(key: str, law: Law, progress: Callable[[float], None]) -> Reproduction:
+    if key in BENCH_FIGURES:
+        from svsa.experiment.bench_run import run_on_rig
+
+        result = run_on_rig(get_figure(key), law, DURATION_S, progress)
+    else:
+        result = simulate(key, law)
     if result.fault is not None:
         raise FaultError(result.fault)
     return Reproduction(key, law, result, compute_table_row(result))

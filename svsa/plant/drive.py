@@ -30,3 +30,22 @@ def compute_mean_torque(start, target, lag, period):
     return Torque(
         target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
     )
+
+
+@compiled
+def compute_late_torque(start, before, target, lag, latency, period):
+    """The motors' torque where a new target comes `latency` (s) after the period began.
+
+    start: `Torque` made at the beginning. before, target: asked for until and after, N·m.
+    lag: time constant, s. 0 ≤ latency ≤ period, s. Returns (`Torque` at the end of the
+    period, mean `Torque` over it).
+    """
+    rest = period - latency
+    met = compute_lagged_torque(start, before, lag, latency)
+    early = compute_mean_torque(start, before, lag, latency) if latency > 0.0 else start
+    late = compute_mean_torque(met, target, lag, rest) if rest > 0.0 else met
+    mean = Torque(
+        (early.u1 * latency + late.u1 * rest) / period,
+        (early.u2 * latency + late.u2 * rest) / period,
+    )
+    return compute_lagged_torque(met, target, lag, rest), mean

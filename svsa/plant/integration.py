@@ -1,10 +1,11 @@
-"""The plant through one control period: classical Runge–Kutta steps, order 4."""
+"""The plant through one control period or many: classical Runge–Kutta steps, order 4."""
 
 from svsa.compilation import compiled
 from svsa.model.dynamics import ExternalLoad, compute_rate, shift
 from svsa.plant.disturbances import compute_load
 from svsa.plant.drive import compute_lagged_torque
 from svsa.plant.friction import compute_friction
+from svsa.plant.stops import hit_stops
 
 
 @compiled
@@ -50,6 +51,22 @@ def integrate_period(actuator, bench, x, start, target, table, tick, period, ste
         k4 = compute_plant_rate(actuator, bench, x4, u2, table, tick, period, time + h)
         x = shift(shift(shift(shift(x, k1, h / 6.0), k2, h / 3.0), k3, h / 3.0), k4, h / 6.0)
     return x
+
+
+@compiled
+def coast(actuator, bench, stops, x, torque, target, table, tick, period, count):
+    """X and the motors' torque `count` periods after `tick`, the target held (RK4, one step each).
+
+    actuator: `Actuator`, the true plant. bench: `Bench`. stops: `Stops`. x: `State`.
+    torque: `Torque` that the motors make at the beginning, target: `Torque` asked of them,
+    N·m. table: `LoadTable`. period: s. Returns (`State`, `Torque`).
+    """
+    for i in range(tick, tick + count):
+        x = integrate_period(actuator, bench, x, torque, target, table, i, period, 1)
+        torque = compute_lagged_torque(torque, target, bench.lag, period)
+        inertia = actuator.M + compute_load(table, i, period, i * period).inertia
+        x = hit_stops(stops, x, inertia, actuator.B1)
+    return x, torque
 
 
 @compiled

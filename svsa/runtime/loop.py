@@ -153,14 +153,33 @@ def delay(bench, asked, torque):
 
 
 @compiled
-def read_state(blocks, known, estimate, applied, x, tick):
-    """x̂ at the start of `tick`: measured, and estimated where velocities are not known."""
-    measurement = read_sensors(blocks.bench, x, tick)
+def decide(blocks, inputs, known, estimate, tick):
+    """The first half of a tick: reference and controller.
+
+    known: x̂, `State`. estimate: ŵ, `Disturbance`. Returns (`Reference`, `Torque` after the
+    limits, N·m).
+    """
+    reference = read_reference(inputs, tick * blocks.period)
+    return reference, compute_control(blocks, known, reference, estimate)
+
+
+@compiled
+def observe(blocks, known, estimate, applied, measurement):
+    """The second half of a tick: x̂, estimated where velocities are not measured, and ŵ.
+
+    known, estimate: x̂ and ŵ a period ago. applied: mean `Torque` since, N·m. measurement:
+    `Measurement` now. Returns (`State`, `Disturbance`).
+    """
     if blocks.decay > 0.0:
-        return update_state_estimate(
+        x = update_state_estimate(
             blocks.nominal, blocks.decay, known, estimate, applied, measurement, blocks.period
         )
-    return build_measured_state(measurement)
+    else:
+        x = build_measured_state(measurement)
+    w = update_disturbance_estimate(
+        blocks.nominal, blocks.shares, estimate, known, x, applied, blocks.period
+    )
+    return x, w
 
 
 @compiled
@@ -200,6 +219,8 @@ def publish(blocks, reference, lane, target, load, time, sample):
         estimate.w2,
         estimate.w4,
         estimate.w6,
+        0.0,
+        0.0,
     )
 
 
@@ -213,8 +234,7 @@ def advance_tick(blocks, inputs, lane, tick, sample):
     code = check_domain(blocks.domain, blocks.plant, lane.x)
     if code != INSIDE:
         return lane, code
-    reference = read_reference(inputs, tick * blocks.period)
-    torque = compute_control(blocks, lane.known, reference, lane.estimate)
+    reference, torque = decide(blocks, inputs, lane.known, lane.estimate, tick)
     if not math.isfinite(torque.u1 + torque.u2):
         return lane, NOT_FINITE
     return apply_torque(blocks, inputs, lane, reference, torque, tick, sample), INSIDE
@@ -236,10 +256,8 @@ def apply_torque(blocks, inputs, lane, reference, torque, tick, sample):
     )
     made = compute_lagged_torque(lane.torque, target, bench.lag, period)
     applied = compute_mean_torque(lane.torque, target, bench.lag, period)
-    known = read_state(blocks, lane.known, lane.estimate, applied, x, tick + 1)
-    estimate = update_disturbance_estimate(
-        blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period
-    )
+    measurement = read_sensors(bench, x, tick + 1)
+    known, estimate = observe(blocks, lane.known, lane.estimate, applied, measurement)
     return LaneState(x, known, estimate, made, asked)
 
 

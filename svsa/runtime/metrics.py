@@ -10,15 +10,13 @@ from svsa.signals import CHANNEL_INDEX
 RECOVERY_SHARE = 0.02
 SETTLED_S = 0.5
 
-_COLUMNS = [
-    CHANNEL_INDEX[name]
-    for name in (
-        "position_error_rad",
-        "stiffness_error_nm_per_rad",
-        "torque1_nm",
-        "torque2_nm",
-    )
-]
+MEASURED = (
+    "position_error_rad",
+    "stiffness_error_nm_per_rad",
+    "torque1_nm",
+    "torque2_nm",
+)
+_COLUMNS = [CHANNEL_INDEX[name] for name in MEASURED]
 
 
 @dataclass(frozen=True)
@@ -55,9 +53,13 @@ class RunningMetrics:
 
     def update(self, samples: np.ndarray) -> None:
         """Take in more rows of samples (ticks, channels), in the order of time."""
-        if not len(samples):
+        self.update_measured(samples[:, _COLUMNS])
+
+    def update_measured(self, values: np.ndarray) -> None:
+        """As `update`, with the columns `MEASURED` only."""
+        if not len(values):
             return
-        sizes = np.abs(samples[:, _COLUMNS])
+        sizes = np.abs(values)
         peaks = np.maximum(np.maximum.accumulate(sizes[:, 0]), self._peaks[0])
         outside = np.flatnonzero(sizes[:, 0] > RECOVERY_SHARE * peaks)
         if len(outside):
@@ -65,7 +67,7 @@ class RunningMetrics:
         self._squares += np.sum(sizes**2, axis=0)
         self._error_sum += float(np.sum(sizes[:, 0]))
         self._peaks = np.maximum(self._peaks, sizes.max(axis=0))
-        self._count += len(samples)
+        self._count += len(values)
 
     def summarize(self) -> Metrics | None:
         """The metrics so far; None before the first sample."""

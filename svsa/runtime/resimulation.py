@@ -33,11 +33,23 @@ def read_origin(record: Record) -> tuple[Configuration, list[Command]]:
     return Configuration(**record.header.configuration), commands
 
 
+def check_simulated(record: Record) -> None:
+    """Raise `RecordError` for a run of a bench, which nothing can simulate again."""
+    header = record.header
+    if header.plant != "simulated":
+        raise RecordError(
+            f"Run {header.run_id} was recorded on a bench (plant: {header.plant}): only a"
+            " simulated run can be simulated again."
+        )
+
+
 def compare_with_simulation(record: Record) -> Comparison:
     """Simulate a recorded run again from its record alone and compare every bit.
 
-    Raises `RecordError` where it was recorded with other channels than this version has.
+    Raises `RecordError` for a run of a bench, and where it was recorded with other channels
+    than this version has.
     """
+    check_simulated(record)
     configuration, commands = read_origin(record)
     again = _iterate_rows(
         simulate_again(configuration, commands, record.first_tick, record.tick_count)

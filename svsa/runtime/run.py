@@ -1,16 +1,21 @@
 """One run: a configuration, the state it has reached, and the changes made on the way."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from svsa.control.gains import Gains
 from svsa.errors import Fault, StateError
 from svsa.model.domain import INSIDE
-from svsa.model.lever import compute_lever_ratio_for_stiffness
+from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
+from svsa.model.spring import compute_stiffness
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table, schedule_load
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import (
+    ConstantPosition,
+    ConstantStiffness,
     PositionReference,
     StiffnessReference,
     compute_start_value,
@@ -21,33 +26,56 @@ from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane, Law
 from svsa.runtime.fault import build_fault
 from svsa.runtime.loop import INITIAL, Inputs, LaneState, advance, build_blocks
 from svsa.runtime.stepwise import Controller, advance_stepwise
+from svsa.signals import State
+
+
+class Start(NamedTuple):
+    """Where a run begins that finds the actuator as it is.
+
+    mu0: lever ratio at θ2 = 0, a fact of how the actuator was assembled. x: `State` at t = 0.
+    """
+
+    mu0: float
+    x: State
 
 
 class Run:
-    """A simulated run, from rest at t = 0, tick by tick, in one to four lanes.
+    """A simulated run from t = 0, tick by tick, in one to four lanes.
 
     `configuration` is the present one; a change takes effect at the next tick. The run
-    starts at x = 0 with the μ0 that makes σ(0) = σ_d(0). steps: Runge–Kutta steps a period.
-    controller: one's own in plain Python, in place of the first lane's law.
+    starts at x = 0 with the μ0 that makes σ(0) = σ_d(0); with a `start`, from there, and the
+    references fade in from q and σ as they are. steps: Runge–Kutta steps a period.
+    controller: one's own in plain Python, in place of the first lane's law. `blocks` (one a
+    lane) and `inputs` are what the compiled loop is given.
     """
 
     def __init__(
-        self, configuration: Configuration, steps: int = 1, controller: Controller | None = None
+        self,
+        configuration: Configuration,
+        steps: int = 1,
+        controller: Controller | None = None,
+        start: Start | None = None,
     ) -> None:
         self.configuration = configuration
         self.steps = steps
         self._controller = controller
         self.tick = 0
-        self.lanes = [INITIAL for _ in configuration.lanes]
         self.fault: Fault | None = None
-        self.mu0: float = compute_lever_ratio_for_stiffness(
-            compute_start_value(configuration.stiffness),
-            configuration.actuator.rotational_stiffness_nm_per_rad,
-        )
         self._load_count = 0
         self.loads: tuple[ScheduledLoad, ...] = ()
-        self._position = build_stack(configuration.position)
-        self._stiffness = build_stack(configuration.stiffness)
+        if start is None:
+            self.mu0: float = compute_lever_ratio_for_stiffness(
+                compute_start_value(configuration.stiffness),
+                configuration.actuator.rotational_stiffness_nm_per_rad,
+            )
+            first = INITIAL
+            self._position = build_stack(configuration.position)
+            self._stiffness = build_stack(configuration.stiffness)
+        else:
+            self.mu0 = start.mu0
+            first = INITIAL._replace(x=start.x, known=start.x)
+            self._position, self._stiffness = _build_stacks(configuration, start)
+        self.lanes = [first for _ in configuration.lanes]
         self._connect()
         for load in configuration.loads:
             self.add_load(load)
@@ -77,7 +105,7 @@ class Run:
             reached[number], ticks[number], code = self._advance_lane(number, rows)
             if code != INSIDE:
                 done, x = ticks[number], reached[number].x
-                self.fault = build_fault(code, number, self.tick + done, self._blocks[number], x)
+                self.fault = build_fault(code, number, self.tick + done, self.blocks[number], x)
         for number in range(len(self.lanes)):
             if ticks[number] > done:
                 reached[number], _, _ = self._advance_lane(number, samples[number, :done])
@@ -87,10 +115,10 @@ class Run:
 
     def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
         """One lane from the present tick on; the first comes last, so that it is asked once."""
-        blocks, lane = self._blocks[number], self.lanes[number]
+        blocks, lane = self.blocks[number], self.lanes[number]
         if number == 0 and self._controller is not None:
-            return advance_stepwise(blocks, self._inputs, lane, self.tick, rows, self._controller)
-        return advance(blocks, self._inputs, lane, self.tick, rows)
+            return advance_stepwise(blocks, self.inputs, lane, self.tick, rows, self._controller)
+        return advance(blocks, self.inputs, lane, self.tick, rows)
 
     def set_position(self, reference: PositionReference) -> None:
         """Fade over to this position reference, from now on."""
@@ -175,5 +203,19 @@ class Run:
 
     def _connect(self) -> None:
         c = self.configuration
-        self._blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
-        self._inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
+        self.blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
+        self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
+
+
+def _build_stacks(configuration: Configuration, start: Start) -> tuple[np.ndarray, np.ndarray]:
+    """Both references, faded in from where the actuator stands; σ from inside its range."""
+    c, x = configuration, start.x
+    mu = compute_lever_ratio(x.theta2, start.mu0, c.actuator.spiral_reduction)
+    sigma = compute_stiffness(mu, x.q - x.theta1, c.actuator.rotational_stiffness_nm_per_rad)
+    sigma = min(max(sigma, c.limits.stiffness_min_nm_per_rad), c.limits.stiffness_max_nm_per_rad)
+    position = build_stack(ConstantPosition(position_rad=x.q))
+    stiffness = build_stack(ConstantStiffness(stiffness_nm_per_rad=sigma))
+    return (
+        push_trajectory(position, c.position, 0.0),
+        push_trajectory(stiffness, c.stiffness, 0.0),
+    )

@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal, Self
 
-from svsa.errors import StateError
+from svsa.errors import Fault, StateError
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad
 from svsa.runtime.clock import SimulationClock
 from svsa.runtime.command import KINDS, Command, build_command
 from svsa.runtime.configuration import MOST_LANES, Configuration
 from svsa.runtime.history import History
 from svsa.runtime.metrics import RunningMetrics
+from svsa.runtime.recording.header import PlantKind
 from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.run import Run
 
@@ -39,11 +40,13 @@ class Session:
 
     `initial` and `commands` say everything that decides the run's samples. `version` grows
     with every change, not with time. `on_recorded` is told of every recording that ends.
+    `watchers` is how many streams of it are open.
     """
 
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
         self.closed = False
+        self.watchers = 0
         self.recorder: Recorder | None = None
         self.on_recorded: Callable[[Recorder], None] = lambda _: None
         self.run_number = 0
@@ -52,6 +55,16 @@ class Session:
         self.clock = SimulationClock(configuration.sampling.period_s)
         self._running = False
         self.load(configuration)
+
+    @property
+    def plant(self) -> PlantKind:
+        """What lane 1 runs on."""
+        return "simulated"
+
+    @property
+    def fault(self) -> Fault | None:
+        """Why the run has ended, or None."""
+        return self.run.fault
 
     @property
     def status(self) -> Status:
@@ -66,11 +79,15 @@ class Session:
         A recording ends with the run that it recorded.
         """
         self.stop_recording()
+        self._begin(Run(configuration))
+
+    def _begin(self, run: Run) -> None:
+        """Watch this run from now on, from its first tick."""
         self.clock.stop()
         self.clock.stretched_s = 0.0
-        self.initial = configuration
+        self.initial = run.configuration
         self.commands: list[Command] = []
-        self.run = Run(configuration)
+        self.run = run
         self.run_number += 1
         self.history.clear()
         self.events: deque[Event] = deque(maxlen=MOST_EVENTS)
@@ -132,6 +149,18 @@ class Session:
         self.clock.stop()
         self.version += 1
 
+    def stop_at_once(self) -> None:
+        """The emergency stop: a simulation pauses, and says that it was stopped."""
+        if self.status == "running":
+            self.pause()
+            self._log("emergency_stop", "Emergency stop")
+
+    def hear_operator(self) -> None:
+        """Whoever watches holds the dead-man's switch, which a simulation does not have."""
+
+    def stop_from_keyboard(self) -> None:
+        """The emergency stop from another thread: a simulation has none to guard against."""
+
     def close(self) -> None:
         """End the session for good; whoever watches it is told."""
         self.stop_recording()
@@ -170,7 +199,7 @@ class Session:
             raise StateError(f"{MOST_COMMANDS} changes were made to this run: reset it first.")
         if kind == "rivals" and self.recorder is not None:
             raise StateError("A recording has the same lanes throughout: stop it first.")
-        command = build_command(self.run.tick, kind, argument)
+        command = self._take(build_command(self.run.tick, kind, argument))
         loads = {load.number: load for load in self.run.loads}
         answer = command.apply(self.run)
         self.commands.append(command)
@@ -182,7 +211,7 @@ class Session:
             case "unload":
                 taken = loads[argument]
                 if taken.start_tick < self.run.tick <= taken.end_tick:
-                    self._log("load_off", f"{describe_load(taken.load)} off")
+                    self._end_load(taken.load)
                 self.version += 1
             case "controller":
                 self._log(kind, f"{argument.upper()} on")
@@ -190,6 +219,10 @@ class Session:
                 self._log(kind, KINDS[kind].label)
         if isinstance(answer, list):
             self._rearrange_lanes(answer)
+
+    def _take(self, command: Command) -> Command:
+        """The command with the tick at which it holds: here, at once."""
+        return command
 
     def clear_loads(self) -> None:
         """Take every load off."""
@@ -230,10 +263,16 @@ class Session:
     def _log_loads(self) -> None:
         for _, load, start, end in self.run.loads:
             if start == self.run.tick:
-                self._log("load_on", f"{describe_load(load)} on")
-                self.since_load = self._begin_metrics()
+                self._begin_load(load)
             if end == self.run.tick:
-                self._log("load_off", f"{describe_load(load)} off")
+                self._end_load(load)
+
+    def _begin_load(self, load: Load) -> None:
+        self._log("load_on", f"{describe_load(load)} on")
+        self.since_load = self._begin_metrics()
+
+    def _end_load(self, load: Load) -> None:
+        self._log("load_off", f"{describe_load(load)} off")
 
     def _find_next_edge(self) -> int:
         edges = [edge for load in self.run.loads for edge in (load.start_tick, load.end_tick)]

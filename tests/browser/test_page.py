@@ -103,9 +103,9 @@ def test_a_lost_server_is_told_and_the_page_recovers_by_itself(page: Page) -> No
     with run_lab() as lab:
         port = int(lab.url.rpartition(":")[2])
         open_page(page, lab)
-        wait_for_samples(page, after_s=4.0)
+        wait_for_samples(page, after_s=8.0)
         end = page.evaluate(LAST_TIME)
-    expect(page.get_by_text(re.compile("connection", re.I)).first).to_be_visible(
+    expect(page.get_by_role("alert").get_by_text("connection is lost")).to_be_visible(
         timeout=PATIENCE_MS
     )
     with run_lab(port=port) as lab:

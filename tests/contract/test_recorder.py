@@ -22,6 +22,7 @@ from svsa.runtime.recording.header import RecordError, RecordHeader, parse_heade
 from svsa.runtime.recording.reader import open_record, read_record, recover
 from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.recording.writer import write_record
+from svsa.signals import CHANNELS
 
 from .records import PERIOD_S, build_header, build_samples
 
@@ -81,7 +82,7 @@ def test_the_finished_file_says_by_itself_what_it_holds(tmp_path: Path) -> None:
     write_record(tmp_path / "run-1", header, [(5, {"kind": "load"})], 0, build_samples(50))
     table = pq.read_table(tmp_path / "run-1" / "samples.parquet")
     assert table.column_names[:3] == ["tick", "time_s", "ndobc.position_reference_rad"]
-    assert table.column_names[-1] == "fl.estimate_motor2_nm"
+    assert table.column_names[-1] == f"fl.{CHANNELS[-1].name}"
     assert table.schema.field("tick").type == pa.int64()
     assert table.schema.field("fl.torque1_nm").metadata == {b"unit": "N·m".encode()}
     assert parse_header(table.schema.metadata[b"svsa.header"].decode()) == header

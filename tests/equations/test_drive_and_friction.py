@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import svsa
-from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
+from svsa.plant.drive import compute_lagged_torque, compute_late_torque, compute_mean_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, CurrentLag, Friction, build_bench
 from svsa.plant.friction import compute_friction
 from svsa.plant.integration import integrate_period
@@ -198,3 +198,24 @@ def test_the_torque_limits_can_be_switched_off():
     assert np.abs(free.torque1_nm).max() > 15.0
     assert np.abs(free.torque2_nm).max() > 5.0
     assert free.fault is None
+
+
+@pytest.mark.parametrize("lag", [0.0, 4e-4])
+@pytest.mark.parametrize("latency", [0.0, 3e-4, 1e-3])
+def test_late_torque_is_two_lags_one_after_the_other(lag, latency):
+    """Against the integral of the current loop, in small steps."""
+    before = Torque(1.0, 2.0)
+    end, mean = compute_late_torque(START, before, TARGET, lag, latency, T)
+    steps = 20_000
+    made, total = np.array(START), np.zeros(2)
+    if lag == 0.0:
+        made = np.array(before if latency else TARGET)
+    for k in range(steps):
+        aim = np.array(before if (k + 0.5) * T / steps < latency else TARGET)
+        rest = math.exp(-T / steps / lag) if lag else 0.0
+        middle = aim + (made - aim) * (math.exp(-0.5 * T / steps / lag) if lag else 0.0)
+        total += middle / steps
+        made = aim + (made - aim) * rest
+    np.testing.assert_allclose(mean, total, rtol=1e-6)
+    if latency < T:
+        np.testing.assert_allclose(end, made, rtol=1e-9)

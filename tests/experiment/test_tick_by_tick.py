@@ -10,10 +10,10 @@ from svsa.control.feedback_linearization import build_gains, compute_feedback_li
 from svsa.control.ndobc import compute_ndobc
 from svsa.model.domain import INSIDE, check_domain
 from svsa.model.dynamics import build_actuator
-from svsa.observer.disturbance import update_disturbance_estimate
 from svsa.plant.disturbances import build_load_table, schedule_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
 from svsa.plant.integration import compute_plant_load, integrate_period
+from svsa.plant.sensors import read_sensors
 from svsa.reference.transition import build_stack
 from svsa.runtime.loop import (
     INITIAL,
@@ -23,9 +23,9 @@ from svsa.runtime.loop import (
     build_blocks,
     compute_control,
     delay,
+    observe,
     publish,
     read_reference,
-    read_state,
 )
 from svsa.runtime.loop import advance as advance_lane
 from svsa.runtime.run import Run
@@ -83,10 +83,8 @@ def compose_tick(blocks, inputs, lane, tick, sample):
     )
     made = compute_lagged_torque(lane.torque, target, bench.lag, period)
     applied = compute_mean_torque(lane.torque, target, bench.lag, period)
-    known = read_state(blocks, lane.known, lane.estimate, applied, x, tick + 1)
-    estimate = update_disturbance_estimate(
-        blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period
-    )
+    measurement = read_sensors(bench, x, tick + 1)
+    known, estimate = observe(blocks, lane.known, lane.estimate, applied, measurement)
     return LaneState(x, known, estimate, made, asked)
 
 

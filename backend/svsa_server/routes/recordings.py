@@ -6,7 +6,12 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Request
 from fastapi.responses import HTMLResponse
 
-from svsa.runtime.resimulation import Comparison, compare_with_simulation, read_origin
+from svsa.runtime.resimulation import (
+    Comparison,
+    check_simulated,
+    compare_with_simulation,
+    read_origin,
+)
 from svsa_server.replay_export import build_replay
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.schemas import BranchRequest, RecordingRequest, SessionState
@@ -41,6 +46,7 @@ async def branch_run(
 ) -> SessionState:
     """A private session that goes on, paused, from a recorded run as it stood at a tick."""
     record = await asyncio.to_thread(request.app.state.catalogue.open, run_id)
+    check_simulated(record)
     configuration, commands = read_origin(record)
     session = await request.app.state.laboratory.branch(configuration, commands, wanted.tick)
     return build_state(session)

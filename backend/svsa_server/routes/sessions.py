@@ -64,6 +64,13 @@ async def pause(session: NamedSession) -> SessionState:
     return build_state(session)
 
 
+@router.post("/{session}/emergency-stop")
+async def stop_at_once(session: NamedSession) -> SessionState:
+    """Zero current at once on a bench, latched until cleared; a simulation pauses."""
+    session.stop_at_once()
+    return build_state(session)
+
+
 @router.post("/{session}/reset")
 async def reset(session: NamedSession) -> SessionState:
     """Begin again at t = 0 with everything as it is set now, after a fault too."""

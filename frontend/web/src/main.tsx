@@ -1,16 +1,24 @@
 import "uplot/dist/uPlot.min.css";
 import "./theme.css";
 import "./layout/layout.css";
+import "./layout/statusbar.css";
 import "./layout/comparison.css";
 import "./plots/plots.css";
 import "./controls/controls.css";
+import "./bench/bench.css";
+import "./safety/safety.css";
+import "./keys/keys.css";
 import { render } from "preact";
 import { openDebugDoor } from "./debug";
+import { listenToKeys } from "./keys/keys";
 import { App } from "./layout/app";
+import { markTab } from "./layout/marks";
 import { startFrames } from "./plots/frame";
 import { openStream, watchNetwork } from "./state/session";
 
 render(<App />, document.getElementById("app") as HTMLElement);
+listenToKeys();
+markTab();
 openDebugDoor();
 startFrames();
 watchNetwork();

@@ -28,6 +28,14 @@ export function formatInput(value: number, digits = 5): string {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** A short duration in the unit that reads best: 25 µs, 1.3 ms, 2.40 s. */
+export function formatLapse(seconds: number): string {
+  const size = Math.abs(seconds);
+  if (size < 0.9995e-3) return `${formatNumber(seconds * 1e6, 2, 0)} µs`;
+  if (size < 0.9995) return `${formatNumber(seconds * 1e3, 2, 1)} ms`;
+  return `${formatNumber(seconds, 3, 2)} s`;
+}
+
 /** A duration as minutes and whole seconds: 75.25 is 1:15. */
 export function formatSeconds(seconds: number): string {
   const whole = Math.floor(Math.max(0, seconds) + 1e-6);

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import {
   formatInput,
+  formatLapse,
   formatNumber,
   formatSeconds,
   formatTime,
@@ -48,5 +49,16 @@ describe("formatSeconds", () => {
     [3600, "60:00"],
   ])("%s s is %s", (seconds, shown) => {
     expect(formatSeconds(seconds)).toBe(shown);
+  });
+
+  it.each([
+    [24.4e-6, "24 µs"],
+    [182e-6, "182 µs"],
+    [1.92e-3, "1.9 ms"],
+    [0.25, "250 ms"],
+    [2.4, "2.40 s"],
+    [0, "0 µs"],
+  ])("says %f s in the unit that reads best", (seconds, shown) => {
+    expect(formatLapse(seconds)).toBe(shown);
   });
 });

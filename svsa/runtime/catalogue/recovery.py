@@ -13,11 +13,10 @@ import numpy as np
 from svsa.errors import SvsaError
 from svsa.runtime.catalogue.database import Database
 from svsa.runtime.catalogue.entry import RunEntry, UnknownRunError
-from svsa.runtime.metrics import Metrics, RunningMetrics
+from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runtime.recording.header import STREAM_FILE, RecordError, is_run_id, read_header
 from svsa.runtime.recording.parquet import measure_bytes
 from svsa.runtime.recording.reader import Record, open_record, recover
-from svsa.signals import CHANNEL_NAMES
 
 CUT_OFF = "The recording was cut off; what had been written is here."
 
@@ -103,13 +102,13 @@ def measure(record: Record) -> tuple[Metrics, ...] | None:
     None without samples, without the channels for it, or with samples that are no numbers.
     """
     names = record.header.channel_names
-    if not record.tick_count or not set(CHANNEL_NAMES) <= set(names):
+    if not record.tick_count or not set(MEASURED) <= set(names):
         return None
-    places = [names.index(name) for name in CHANNEL_NAMES]
+    places = [names.index(name) for name in MEASURED]
     lanes = [RunningMetrics(record.header.period_s) for _ in record.header.lanes]
     for _, samples in record.iterate():
         for lane, running in enumerate(lanes):
-            running.update(samples[:, lane, places])
+            running.update_measured(samples[:, lane, places])
     metrics = [running.summarize() for running in lanes]
     found = tuple(lane for lane in metrics if lane is not None)
     numbers = [value for lane in found for value in vars(lane).values() if value is not None]

@@ -6,7 +6,7 @@ import re
 import threading
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
@@ -25,6 +25,8 @@ HEADER_FILE = "header.json"
 COMMANDS_FILE = "commands.jsonl"
 STREAM_FILE = "samples.arrows"
 PARQUET_FILE = "samples.parquet"
+
+PlantKind = Literal["simulated", "emulated", "bench"]
 
 _RUN_ID = re.compile(r"[0-9A-Za-z][0-9A-Za-z_-]{0,63}", re.ASCII)
 _CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}", re.ASCII)
@@ -46,6 +48,7 @@ class RecordHeader(Checked):
     run_id: str = quantity("", "Identity of the run: letters, digits, - and _")
     created: str = quantity("", "When recording began, UTC, ISO 8601")
     session: str = quantity("", "Session that was recorded")
+    plant: PlantKind = quantity("", "What lane 1 was", default="simulated")
     name: str = quantity("", "What people call the run", default="")
     tags: tuple[str, ...] = quantity("", "Words to find the run by", default=())
     notes: str = quantity("", "What people wrote about the run", default="")

@@ -1,6 +1,7 @@
 /** The public REST API, one function a call. The page has no other door to the server. */
 import { LockedError, RefusedError, UnreachableError } from "./errors";
 import type {
+  Axis,
   Body,
   Figure,
   Law,
@@ -18,12 +19,18 @@ import type {
 const API = new URL("api/v1/", document.baseURI);
 const SESSION = "sessions/lab";
 const LONGEST_WAIT_MS = 6000;
+const LONGEST_STOP_MS = 1500;
 
-async function request(method: Method, path: string, body?: unknown): Promise<unknown> {
+async function request(
+  method: Method,
+  path: string,
+  body?: unknown,
+  waitMs = LONGEST_WAIT_MS,
+): Promise<unknown> {
   const init: RequestInit = {
     method: method.toUpperCase(),
     cache: "no-store",
-    signal: AbortSignal.timeout(LONGEST_WAIT_MS),
+    signal: AbortSignal.timeout(waitMs),
   };
   if (body !== undefined) {
     init.headers = { "Content-Type": "application/json" };
@@ -70,6 +77,11 @@ export const stopRecording = () => call("delete", "/recording");
 export const putSpeed = (factor: Speed) => call("put", "/speed", { factor });
 export const start = () => call("post", "/start");
 export const pause = () => call("post", "/pause");
+export const stopAtOnce = () =>
+  request("post", `${SESSION}/emergency-stop`, undefined, LONGEST_STOP_MS) as Promise<SessionState>;
+export const armBench = () => call("post", "/bench/arm");
+export const confirmHome = (step: Axis, by: string) => call("post", "/bench/home", { step, by });
+export const clearBench = () => call("post", "/bench/clear");
 export const reset = () => call("post", "/reset");
 export const step = (ticks: number) => call("post", "/step", { ticks });
 export const runFigure = (figure: Figure, controller: Law) =>

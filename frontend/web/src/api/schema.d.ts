@@ -152,6 +152,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/emergency-stop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Stop At Once
+         * @description Zero current at once on a bench, latched until cleared; a simulation pauses.
+         */
+        post: operations["stop_at_once_api_v1_sessions__session__emergency_stop_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/reset": {
         parameters: {
             query?: never;
@@ -226,6 +246,66 @@ export interface paths {
          * @description Start one of the paper's figures from t = 0, with its load at 5 s unless told not to.
          */
         post: operations["load_experiment_api_v1_sessions__session__experiment_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/bench/arm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Arm
+         * @description Reset the drives and bring them to current mode, in about a second: OFF → READY.
+         */
+        post: operations["arm_api_v1_sessions__session__bench_arm_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/bench/home": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Confirm Home
+         * @description Confirm that an axis stands at its zero mark; the state tells the next step.
+         */
+        post: operations["confirm_home_api_v1_sessions__session__bench_home_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/bench/clear": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Clear Fault
+         * @description Clear a latched fault: FAULT → OFF; it must be armed again.
+         */
+        post: operations["clear_fault_api_v1_sessions__session__bench_clear_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -763,6 +843,67 @@ export interface components {
             reaction_torque?: ("energy" | "printed") | null;
         };
         /**
+         * BenchState
+         * @description A bench at this instant.
+         */
+        BenchState: {
+            /** Name */
+            name: string;
+            /**
+             * Emulated
+             * @description An emulated rig stands in for the bench
+             */
+            emulated: boolean;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "off" | "reset" | "config" | "mode" | "ready" | "run" | "ramp" | "fault";
+            /**
+             * Interface
+             * @description python-can's interface and channel
+             */
+            interface: string;
+            /** Calibrated By */
+            calibrated_by: string | null;
+            /**
+             * Calibrated On
+             * @description ISO 8601
+             */
+            calibrated_on: string | null;
+            /**
+             * Problems
+             * @description Why it does not arm; empty if it may
+             */
+            problems: string[];
+            homing: components["schemas"]["HomingState"];
+            /** Current A */
+            current_a: [
+                number,
+                number
+            ];
+            /**
+             * Ages S
+             * @description Of motor 1, motor 2, deflection
+             */
+            ages_s: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Supervised
+             * @description The supervisor's heartbeat is fresh
+             */
+            supervised: boolean;
+            /**
+             * Operator Required
+             * @description Somebody must watch while it runs
+             */
+            operator_required: boolean;
+            loop: components["schemas"]["LoopState"];
+        };
+        /**
          * BranchRequest
          * @description Where to go on from.
          */
@@ -776,6 +917,9 @@ export interface components {
         /**
          * Channel
          * @description One column of the samples: its name (ends in the unit), unit and a label to read.
+         *
+         *     On a bench the disturbances w are not known (NaN), and positions are as measured; the
+         *     residuals are against its simulated twin, and 0 in every other lane.
          */
         Channel: {
             /** Name */
@@ -1217,6 +1361,35 @@ export interface components {
             version: string;
         };
         /**
+         * HomingRequest
+         * @description Confirms that one axis stands at its zero mark.
+         */
+        HomingRequest: {
+            /**
+             * Step
+             * @description Axis at its mark: link, motor1 or motor2
+             * @enum {string}
+             */
+            step: "link" | "motor1" | "motor2";
+            /**
+             * By
+             * @description Who looked at the mark
+             */
+            by: string;
+        };
+        /**
+         * HomingState
+         * @description The guided zero: what is done, and the next step in words; null when all is done.
+         */
+        HomingState: {
+            /** Done */
+            done: string[];
+            /** Next Step */
+            next_step: string | null;
+            /** Instruction */
+            instruction: string;
+        };
+        /**
          * Lane
          * @description A controller with a plant of its own: same references, loads and noise as the others.
          */
@@ -1342,6 +1515,45 @@ export interface components {
              * @description The lab's shared secret
              */
             secret: string;
+        };
+        /**
+         * LoopState
+         * @description The loop's process: how punctual it is, since it started.
+         */
+        LoopState: {
+            /** Alive */
+            alive: boolean;
+            /** Rate Hz */
+            rate_hz: number;
+            /** Ticks */
+            ticks: number;
+            /** Skipped Ticks */
+            skipped_ticks: number;
+            /** Lateness P50 S */
+            lateness_p50_s: number;
+            /** Lateness P99 S */
+            lateness_p99_s: number;
+            /** Lateness P999 S */
+            lateness_p999_s: number;
+            /** Lateness Worst S */
+            lateness_worst_s: number;
+            /**
+             * Cost P99 S
+             * @description What a tick takes: read, observe, decide, write
+             */
+            cost_p99_s: number;
+            /**
+             * Lateness Edges S
+             * @description Upper edges of the histogram's bins
+             */
+            lateness_edges_s: number[];
+            /** Lateness Counts */
+            lateness_counts: number[];
+            /**
+             * Notes
+             * @description What of real time the system allowed, and what not
+             */
+            notes: string[];
         };
         /**
          * MassLoad
@@ -1867,6 +2079,8 @@ export interface components {
             /** Lanes */
             lanes: components["schemas"]["LaneMetrics"][];
             recording: components["schemas"]["RecordingState"] | null;
+            /** @description Null for a simulated session */
+            bench: components["schemas"]["BenchState"] | null;
             /** Session */
             session: string;
             /** Rate Hz */
@@ -1878,10 +2092,10 @@ export interface components {
             events: components["schemas"]["Event"][];
             /**
              * Sample
-             * @description The newest sample, by channel
+             * @description The newest sample, by channel; null where a bench does not know it
              */
             sample: {
-                [key: string]: number;
+                [key: string]: number | null;
             } | null;
         };
         /**
@@ -2449,6 +2663,56 @@ export interface operations {
             };
         };
     };
+    stop_at_once_api_v1_sessions__session__emergency_stop_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
     reset_api_v1_sessions__session__reset_post: {
         parameters: {
             query?: never;
@@ -2622,6 +2886,160 @@ export interface operations {
                 "application/json": components["schemas"]["ExperimentRequest"];
             };
         };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    arm_api_v1_sessions__session__bench_arm_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    confirm_home_api_v1_sessions__session__bench_home_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["HomingRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    clear_fault_api_v1_sessions__session__bench_clear_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
         responses: {
             /** @description Successful Response */
             200: {

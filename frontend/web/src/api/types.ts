@@ -13,6 +13,10 @@ export type LoadRow = Schemas["LoadState"];
 export type LaneRow = SessionState["lanes"][number];
 export type Metrics = NonNullable<LaneRow["since_start"]>;
 export type SessionEvent = Schemas["Event"];
+export type BenchState = NonNullable<SessionState["bench"]>;
+export type BenchStatus = BenchState["status"];
+export type LoopState = BenchState["loop"];
+export type Axis = Schemas["HomingRequest"]["step"];
 export type Figure = Schemas["ExperimentRequest"]["figure"];
 export type Refusal = Schemas["ErrorModel"];
 

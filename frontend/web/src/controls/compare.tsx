@@ -1,14 +1,11 @@
 import { useId } from "preact/hooks";
-import { putLanes } from "../api/client";
 import type { SessionState } from "../api/types";
 import { inkOf } from "../plots/inks";
 import { Swatch } from "../plots/legend";
-import { perform } from "../state/actions";
+import { CONTROL, toggleCompare } from "../state/commands";
 import { otherLaw } from "../state/lanes";
 import { text } from "../text/en";
 import { Problem } from "./problem";
-
-const CONTROL = "controller.compare";
 
 /** The other law beside the session's own, switched on and off. */
 export function Compare({ state }: { state: SessionState }) {
@@ -24,10 +21,11 @@ export function Compare({ state }: { state: SessionState }) {
         role="switch"
         class="compare"
         aria-checked={isOn}
+        aria-keyshortcuts="c"
         aria-describedby={id}
         disabled={isRecording}
         title={isRecording ? text.compare.whileRecording : text.compare.does}
-        onClick={() => void perform(CONTROL, () => putLanes(isOn ? [] : [rival]))}
+        onClick={() => void toggleCompare(state)}
       >
         <span class="compare-track" aria-hidden="true" />
         <span class="compare-words">{text.compare.with(text.controller[rival])}</span>
@@ -36,7 +34,7 @@ export function Compare({ state }: { state: SessionState }) {
       <span class="visually-hidden" id={id}>
         {isRecording ? text.compare.whileRecording : text.compare.does}
       </span>
-      <Problem control={CONTROL} />
+      <Problem control={CONTROL.compare} />
     </>
   );
 }

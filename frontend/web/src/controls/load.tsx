@@ -1,7 +1,7 @@
 import { removeAllLoads, removeLoad } from "../api/client";
 import type { LoadRow, SessionState } from "../api/types";
 import { perform } from "../state/actions";
-import { isWeight, presentLoads, type WeightForm, weightForm } from "../state/load";
+import { isRealBench, isWeight, presentLoads, type WeightForm, weightForm } from "../state/load";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { Choice } from "./choice";
@@ -58,21 +58,30 @@ function LoadRows({ state }: { state: SessionState }) {
   );
 }
 
-export function Loads({ state }: { state: SessionState }) {
+/** What 3 kg are in a simulation and on the emulated rig. */
+function FormPicker() {
   return (
-    <Group
-      title={text.load.title}
-      aside={
-        <Choice
-          label={text.load.form}
-          options={FORMS}
-          value={weightForm.value}
-          onChoose={(form) => {
-            weightForm.value = form;
-          }}
-        />
-      }
-    >
+    <Choice
+      label={text.load.form}
+      options={FORMS}
+      value={weightForm.value}
+      onChoose={(form) => {
+        weightForm.value = form;
+      }}
+    />
+  );
+}
+
+export function Loads({ state }: { state: SessionState }) {
+  if (isRealBench(state.bench)) {
+    return (
+      <Group title={text.load.title}>
+        <p class="hint">{text.load.markDoes}</p>
+      </Group>
+    );
+  }
+  return (
+    <Group title={text.load.title} aside={<FormPicker />}>
       <p class="hint">{weightForm.value === "paper" ? text.load.paperDoes : text.load.massDoes}</p>
       <LoadRows state={state} />
       <Problem control="load.rows" />

@@ -1,8 +1,7 @@
 import { useState } from "preact/hooks";
-import { addLoad, readState, removeLoad } from "../api/client";
 import type { SessionState } from "../api/types";
-import { perform } from "../state/actions";
-import { hungWeights, nextWeightAt, weightForm, weightOf } from "../state/load";
+import { CONTROL, toggleWeight } from "../state/commands";
+import { hungWeights, isRealBench, nextWeightAt, weightForm } from "../state/load";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "./problem";
@@ -20,16 +19,17 @@ function WeightPicture({ isHung }: { isHung: boolean }) {
   );
 }
 
-async function removeWeights(state: SessionState): Promise<SessionState> {
-  for (const row of hungWeights(state)) await removeLoad(row.id);
-  return readState();
-}
-
 function caption(state: SessionState, isHung: boolean): string {
+  if (isRealBench(state.bench)) return isHung ? text.load.marked : text.load.mark;
   if (isHung) return text.load.hangs;
   const next = nextWeightAt(state);
   if (next !== null) return text.load.comesAt(next);
   return weightForm.value === "paper" ? text.load.paperShort : text.load.massShort;
+}
+
+function words(state: SessionState, isHung: boolean): string {
+  if (isRealBench(state.bench)) return isHung ? text.load.markRemoved : text.load.markHung;
+  return isHung ? text.load.remove : text.load.hang;
 }
 
 /** The one thing to press: hangs 3 kg on the link, or takes them off. */
@@ -39,9 +39,7 @@ export function LoadButton({ state }: { state: SessionState }) {
 
   const press = async () => {
     setBusy(true);
-    await perform("load.weight", () =>
-      isHung ? removeWeights(state) : addLoad(weightOf(weightForm.peek())),
-    );
+    await toggleWeight(state);
     setBusy(false);
   };
 
@@ -50,16 +48,17 @@ export function LoadButton({ state }: { state: SessionState }) {
       <button
         type="button"
         class={`load-button ${isHung ? "is-hung" : ""}`}
+        aria-keyshortcuts="l"
         disabled={isBusy || !isLive.value || state.status === "fault"}
         onClick={() => void press()}
       >
         <WeightPicture isHung={isHung} />
         <span class="load-words">
-          <strong>{isHung ? text.load.remove : text.load.hang}</strong>
+          <strong>{words(state, isHung)}</strong>
           <small>{caption(state, isHung)}</small>
         </span>
       </button>
-      <Problem control="load.weight" />
+      <Problem control={CONTROL.load} />
     </div>
   );
 }

@@ -1,5 +1,7 @@
+import { BenchStrip } from "../bench/strip";
 import { Controls } from "../controls/controls";
 import { LoadButton } from "../controls/loadbutton";
+import { HelpSheet } from "../keys/help";
 import { Plots } from "../plots/plots";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
@@ -7,6 +9,7 @@ import { Banners } from "./banners";
 import { Comparison } from "./comparison";
 import { Login } from "./login";
 import { Readout } from "./readout";
+import { StatusBar } from "./statusbar";
 import { TopBar } from "./topbar";
 import { View } from "./view";
 
@@ -15,7 +18,9 @@ export function App() {
   return (
     <>
       <TopBar />
+      {state?.bench && <BenchStrip bench={state.bench} />}
       <Banners />
+      <HelpSheet />
       {phase.value === "locked" && <Login />}
       {state === null ? (
         <p class="waiting-page">{text.connection.waiting}</p>
@@ -28,6 +33,7 @@ export function App() {
           <Controls state={state} />
         </main>
       )}
+      <StatusBar />
     </>
   );
 }

@@ -1,16 +1,18 @@
 import { reset, stopRecording } from "../api/client";
 import { Problem } from "../controls/problem";
+import { StopBanners } from "../safety/stopbanner";
 import { perform } from "../state/actions";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
 
 /** What must not be overlooked: no connection, a fault, a refused command of the top bar. */
 export function Banners() {
-  const fault = session.value?.fault;
+  const fault = session.value?.bench ? null : session.value?.fault;
   const recording = session.value?.recording;
   const isLost = phase.value === "lost";
   return (
     <div class="banners">
+      <StopBanners />
       {isLost && (
         <div class="banner is-lost" role="alert">
           <span class="banner-sign" aria-hidden="true" />

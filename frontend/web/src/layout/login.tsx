@@ -1,6 +1,8 @@
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { login } from "../api/client";
 import { RefusedError } from "../api/errors";
+import { StopBanners } from "../safety/stopbanner";
+import { StopButton } from "../safety/stopbutton";
 import { openStream, phase } from "../state/session";
 import { text } from "../text/en";
 
@@ -51,6 +53,8 @@ export function Login() {
           {text.login.enter}
         </button>
       </form>
+      <StopBanners />
+      <StopButton />
     </dialog>
   );
 }

@@ -1,7 +1,5 @@
-import { startRecording, stopRecording } from "../api/client";
 import type { SessionState } from "../api/types";
-import { perform } from "../state/actions";
-import { laneNames } from "../state/lanes";
+import { toggleRecording } from "../state/commands";
 import { text } from "../text/en";
 import { formatSeconds } from "../units";
 
@@ -9,14 +7,14 @@ import { formatSeconds } from "../units";
 export function RecordButton({ state }: { state: SessionState }) {
   const { recording, rate_hz: rateHz } = state;
   if (recording?.state !== "recording") {
-    const begin = () => startRecording(text.compare.versus(laneNames.peek()));
     return (
       <button
         type="button"
         class="button record"
         disabled={recording !== null}
         title={text.recording.startHint}
-        onClick={() => void perform("session", begin)}
+        aria-keyshortcuts="r"
+        onClick={() => void toggleRecording(state)}
       >
         <span class="record-dot" aria-hidden="true" />
         {text.recording.start}
@@ -28,7 +26,8 @@ export function RecordButton({ state }: { state: SessionState }) {
       type="button"
       class="button record is-recording"
       title={text.recording.stop}
-      onClick={() => void perform("session", stopRecording)}
+      aria-keyshortcuts="r"
+      onClick={() => void toggleRecording(state)}
     >
       <span class="record-dot" aria-hidden="true" />
       {text.recording.running(formatSeconds(recording.ticks / rateHz))}

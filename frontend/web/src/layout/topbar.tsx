@@ -1,44 +1,9 @@
+import { HelpButton } from "../keys/help";
 import { theme, toggleTheme } from "../state/preferences";
-import { isLive, missedSamples, phase, session } from "../state/session";
+import { isLive, session } from "../state/session";
 import { text } from "../text/en";
-import { formatNumber } from "../units";
-import { Clock } from "./clock";
 import { RecordButton } from "./record";
 import { FigurePicker, Transport } from "./transport";
-
-const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
-const PHASE_SIGNS = { live: "●", connecting: "◌", lost: "○", locked: "○" } as const;
-
-function Status() {
-  const state = session.value;
-  if (state === null) return null;
-  const factor = formatNumber(state.real_time_factor, 3, 2);
-  return (
-    <div class="status">
-      <span class={`pill is-${state.status}`}>
-        <span aria-hidden="true">{STATUS_SIGNS[state.status]}</span> {text.status[state.status]}
-      </span>
-      <Clock />
-      <span class="rate" title={text.status.rateHint}>
-        {text.status.rate(state.rate_hz)}
-        <br />
-        {state.status === "running" && text.status.realTime(factor)}
-      </span>
-    </div>
-  );
-}
-
-function Connection() {
-  const missed = missedSamples.value;
-  return (
-    <span class={`connection ${isLive.value ? "is-live" : ""}`} role="status">
-      <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {text.connection[phase.value]}
-      {missed > 0 && (
-        <small title={text.connection.missedHint}>{text.connection.missed(missed)}</small>
-      )}
-    </span>
-  );
-}
 
 function ThemeButton() {
   const isDark = theme.value === "dark";
@@ -71,13 +36,14 @@ export function TopBar() {
       {state && (
         <fieldset class="topbar-controls" disabled={!isLive.value} aria-label={text.session}>
           <FigurePicker state={state} />
-          <Transport state={state} />
+          {state.bench === null && <Transport state={state} />}
           <RecordButton state={state} />
         </fieldset>
       )}
-      <Status />
-      <Connection />
-      <ThemeButton />
+      <div class="topbar-end">
+        <HelpButton />
+        <ThemeButton />
+      </div>
     </header>
   );
 }

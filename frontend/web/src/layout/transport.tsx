@@ -1,7 +1,8 @@
 import { useState } from "preact/hooks";
-import { pause, putSpeed, reset, runFigure, start, step } from "../api/client";
+import { putSpeed, reset, runFigure, step } from "../api/client";
 import type { Figure, SessionState, Speed } from "../api/types";
 import { perform } from "../state/actions";
+import { toggleRun } from "../state/commands";
 import { text } from "../text/en";
 
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
@@ -92,7 +93,8 @@ export function Transport({ state }: { state: SessionState }) {
         type="button"
         class="button is-primary"
         disabled={state.status === "fault"}
-        onClick={() => void perform("session", isRunning ? pause : start)}
+        aria-keyshortcuts="Space"
+        onClick={() => void toggleRun(state)}
       >
         <svg viewBox="0 0 12 12" aria-hidden="true">
           <path d={isRunning ? "M2 1h3v10H2zM7 1h3v10H7z" : "M2 1l9 5-9 5z"} />

@@ -1,6 +1,6 @@
 /** The 3 kg load: which of the session's loads is it, and in which form it is hung next. */
 import { signal } from "@preact/signals";
-import type { Load, LoadRow, SessionState } from "../api/types";
+import type { BenchState, Load, LoadRow, SessionState } from "../api/types";
 
 export type WeightForm = "paper" | "mass";
 
@@ -9,6 +9,12 @@ export const weightForm = signal<WeightForm>("paper");
 
 export const weightOf = (form: WeightForm): Load =>
   form === "paper" ? { kind: "paper" } : { kind: "mass", mass_kg: 3, arm_m: 0.068 };
+
+/** What the next 3 kg are: on a real bench a mass, whatever was chosen for a simulation. */
+export const nextWeight = (bench: BenchState | null): Load =>
+  weightOf(isRealBench(bench) ? "mass" : weightForm.peek());
+
+export const isRealBench = (bench: BenchState | null): boolean => bench?.emulated === false;
 
 export const isWeight = ({ load }: LoadRow): boolean =>
   load.kind === "paper" || load.kind === "mass";

@@ -1,4 +1,4 @@
-/** What this browser remembers: the theme and how much of the past the plots show. */
+/** What this browser remembers: theme, span of the plots, keys, and who homes the bench. */
 import { effect, signal } from "@preact/signals";
 
 export const WINDOWS_S = [10, 20, 60] as const;
@@ -33,6 +33,19 @@ export const theme = signal<Theme>(firstTheme());
 export const windowS = signal<WindowS>(
   WINDOWS_S.find((seconds) => String(seconds) === remembered("svsa.window_s")) ?? 20,
 );
+/** Whether single keys command the page; Shift + Esc always does. */
+export const areKeysOn = signal(remembered("svsa.keys") !== "off");
+export const personName = signal(remembered("svsa.name") ?? "");
+
+export function chooseKeys(isOn: boolean): void {
+  areKeysOn.value = isOn;
+  remember("svsa.keys", isOn ? "on" : "off");
+}
+
+export function rememberPerson(name: string): void {
+  personName.value = name;
+  remember("svsa.name", name);
+}
 
 export function toggleTheme(): void {
   theme.value = theme.peek() === "dark" ? "light" : "dark";

@@ -1,0 +1,60 @@
+"""How a bench is told on the wire: its drives, its loop, and what may be done next."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.checked import Checked, quantity
+
+BenchStatusName = Literal["off", "reset", "config", "mode", "ready", "run", "ramp", "fault"]
+HomingStepName = Literal["link", "motor1", "motor2"]
+
+
+class HomingRequest(Checked):
+    """Confirms that one axis stands at its zero mark."""
+
+    step: HomingStepName = quantity("", "Axis at its mark: link, motor1 or motor2")
+    by: Annotated[str, Field(min_length=1, max_length=100)] = quantity("", "Who looked at the mark")
+
+
+class HomingState(BaseModel):
+    """The guided zero: what is done, and the next step in words; null when all is done."""
+
+    done: list[str]
+    next_step: str | None
+    instruction: str
+
+
+class LoopState(BaseModel):
+    """The loop's process: how punctual it is, since it started."""
+
+    alive: bool
+    rate_hz: float
+    ticks: int
+    skipped_ticks: int
+    lateness_p50_s: float
+    lateness_p99_s: float
+    lateness_p999_s: float
+    lateness_worst_s: float
+    cost_p99_s: float = Field(description="What a tick takes: read, observe, decide, write")
+    lateness_edges_s: list[float] = Field(description="Upper edges of the histogram's bins")
+    lateness_counts: list[int]
+    notes: list[str] = Field(description="What of real time the system allowed, and what not")
+
+
+class BenchState(BaseModel):
+    """A bench at this instant."""
+
+    name: str
+    emulated: bool = Field(description="An emulated rig stands in for the bench")
+    status: BenchStatusName
+    interface: str = Field(description="python-can's interface and channel")
+    calibrated_by: str | None
+    calibrated_on: str | None = Field(description="ISO 8601")
+    problems: list[str] = Field(description="Why it does not arm; empty if it may")
+    homing: HomingState
+    current_a: tuple[float, float]
+    ages_s: tuple[float, float, float] = Field(description="Of motor 1, motor 2, deflection")
+    supervised: bool = Field(description="The supervisor's heartbeat is fresh")
+    operator_required: bool = Field(description="Somebody must watch while it runs")
+    loop: LoopState

@@ -1,0 +1,59 @@
+"""A bench as it is told on the wire."""
+
+import numpy as np
+
+from svsa.hardware.homing import STEPS, get_instruction
+from svsa.runtime.realtime.memory import LATENESS_EDGES_S, read_quantile
+from svsa.runtime.realtime.session import BenchSession
+from svsa_server.bench_schemas import BenchState, HomingState, LoopState
+
+_BINS_A_WIRE_BIN = 5
+
+
+def build_bench_state(session: BenchSession) -> BenchState:
+    """The bench of a session at this instant."""
+    fields, bench, calibration = session.memory.fields, session.bench, session.calibration
+    return BenchState(
+        name=bench.name,
+        emulated=bool(fields["emulated"]),
+        status=session.bench_status.value,
+        interface=f"{bench.bus.interface}, {bench.bus.channel}",
+        calibrated_by=calibration.by if calibration else None,
+        calibrated_on=calibration.date if calibration else None,
+        problems=session.problems,
+        homing=_build_homing(session.homing_step),
+        current_a=tuple(fields["current_a"].tolist()),
+        ages_s=tuple(np.minimum(fields["ages_s"], 1e3).tolist()),
+        supervised=session.supervised,
+        operator_required=bench.safety.needs_watcher,
+        loop=_build_loop(session),
+    )
+
+
+def _build_homing(next_step: str | None) -> HomingState:
+    names = [step.name for step in STEPS]
+    done = names[: names.index(next_step)] if next_step else names
+    return HomingState(done=done, next_step=next_step, instruction=get_instruction(next_step))
+
+
+def _build_loop(session: BenchSession) -> LoopState:
+    fields = session.memory.fields
+    lateness = fields["lateness"].copy()
+    p50, p99, p999 = (read_quantile(lateness, share) for share in (0.5, 0.99, 0.999))
+    starts = np.arange(0, len(lateness), _BINS_A_WIRE_BIN)
+    ends = np.minimum(starts + _BINS_A_WIRE_BIN, len(lateness)) - 1
+    edges = np.minimum(LATENESS_EDGES_S[ends], 10.0)
+    return LoopState(
+        alive=session.processes.alive,
+        rate_hz=1.0 / session.bench.timing.period_s,
+        ticks=int(fields["ticks"]),
+        skipped_ticks=int(fields["skipped"]),
+        lateness_p50_s=p50,
+        lateness_p99_s=p99,
+        lateness_p999_s=p999,
+        lateness_worst_s=float(fields["worst_s"]),
+        cost_p99_s=read_quantile(fields["cost"].copy(), 0.99),
+        lateness_edges_s=edges.tolist(),
+        lateness_counts=np.add.reduceat(lateness, starts).tolist(),
+        notes=session.processes.notes,
+    )

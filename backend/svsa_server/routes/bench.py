@@ -1,0 +1,45 @@
+"""Arm a bench, home it, and clear its faults; a simulated session refuses."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body
+
+from svsa.errors import StateError
+from svsa.runtime.realtime.session import BenchSession
+from svsa.runtime.session import Session
+from svsa_server.bench_schemas import HomingRequest
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.schemas import SessionState
+from svsa_server.state import build_state
+
+router = APIRouter(prefix="/sessions/{session}/bench", tags=["bench"], responses=REFUSALS)
+
+
+@router.post("/arm")
+async def arm(session: NamedSession) -> SessionState:
+    """Reset the drives and bring them to current mode, in about a second: OFF → READY."""
+    _find_bench(session).arm()
+    return build_state(session)
+
+
+@router.post("/home")
+async def confirm_home(
+    session: NamedSession,
+    request: Annotated[HomingRequest, Body(examples=[{"step": "link", "by": "Ada"}])],
+) -> SessionState:
+    """Confirm that an axis stands at its zero mark; the state tells the next step."""
+    _find_bench(session).confirm_home(request.step, request.by)
+    return build_state(session)
+
+
+@router.post("/clear")
+async def clear_fault(session: NamedSession) -> SessionState:
+    """Clear a latched fault: FAULT → OFF; it must be armed again."""
+    _find_bench(session).clear()
+    return build_state(session)
+
+
+def _find_bench(session: Session) -> BenchSession:
+    if not isinstance(session, BenchSession):
+        raise StateError(f"Session {session.name} is simulated: there is nothing to arm.")
+    return session

@@ -1,0 +1,42 @@
+import { armBench, clearBench, pause, start } from "../api/client";
+import type { BenchState, SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { isLive } from "../state/session";
+import { text } from "../text/en";
+import { type Allowed, allowedOn } from "./status";
+
+interface Action {
+  name: Exclude<keyof Allowed, "home">;
+  label: string;
+  hint: string;
+  send: () => Promise<SessionState>;
+}
+
+const ACTIONS: readonly Action[] = [
+  { name: "arm", label: text.bench.arm, hint: text.bench.armHint, send: armBench },
+  { name: "run", label: text.bench.run, hint: text.bench.runHint, send: start },
+  { name: "stop", label: text.bench.stop, hint: text.bench.stopHint, send: pause },
+  { name: "clear", label: text.bench.clear, hint: text.bench.clearHint, send: clearBench },
+];
+
+/** What moves the bench from one state to the next; the next step stands out. */
+export function BenchButtons({ bench }: { bench: BenchState }) {
+  const allowed = allowedOn(bench);
+  return (
+    <fieldset class="bench-buttons" disabled={!isLive.value} aria-label={text.bench.heading}>
+      {ACTIONS.map(({ name, label, hint, send }) => (
+        <button
+          key={name}
+          type="button"
+          class={`button ${allowed[name] ? "is-primary" : ""}`}
+          disabled={!allowed[name]}
+          title={hint}
+          aria-keyshortcuts={name === "stop" ? "Space" : undefined}
+          onClick={() => void perform("bench", send)}
+        >
+          {label}
+        </button>
+      ))}
+    </fieldset>
+  );
+}

@@ -1,0 +1,100 @@
+import type { LoopState } from "../api/types";
+import { text } from "../text/en";
+import { formatLapse } from "../units";
+import { barsOf, decadesIn } from "./lateness";
+
+const { loop: words } = text.bench;
+const WIDTH = 240;
+const HEIGHT = 64;
+const count = (value: number) => value.toLocaleString("en");
+
+/** How late the ticks were, a bar a bin, on a logarithmic axis of counts. */
+function Lateness({ loop }: { loop: LoopState }) {
+  const { lateness_edges_s: edges, lateness_counts: counts } = loop;
+  const bars = barsOf(edges, counts);
+  const step = WIDTH / Math.max(1, bars.length);
+  const decades = decadesIn(counts);
+  const lines = Array.from({ length: Math.floor(decades) }, (_, power) => (power + 0.3) / decades);
+  const label = words.histogram(
+    formatLapse(loop.lateness_p50_s),
+    formatLapse(loop.lateness_p99_s),
+    formatLapse(loop.lateness_worst_s),
+  );
+  const shownEvery = Math.ceil(edges.length / 5);
+  return (
+    <figure class="lateness">
+      <svg viewBox={`0 0 ${WIDTH} ${HEIGHT + 14}`} role="img" aria-label={label}>
+        {lines.map((line) => (
+          <path key={line} class="lateness-line" d={`M0 ${HEIGHT * (1 - line)}h${WIDTH}`} />
+        ))}
+        {bars.map(({ edgeS, count: ticks, height }, index) => (
+          <rect
+            key={edgeS ?? "above"}
+            x={index * step + 1}
+            y={HEIGHT * (1 - height)}
+            width={Math.max(1, step - 2)}
+            height={HEIGHT * height}
+          >
+            <title>
+              {edgeS === null
+                ? words.above(count(ticks))
+                : words.upTo(formatLapse(edgeS), count(ticks))}
+            </title>
+          </rect>
+        ))}
+        <path class="lateness-ground" d={`M0 ${HEIGHT}h${WIDTH}`} />
+        {edges.map(
+          (edge, index) =>
+            index % shownEvery === shownEvery - 1 && (
+              <text key={edge} x={(index + 1) * step} y={HEIGHT + 11} text-anchor="middle">
+                {formatLapse(edge)}
+              </text>
+            ),
+        )}
+      </svg>
+      <figcaption class="hint">{words.counts}</figcaption>
+    </figure>
+  );
+}
+
+/** How punctual the loop's process is, and what the system gave it. */
+export function Loop({ loop }: { loop: LoopState }) {
+  const { quantiles } = words;
+  const rows = [
+    [quantiles.half, formatLapse(loop.lateness_p50_s)],
+    [quantiles.most, formatLapse(loop.lateness_p99_s)],
+    [quantiles.nearlyAll, formatLapse(loop.lateness_p999_s)],
+    [quantiles.worst, formatLapse(loop.lateness_worst_s)],
+    [words.cost, formatLapse(loop.cost_p99_s)],
+    [words.skipped, words.of(count(loop.skipped_ticks), count(loop.ticks))],
+  ] as const;
+  return (
+    <section class="bench-card is-loop" aria-label={words.heading}>
+      <h2>
+        {words.heading}{" "}
+        <small class={loop.alive ? "is-good" : "is-bad"}>
+          <span aria-hidden="true">{loop.alive ? "✓" : "▲"}</span>{" "}
+          {loop.alive ? words.alive : words.dead}, {text.status.rate(loop.rate_hz)}
+        </small>
+      </h2>
+      <div class="loop-columns">
+        <Lateness loop={loop} />
+        <dl aria-label={words.lateness}>
+          {rows.map(([name, value]) => (
+            <div key={name}>
+              <dt>{name}</dt>
+              <dd>{value}</dd>
+            </div>
+          ))}
+        </dl>
+      </div>
+      {loop.notes.length > 0 && (
+        <ul class="notes" aria-label={words.notes}>
+          {loop.notes.map((note) => (
+            <li key={note}>{note}</li>
+          ))}
+        </ul>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,73 @@
+/** Where a bench is, what may be done there, and what comes next. */
+import type { BenchState, BenchStatus, SessionState } from "../api/types";
+
+export const STAGES = ["off", "reset", "config", "mode", "ready", "run"] as const;
+export type Stage = (typeof STAGES)[number];
+export type Place = "done" | "here" | "ahead";
+
+/** A ramp is the end of a run; a fault is nowhere on the way. */
+export function placeOf(stage: Stage, status: BenchStatus): Place {
+  if (status === "fault") return "ahead";
+  const here = STAGES.indexOf(status === "ramp" ? "run" : status);
+  const index = STAGES.indexOf(stage);
+  if (index === here) return "here";
+  return index < here ? "done" : "ahead";
+}
+
+export const isHomed = (bench: BenchState): boolean => bench.homing.next_step === null;
+
+export interface Allowed {
+  arm: boolean;
+  run: boolean;
+  stop: boolean;
+  clear: boolean;
+  home: boolean;
+}
+
+/** What the server will take; it has the last word. */
+export function allowedOn(bench: BenchState): Allowed {
+  const { status } = bench;
+  return {
+    arm: status === "off" && bench.problems.length === 0,
+    run: status === "ready" && isHomed(bench),
+    stop: status === "run",
+    clear: status === "fault",
+    home: !isHomed(bench) && (status === "off" || status === "ready"),
+  };
+}
+
+export type Advice = "problems" | "arm" | "wait" | "home" | "run" | "running" | "ramping" | "clear";
+
+/** The next thing to do. */
+export function adviceFor(bench: BenchState): Advice {
+  switch (bench.status) {
+    case "off":
+      return bench.problems.length > 0 ? "problems" : "arm";
+    case "ready":
+      return isHomed(bench) ? "run" : "home";
+    case "run":
+      return "running";
+    case "ramp":
+      return "ramping";
+    case "fault":
+      return "clear";
+    default:
+      return "wait";
+  }
+}
+
+/** Whether the details have something to be read or done before it runs. */
+export function needsDetails(bench: BenchState): boolean {
+  const isStanding = bench.status === "off" || bench.status === "ready";
+  return isStanding && (bench.problems.length > 0 || !isHomed(bench));
+}
+
+/** Whether a simulation stands where an emergency stop left it. */
+export function isStoppedSimulation({ bench, status, tick, events }: SessionState): boolean {
+  const isStop = (event: { kind: string; tick: number }) =>
+    event.kind === "emergency_stop" && event.tick === tick;
+  return bench === null && status === "paused" && events.some(isStop);
+}
+
+export const isEmergencyStop = ({ fault }: SessionState): boolean =>
+  fault?.code === "emergency_stop";

@@ -1,0 +1,70 @@
+import { useId, useState } from "preact/hooks";
+import type { BenchState } from "../api/types";
+import { Problem } from "../controls/problem";
+import { mark } from "../state/bench";
+import { text } from "../text/en";
+import { BenchButtons } from "./buttons";
+import { BenchDetails } from "./details";
+import { adviceFor, needsDetails, placeOf, STAGES } from "./status";
+
+/** OFF → RUN as one line; the place is told by sign and word, not by colour alone. */
+function Progress({ status }: { status: BenchState["status"] }) {
+  return (
+    <ol class={`stages is-${status}`} aria-label={text.bench.stages}>
+      {STAGES.map((stage) => {
+        const place = placeOf(stage, status);
+        return (
+          <li
+            key={stage}
+            class={`is-${place}`}
+            aria-current={place === "here" ? "step" : undefined}
+          >
+            <span class="stage-sign" aria-hidden="true" />
+            {text.bench.stage[stage]}
+            {place === "done" && <span class="visually-hidden"> {text.bench.done}</span>}
+          </li>
+        );
+      })}
+    </ol>
+  );
+}
+
+/** The band below the header of a bench: what it is, where it is, and what may be done next. */
+export function BenchStrip({ bench }: { bench: BenchState }) {
+  const id = useId();
+  const isNeeded = needsDetails(bench);
+  const [chosen, choose] = useState<{ isNeeded: boolean; isOpen: boolean } | null>(null);
+  const isOpen = chosen?.isNeeded === isNeeded ? chosen.isOpen : isNeeded;
+  const kind = mark.value ?? "real";
+  return (
+    <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
+      <div class="bench-strip">
+        <p class="bench-mark" title={`${bench.name}, ${bench.interface}`}>
+          <strong>{text.mark[kind].name}</strong>
+          <small>{text.mark[kind].means}</small>
+        </p>
+        <Progress status={bench.status} />
+        <p class="bench-advice" role="status">
+          <strong>{text.bench.status[bench.status]}</strong>
+          <span>{text.bench.advice[adviceFor(bench)]}</span>
+          {bench.operator_required && <span> {text.bench.watch}</span>}
+        </p>
+        <BenchButtons bench={bench} />
+        <button
+          type="button"
+          class="button details-button"
+          aria-expanded={isOpen}
+          aria-controls={id}
+          onClick={() => choose({ isNeeded, isOpen: !isOpen })}
+        >
+          {text.bench.details}
+          <span aria-hidden="true">{isOpen ? "▴" : "▾"}</span>
+        </button>
+      </div>
+      <Problem control="bench" />
+      <div id={id} hidden={!isOpen}>
+        {isOpen && <BenchDetails bench={bench} />}
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,100 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useId, useRef } from "preact/hooks";
+import { bench } from "../state/bench";
+import { areKeysOn, chooseKeys } from "../state/preferences";
+import { text } from "../text/en";
+import { isHelpOpen } from "./keys";
+
+const { keys } = text;
+const { names } = keys;
+
+interface RowProps {
+  press: readonly string[];
+  children: ComponentChildren;
+}
+
+function Row({ press, children }: RowProps) {
+  return (
+    <div>
+      <dt>
+        {press.map((name) => (
+          <kbd key={name}>{name}</kbd>
+        ))}
+      </dt>
+      <dd>{children}</dd>
+    </div>
+  );
+}
+
+/** Every key of the page. It leaves the page in reach, and gives the focus back when it closes. */
+function Sheet() {
+  const id = useId();
+  const sheet = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    const before = document.activeElement as HTMLElement | null;
+    sheet.current?.show();
+    return () => before?.focus();
+  }, []);
+  return (
+    <dialog ref={sheet} class="help" aria-labelledby={id}>
+      <div class="help-head">
+        <h2 id={id}>{keys.title}</h2>
+        <button
+          type="button"
+          class="button"
+          onClick={() => {
+            isHelpOpen.value = false;
+          }}
+        >
+          {keys.close}
+        </button>
+      </div>
+      <dl>
+        <Row press={[names.shift, names.escape]}>
+          <strong>{keys.does.stop}</strong>
+        </Row>
+        <Row press={[names.space]}>{bench.value === null ? keys.does.run : keys.benchRun}</Row>
+        <Row press={["R"]}>{keys.does.record}</Row>
+        <Row press={["L"]}>{keys.does.load}</Row>
+        <Row press={["C"]}>{keys.does.compare}</Row>
+        <Row press={["?"]}>{keys.does.help}</Row>
+        <Row press={[names.escape]}>{keys.does.close}</Row>
+      </dl>
+      <label class="help-switch">
+        <input
+          type="checkbox"
+          checked={areKeysOn.value}
+          aria-describedby={`${id}-hint`}
+          onChange={(event) => chooseKeys(event.currentTarget.checked)}
+        />
+        {keys.switch}
+      </label>
+      <p class="hint" id={`${id}-hint`}>
+        {keys.switchHint}
+      </p>
+    </dialog>
+  );
+}
+
+export function HelpSheet() {
+  return isHelpOpen.value ? <Sheet /> : null;
+}
+
+export function HelpButton() {
+  return (
+    <button
+      type="button"
+      class="button is-icon"
+      aria-label={keys.open}
+      aria-haspopup="dialog"
+      aria-expanded={isHelpOpen.value}
+      aria-keyshortcuts="?"
+      title={keys.open}
+      onClick={() => {
+        isHelpOpen.value = !isHelpOpen.peek();
+      }}
+    >
+      <strong aria-hidden="true">?</strong>
+    </button>
+  );
+}

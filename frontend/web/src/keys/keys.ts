@@ -1,0 +1,60 @@
+/** The keyboard of the page: what a key does now. */
+import { signal } from "@preact/signals";
+import { pause } from "../api/client";
+import type { SessionState } from "../api/types";
+import { pressStop } from "../safety/stop";
+import { perform } from "../state/actions";
+import {
+  CONTROL,
+  toggleCompare,
+  toggleRecording,
+  toggleRun,
+  toggleWeight,
+} from "../state/commands";
+import { areKeysOn } from "../state/preferences";
+import { isLive, session } from "../state/session";
+import { type Command, findCommand, focusOf } from "./shortcuts";
+
+export const isHelpOpen = signal(false);
+
+type SessionCommand = Exclude<Command, "stop" | "help" | "close">;
+
+/** No key starts a motor: on a bench Space only stops. */
+function answerRun(state: SessionState): Promise<boolean> | undefined {
+  if (state.bench === null) return state.status === "fault" ? undefined : toggleRun(state);
+  return state.bench.status === "run" ? perform(CONTROL.session, pause) : undefined;
+}
+
+const answers: Record<SessionCommand, (state: SessionState) => Promise<boolean> | undefined> = {
+  run: answerRun,
+  record: toggleRecording,
+  load: (state) => (state.status === "fault" ? undefined : toggleWeight(state)),
+  compare: (state) => (state.recording === null ? toggleCompare(state) : undefined),
+};
+
+/** A key pressed again before its first press was answered does nothing. */
+const underWay = new Set<SessionCommand>();
+
+async function answerSession(command: SessionCommand): Promise<void> {
+  const state = session.peek();
+  if (state === null || !isLive.peek() || underWay.has(command)) return;
+  underWay.add(command);
+  await answers[command](state);
+  underWay.delete(command);
+}
+
+/** Answers a key; also given to the document inside the 3D view. */
+export function answerKey(event: KeyboardEvent): void {
+  const command = findCommand(event, focusOf(event.target), areKeysOn.peek());
+  if (command === null || (command === "close" && !isHelpOpen.peek())) return;
+  event.preventDefault();
+  event.stopPropagation();
+  if (command === "stop") void pressStop();
+  else if (command === "help") isHelpOpen.value = !isHelpOpen.peek();
+  else if (command === "close") isHelpOpen.value = false;
+  else void answerSession(command);
+}
+
+export function listenToKeys(): void {
+  window.addEventListener("keydown", answerKey, true);
+}

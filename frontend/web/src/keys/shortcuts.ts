@@ -1,0 +1,42 @@
+/** Which key means what, and where. */
+
+export type Command = "stop" | "run" | "record" | "load" | "compare" | "help" | "close";
+
+/** What has the focus: a place to write, a control that needs Space itself, or neither. */
+export type Focus = "writing" | "control" | "free";
+
+export type KeyPress = Pick<
+  KeyboardEvent,
+  "key" | "shiftKey" | "ctrlKey" | "metaKey" | "altKey" | "repeat"
+>;
+
+const COMMANDS: Readonly<Record<string, Command>> = {
+  " ": "run",
+  r: "record",
+  l: "load",
+  c: "compare",
+  "?": "help",
+};
+
+/** The command of a key, or null where the key belongs to something else. */
+export function findCommand(press: KeyPress, focus: Focus, areKeysOn: boolean): Command | null {
+  if (press.repeat) return null;
+  if (press.key === "Escape" && press.shiftKey) return "stop";
+  if (press.ctrlKey || press.metaKey || press.altKey || focus === "writing") return null;
+  if (press.key === "Escape") return "close";
+  if (!areKeysOn) return null;
+  if (press.key === " " && (press.shiftKey || focus === "control")) return null;
+  return COMMANDS[press.key.toLowerCase()] ?? null;
+}
+
+const WRITING =
+  "textarea, select, [contenteditable], input:not([type=range], [type=radio], [type=checkbox])";
+/** A button that was reached by key; one that was clicked gives the space bar back. */
+const CONTROL = ":is(button, summary, a, input):focus-visible";
+
+export function focusOf(target: EventTarget | null): Focus {
+  const element = target as Element | null;
+  if (typeof element?.closest !== "function") return "free";
+  if (element.closest(WRITING)) return "writing";
+  return element.matches(CONTROL) ? "control" : "free";
+}

@@ -1,0 +1,122 @@
+import type { ComponentChildren } from "preact";
+import type { BenchState, SessionState } from "../api/types";
+import { StopButton } from "../safety/stopbutton";
+import { isLive, missedSamples, phase, session } from "../state/session";
+import { text } from "../text/en";
+import { formatLapse, formatNumber, formatSeconds } from "../units";
+import { Clock } from "./clock";
+import { CornerMark } from "./marks";
+
+const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
+const PHASE_SIGNS = { live: "●", connecting: "◌", lost: "○", locked: "○" } as const;
+
+function SessionPill({ state: { status, bench } }: { state: SessionState }) {
+  const isStandingBench = bench !== null && status === "paused";
+  return (
+    <span class={`pill is-${status}`}>
+      <span aria-hidden="true">{isStandingBench ? "○" : STATUS_SIGNS[status]}</span>{" "}
+      {bench === null ? text.status[status] : text.bench.status[bench.status]}
+    </span>
+  );
+}
+
+interface CellProps {
+  name: string;
+  hint?: string;
+  class?: string;
+  children: ComponentChildren;
+}
+
+function Cell({ name, hint, children, ...rest }: CellProps) {
+  return (
+    <div class={`status-cell ${rest.class ?? ""}`} title={hint}>
+      <dt>{name}</dt>
+      <dd>{children}</dd>
+    </div>
+  );
+}
+
+function SimulatedLoop({ state }: { state: SessionState }) {
+  const { status, rate_hz: rateHz, real_time_factor: factor, stretched_s: stretched } = state;
+  const pace =
+    status === "running" ? text.status.realTime(formatNumber(factor, 3, 2)) : text.status.standing;
+  return (
+    <Cell
+      name={text.status.loop}
+      class="is-loop"
+      hint={text.status.rateHint(formatLapse(stretched))}
+    >
+      {text.status.rate(rateHz)} <small>{pace}</small>
+    </Cell>
+  );
+}
+
+function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
+  if (!loop.alive) {
+    return (
+      <Cell name={text.status.loop} class="is-loop is-bad">
+        <span aria-hidden="true">▲</span> {text.status.dead}
+      </Cell>
+    );
+  }
+  const late = text.status.late(formatLapse(loop.lateness_p50_s), formatLapse(loop.lateness_p99_s));
+  return (
+    <Cell name={text.status.loop} class="is-loop" hint={text.status.lateHint}>
+      {text.status.rate(loop.rate_hz)}{" "}
+      <small>
+        {late} · {text.status.skipped(loop.skipped_ticks)}
+      </small>
+    </Cell>
+  );
+}
+
+function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: SessionState }) {
+  const isOn = recording?.state === "recording";
+  return (
+    <Cell name={text.status.recording} class={isOn ? "is-recording" : ""}>
+      {isOn && (
+        <span class="recording-sign" aria-hidden="true">
+          ●
+        </span>
+      )}{" "}
+      {isOn ? formatSeconds(recording.ticks / rateHz) : text.status.notRecording}
+    </Cell>
+  );
+}
+
+function Connection() {
+  const missed = missedSamples.value;
+  return (
+    <Cell name={text.status.connection} class={isLive.value ? "is-good" : "is-bad"}>
+      <span role="status">
+        <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {text.connection[phase.value]}
+      </span>
+      {missed > 0 && (
+        <small class="missed" title={text.connection.missedHint}>
+          {text.connection.missed(missed)}
+        </small>
+      )}
+    </Cell>
+  );
+}
+
+/** Always at the bottom of the window: where the session is, and the emergency stop. */
+export function StatusBar() {
+  const state = session.value;
+  return (
+    <section class="statusbar" aria-label={text.status.heading}>
+      <div class="status-now">
+        <CornerMark />
+        {state && <SessionPill state={state} />}
+        {state && <Clock />}
+      </div>
+      <dl class="status-cells">
+        {state &&
+          (state.bench ? <BenchLoop bench={state.bench} /> : <SimulatedLoop state={state} />)}
+        {state && <RecordingCell state={state} />}
+        <Connection />
+      </dl>
+      <StopButton />
+    </section>
+  );
+}

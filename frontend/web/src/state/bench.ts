@@ -1,0 +1,13 @@
+/** The bench of the session, and what stands for it on every screen. */
+import { computed } from "@preact/signals";
+import { session } from "./session";
+
+export const bench = computed(() => session.value?.bench ?? null);
+
+export type Mark = "emulated" | "real";
+
+/** Null for a simulation, which needs no mark. */
+export const mark = computed<Mark | null>(() => {
+  if (bench.value === null) return null;
+  return bench.value.emulated ? "emulated" : "real";
+});

@@ -1,0 +1,50 @@
+/** What a button does and a key does too. */
+import {
+  addLoad,
+  pause,
+  putLanes,
+  readState,
+  removeLoad,
+  start,
+  startRecording,
+  stopRecording,
+} from "../api/client";
+import type { SessionState } from "../api/types";
+import { text } from "../text/en";
+import { perform } from "./actions";
+import { laneNames, otherLaw } from "./lanes";
+import { hungWeights, nextWeight } from "./load";
+
+/** Names of the controls that show why a command was refused. */
+export const CONTROL = {
+  session: "session",
+  load: "load.weight",
+  compare: "controller.compare",
+} as const;
+
+export function toggleRun(state: SessionState): Promise<boolean> {
+  return perform(CONTROL.session, state.status === "running" ? pause : start);
+}
+
+export function toggleRecording({ recording }: SessionState): Promise<boolean> {
+  const begin = () => startRecording(text.compare.versus(laneNames.peek()));
+  return perform(CONTROL.session, recording === null ? begin : stopRecording);
+}
+
+export function toggleCompare({ configuration: { law, rivals } }: SessionState): Promise<boolean> {
+  const laws = rivals.length > 0 ? [] : [otherLaw(law)];
+  return perform(CONTROL.compare, () => putLanes(laws));
+}
+
+async function removeWeights(state: SessionState): Promise<SessionState> {
+  for (const row of hungWeights(state)) await removeLoad(row.id);
+  return readState();
+}
+
+/** Hangs 3 kg or takes them off; on a real bench it marks that somebody did. */
+export function toggleWeight(state: SessionState): Promise<boolean> {
+  const isHung = hungWeights(state).length > 0;
+  return perform(CONTROL.load, () =>
+    isHung ? removeWeights(state) : addLoad(nextWeight(state.bench)),
+  );
+}

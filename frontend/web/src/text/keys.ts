@@ -1,0 +1,21 @@
+/** The keyboard and its help sheet. */
+export const keysText = {
+  keys: {
+    open: "Keyboard shortcuts",
+    title: "Keyboard",
+    close: "Close",
+    names: { space: "Space", escape: "Esc", shift: "Shift" },
+    does: {
+      stop: "Emergency stop: from anywhere, in a text field too",
+      run: "Run or pause",
+      record: "Begin or end a recording",
+      load: "Hang or remove 3 kg",
+      compare: "Switch the comparison on or off",
+      help: "Show or hide this sheet",
+      close: "Close this sheet",
+    },
+    benchRun: "Stop on a ramp; on a bench no key starts a motor",
+    switch: "Single keys command the page",
+    switchHint: "Shift + Esc does in any case. Keys typed into a field never do.",
+  },
+} as const;

@@ -1,0 +1,89 @@
+import { describe, expect, it } from "vitest";
+import type { BenchState, SessionState } from "../src/api/types";
+import { barsOf, freshnessOf } from "../src/bench/lateness";
+import {
+  adviceFor,
+  allowedOn,
+  isStoppedSimulation,
+  needsDetails,
+  placeOf,
+  STAGES,
+} from "../src/bench/status";
+
+const HOMED = { done: ["link", "motor1", "motor2"], next_step: null, instruction: "" };
+const UNHOMED = { done: [], next_step: "link", instruction: "Turn the link to its mark." };
+
+const bench = (change: object) =>
+  ({ status: "off", problems: [], homing: HOMED, ...change }) as unknown as BenchState;
+const allowed = (change: object) =>
+  Object.entries(allowedOn(bench(change)))
+    .filter(([, isAllowed]) => isAllowed)
+    .map(([name]) => name);
+
+describe("the states of a bench", () => {
+  it("lie on one line, and a ramp is still on its last place", () => {
+    const places = (status: BenchState["status"]) => STAGES.map((stage) => placeOf(stage, status));
+    expect(places("config")).toEqual(["done", "done", "here", "ahead", "ahead", "ahead"]);
+    expect(places("ramp")).toEqual(places("run"));
+    expect(new Set(places("fault"))).toEqual(new Set(["ahead"]));
+  });
+
+  it("allow what the server takes, and nothing while the drives come up", () => {
+    expect(allowed({})).toEqual(["arm"]);
+    expect(allowed({ problems: ["No calibration."] })).toEqual([]);
+    expect(allowed({ status: "mode" })).toEqual([]);
+    expect(allowed({ status: "ready" })).toEqual(["run"]);
+    expect(allowed({ status: "ready", homing: UNHOMED })).toEqual(["home"]);
+    expect(allowed({ status: "run" })).toEqual(["stop"]);
+    expect(allowed({ status: "ramp" })).toEqual([]);
+    expect(allowed({ status: "fault", homing: UNHOMED })).toEqual(["clear"]);
+  });
+
+  it("tell what to do next", () => {
+    expect(adviceFor(bench({ problems: ["No calibration."] }))).toBe("problems");
+    expect(adviceFor(bench({ status: "ready", homing: UNHOMED }))).toBe("home");
+    expect(adviceFor(bench({ status: "reset" }))).toBe("wait");
+    expect(adviceFor(bench({ status: "fault" }))).toBe("clear");
+    expect(needsDetails(bench({ status: "ready", homing: UNHOMED }))).toBe(true);
+    expect(needsDetails(bench({ status: "run", homing: UNHOMED }))).toBe(false);
+  });
+});
+
+describe("an emergency stop of a simulation", () => {
+  const state = (change: object) =>
+    ({
+      bench: null,
+      status: "paused",
+      tick: 700,
+      events: [{ tick: 700, kind: "emergency_stop" }],
+      ...change,
+    }) as unknown as SessionState;
+
+  it("is told until it goes on", () => {
+    expect(isStoppedSimulation(state({}))).toBe(true);
+    expect(isStoppedSimulation(state({ status: "running" }))).toBe(false);
+    expect(isStoppedSimulation(state({ tick: 710 }))).toBe(false);
+    expect(isStoppedSimulation(state({ events: [] }))).toBe(false);
+  });
+});
+
+describe("lateness", () => {
+  it("shows one late tick beside a million punctual ones", () => {
+    const bars = barsOf([1e-5, 1e-4], [1_000_000, 1, 0]);
+    expect(bars.map((bar) => bar.edgeS)).toEqual([1e-5, 1e-4, null]);
+    expect(bars[0]?.height).toBe(1);
+    expect(bars[1]?.height).toBeGreaterThan(0.04);
+    expect(bars[2]?.height).toBe(0);
+  });
+
+  it("calls a reading stale above 5 ms and lost above 20 ms", () => {
+    expect([0.001, 0.005, 0.006, 0.02, 0.021, Number.NaN].map(freshnessOf)).toEqual([
+      "fresh",
+      "fresh",
+      "stale",
+      "stale",
+      "lost",
+      "lost",
+    ]);
+  });
+});

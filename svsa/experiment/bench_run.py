@@ -1,0 +1,136 @@
+"""A figure of the paper on the emulated rig: through CAN, in lockstep, faster than real time.
+
+The same loop, plant and limits as on a bench; time goes on when the loop asks for it, so that
+a run gives the same samples every time.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from svsa.errors import FaultError, StateError
+from svsa.experiment.paper import LOAD_TIME_S, Figure
+from svsa.experiment.simulate import Result
+from svsa.hardware.bench import BenchFile, read_bench
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.can_plant import CanPlant
+from svsa.hardware.clock import LockstepClock
+from svsa.hardware.machine import BenchStatus
+from svsa.rig.launch import RunningRig, start_rig
+from svsa.runtime.configuration import Law
+from svsa.runtime.realtime.configuration import build_bench_configuration, build_guard
+from svsa.runtime.realtime.loop import BenchLoop
+from svsa.signals import CHANNELS
+
+RIG_BENCH = Path(__file__).parent.parent / "rig" / "bench.toml"
+ARMING_S = 5.0
+SETTLING_S = 0.2
+
+
+class SampleArray:
+    """Samples kept in memory, all of one run."""
+
+    def __init__(self, ticks: int) -> None:
+        self.samples = np.empty((ticks, len(CHANNELS)))
+        self.done = 0
+
+    def begin_run(self, number: int) -> None:
+        """Begin again at tick 0."""
+        self.done = 0
+
+    def get_row(self, tick: int) -> np.ndarray:
+        """The row of this tick; beyond the end, one that is thrown away."""
+        return self.samples[tick] if tick < len(self.samples) else np.empty(len(CHANNELS))
+
+    def commit(self, tick: int) -> None:
+        """The row of this tick is written."""
+        self.done = min(tick + 1, len(self.samples))
+
+
+class LockstepBench:
+    """The emulated rig behind the bench's own loop, a tick at a time. A context manager."""
+
+    def __init__(self, rig: RunningRig, figure: Figure, law: Law, ticks: int) -> None:
+        self.rig = rig
+        self.bench = connect_bench(rig)
+        self.sink = SampleArray(ticks)
+        self._clock = LockstepClock()
+        calibration, guard = find_calibration(self.bench), build_guard(self.bench)
+        self.plant = CanPlant(self.bench, calibration, self._clock, guard)
+        self.plant.open()
+        wanted = figure.build_configuration(law)
+        self.configuration = build_bench_configuration(self.bench, wanted)
+        self.loop = BenchLoop(self.plant, self.bench, self.configuration, self.sink)
+        self._deadline = self.now()
+
+    def now(self) -> float:
+        """The rig's time, s."""
+        return self._clock.now()
+
+    def tick(self, count: int = 1) -> None:
+        """So many periods."""
+        for _ in range(count):
+            self._deadline += self.bench.timing.period_s
+            self._clock.wait_until(self._deadline)
+            self.loop.tick(self.now())
+
+    def tick_until(self, status: BenchStatus, longest_s: float = ARMING_S) -> None:
+        """Periods until the bench has this status; raises `FaultError` or `StateError`."""
+        end = self.now() + longest_s
+        while self.plant.status is not status:
+            if self.plant.fault is not None:
+                raise FaultError(self.plant.fault)
+            if self.now() > end:
+                raise StateError(f"The bench is {self.plant.status} after {longest_s:g} s.")
+            self.tick()
+
+    def prepare(self) -> None:
+        """Arm, and confirm the zero marks at which the rig stands."""
+        self.plant.arm(self.now())
+        self.tick_until(BenchStatus.READY)
+        while (step := self.plant.homing_step) is not None:
+            self.plant.confirm_home(step, "lockstep")
+        self.tick(round(SETTLING_S / self.bench.timing.period_s))
+
+    def start(self) -> None:
+        """Begin the run at tick 0."""
+        self.loop.start(self.now())
+
+    def close(self) -> None:
+        """Leave the drives at zero current."""
+        self.plant.close()
+
+
+def connect_bench(rig: RunningRig) -> BenchFile:
+    """The rig's bench file, with the ports of this rig."""
+    bench = read_bench(RIG_BENCH)
+    options = {**bench.bus.options, "port": rig.port}
+    return bench.changed(bus=bench.bus.changed(options=options))
+
+
+def run_on_rig(
+    figure: Figure, law: Law, duration_s: float, progress: Callable[[float], None]
+) -> Result:
+    """Run a figure with its load on the emulated rig; progress: told the share done.
+
+    Raises `FaultError` where the run ends in a fault.
+    """
+    with start_rig(lockstep=True) as rig:
+        bench = LockstepBench(rig, figure, law, round(duration_s / 0.001))
+        try:
+            bench.prepare()
+            bench.start()
+            onset = bench.now() + LOAD_TIME_S
+            rig.control.load(figure.hung.changed(start_s=None), at_s=onset)
+            ticks = len(bench.sink.samples)
+            for tick in range(ticks):
+                bench.tick()
+                if bench.plant.fault is not None:
+                    raise FaultError(bench.plant.fault)
+                if tick % 100 == 0:
+                    progress(tick / ticks)
+            progress(1.0)
+        finally:
+            bench.close()
+    return Result(bench.configuration, bench.sink.samples[: bench.sink.done], law=law)

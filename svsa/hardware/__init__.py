@@ -1,0 +1,1 @@
+"""The bench: drives on CAN, encoders, states, limits."""

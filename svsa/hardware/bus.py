@@ -1,0 +1,41 @@
+"""The CAN bus of a bench, opened through python-can in a bounded time."""
+
+import logging
+import socket
+
+import can
+
+from svsa.errors import SvsaError
+from svsa.hardware.bench import BusSettings
+
+_ANSWER_S = 5.0
+
+
+class BusError(SvsaError):
+    """A bus that cannot be opened or used; the message says what to look at."""
+
+
+def open_bus(settings: BusSettings) -> can.BusABC:
+    """The bus that a bench file names; raises `BusError` with the reason.
+
+    Adapters behind a socket get a timeout: one that accepts the call and then says nothing
+    would be waited for without end.
+    """
+    logging.getLogger("can").setLevel(logging.ERROR)
+    before = socket.getdefaulttimeout()
+    socket.setdefaulttimeout(_ANSWER_S)
+    try:
+        return can.Bus(
+            interface=settings.interface,
+            channel=settings.channel,
+            bitrate=settings.bitrate,
+            **settings.options,
+        )
+    except (can.CanError, OSError, ValueError, TypeError, ImportError) as error:
+        raise BusError(
+            f"The CAN bus {settings.interface} {settings.channel} cannot be opened: {error}. Check"
+            " that the adapter is plugged in, its driver is there, the channel's name, and that no"
+            " other program holds it."
+        ) from None
+    finally:
+        socket.setdefaulttimeout(before)

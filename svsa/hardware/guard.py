@@ -1,0 +1,144 @@
+"""The limits of one tick on a bench: what of a torque may be sent, and what ends the run."""
+
+import math
+
+from svsa.hardware.bench import BenchFile, MotorSettings
+from svsa.hardware.conversion import build_motor_scale
+from svsa.hardware.faults import Alarm
+from svsa.model.domain import FAULT_CODES, INSIDE, Domain, check_domain
+from svsa.model.dynamics import Actuator
+from svsa.signals import Disturbance, State, Torque
+
+POSITION_MARGIN_RAD = 0.2
+WARM = 0.9
+OVERLOAD = 1.05
+
+
+class MotorGuard:
+    """The limits of one motor. heat: I²t over what the winding bears, 1 is all of it.
+
+    Heat follows (I/I_nominal)² through the winding's time constant, with the current that was
+    asked for or, where it is greater, the one that the drive says it makes. From 0.9 to 1
+    the current allowed falls from the peak to the nominal one, at which heat stays at 1. A drive
+    that makes more all the same brings it above 1.05, which ends the run. last: sent, N·m.
+    """
+
+    def __init__(self, name: str, motor: MotorSettings, torque_max: float, rate: float) -> None:
+        scale = abs(build_motor_scale(motor).torque_per_ma) * 1000.0
+        self._name, self._motor = name, motor
+        self._most, self._peak = torque_max, motor.peak_current_a * scale
+        self._nominal = motor.nominal_current_a * scale
+        self._scale, self._rate = scale, rate
+        self.heat = 0.0
+        self.last = 0.0
+
+    def warm(self, current_a: float, period: float) -> None:
+        """Heat after a period (s) with what was sent last; current_a: as the drive says."""
+        share = (max(abs(self.last), abs(current_a) * self._scale) / self._nominal) ** 2
+        self.heat += -math.expm1(-period / self._motor.thermal_time_s) * (share - self.heat)
+
+    def limit(self, torque: float, angle: float, period: float) -> float:
+        """The torque (N·m) that may be sent: limit, rate, heat, and no way out of its ends."""
+        room = min(max((1.0 - self.heat) / (1.0 - WARM), 0.0), 1.0)
+        most = min(self._most, self._nominal + room * (self._peak - self._nominal))
+        torque = min(max(torque, -most), most)
+        step = self._rate * period
+        torque = min(max(torque, self.last - step), self.last + step)
+        if angle > self._motor.position_max_rad:
+            torque = min(torque, 0.0)
+        elif angle < self._motor.position_min_rad:
+            torque = max(torque, 0.0)
+        return torque
+
+    def check(self, angle: float, velocity: float) -> Alarm | None:
+        """What is wrong with the motor, or None."""
+        name, motor = self._name, self._motor
+        if abs(velocity) > motor.speed_max_rad_per_s:
+            return _exceeded(
+                "overspeed",
+                f"{name}_velocity_rad_per_s",
+                velocity,
+                motor.speed_max_rad_per_s,
+                "rad/s",
+            )
+        beyond = max(angle - motor.position_max_rad, motor.position_min_rad - angle)
+        if beyond > POSITION_MARGIN_RAD:
+            end = motor.position_max_rad if angle > 0.0 else motor.position_min_rad
+            return _exceeded("position_limit", f"{name}_position_rad", angle, end, "rad")
+        return None
+
+    def find_overload(self) -> Alarm | None:
+        """Whether the winding is warmer than any torque that was asked for makes it."""
+        if self.heat <= OVERLOAD:
+            return None
+        return _exceeded("overload", f"{self._name}_heat", self.heat, OVERLOAD, "")
+
+
+class Guard:
+    """The limits of the whole bench."""
+
+    def __init__(
+        self, bench: BenchFile, torque_max: tuple[float, float], domain: Domain, actuator: Actuator
+    ) -> None:
+        rate = bench.safety.torque_rate_nm_per_s
+        self._safety, self._period = bench.safety, bench.timing.period_s
+        self._domain, self._actuator = domain, actuator
+        self.motor1 = MotorGuard("motor1", bench.motor1, torque_max[0], rate)
+        self.motor2 = MotorGuard("motor2", bench.motor2, torque_max[1], rate)
+        self.motors = (self.motor1, self.motor2)
+
+    def limit(self, asked: Torque, known: State) -> Torque:
+        """What of `asked` may be sent, N·m."""
+        return Torque(
+            self.motor1.limit(asked.u1, known.theta1, self._period),
+            self.motor2.limit(asked.u2, known.theta2, self._period),
+        )
+
+    def note(self, sent: Torque, current_a: tuple[float, float]) -> None:
+        """What was sent in this period, N·m, and the currents that the drives say they make."""
+        for motor, torque, current in zip(self.motors, sent, current_a, strict=True):
+            motor.last = torque
+            motor.warm(current, self._period)
+
+    def find_overload(self) -> Alarm | None:
+        """The motor that is too warm, or None."""
+        return self.motor1.find_overload() or self.motor2.find_overload()
+
+    def check(self, asked: Torque, known: State, estimate: Disturbance) -> Alarm | None:
+        """Why the run ends, or None. known: x̂. estimate: ŵ, N·m."""
+        if not math.isfinite(asked.u1 + asked.u2 + sum(known) + sum(estimate)):
+            return Alarm("not_finite", "A torque or a state was not a finite number.", {})
+        alarm = self.motor1.check(known.theta1, known.dtheta1) or self.motor2.check(
+            known.theta2, known.dtheta2
+        )
+        return alarm or self._check_link(known) or self._check_estimate(estimate)
+
+    def _check_link(self, known: State) -> Alarm | None:
+        safety = self._safety
+        if abs(known.dq) > safety.link_speed_max_rad_per_s:
+            most = safety.link_speed_max_rad_per_s
+            return _exceeded("overspeed", "velocity_rad_per_s", known.dq, most, "rad/s")
+        if abs(known.q) > safety.link_position_max_rad:
+            most = safety.link_position_max_rad
+            return _exceeded("position_limit", "position_rad", known.q, most, "rad")
+        code = check_domain(self._domain, self._actuator, known)
+        if code == INSIDE:
+            return None
+        values = {"deflection_rad": known.q - known.theta1, "motor2_position_rad": known.theta2}
+        message = (
+            f"The actuator left the domain of the model ({FAULT_CODES[code]}): deflection"
+            f" {values['deflection_rad']:.4f} rad, stiffness motor at {known.theta2:.4f} rad."
+        )
+        return Alarm(FAULT_CODES[code], message, values)
+
+    def _check_estimate(self, estimate: Disturbance) -> Alarm | None:
+        most = self._safety.disturbance_max_nm
+        for name, value in zip(("link", "motor1", "motor2"), estimate, strict=True):
+            if abs(value) > most:
+                return _exceeded("implausible", f"estimate_{name}_nm", value, most, "N·m")
+        return None
+
+
+def _exceeded(code: str, name: str, value: float, most: float, unit: str) -> Alarm:
+    words = f"{name} was {value:.4g} {unit}: its limit is {most:.4g} {unit}.".replace(" :", ":")
+    return Alarm(code, words, {name: value, f"{name}_limit": most})

@@ -1,0 +1,62 @@
+"""Heartbeats of the processes of a bench, in shared memory: who was alive when."""
+
+import math
+import time
+from multiprocessing import resource_tracker, shared_memory
+from typing import Literal, Self
+
+import numpy as np
+
+Slot = Literal["loop", "supervisor", "server", "operator"]
+SLOTS: tuple[Slot, ...] = ("loop", "supervisor", "server", "operator")
+
+
+class Heartbeats:
+    """A time (CLOCK_MONOTONIC, s) for each slot; 0 before its first beat."""
+
+    def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:
+        self._block, self._owner = block, owner
+        self.name = block.name
+        self._times = np.ndarray(len(SLOTS), np.float64, block.buf)
+
+    @classmethod
+    def create(cls) -> Self:
+        """A new block without a beat; who created it also removes it at `close`."""
+        beats = cls(shared_memory.SharedMemory(create=True, size=8 * len(SLOTS)), owner=True)
+        beats._times[:] = 0.0
+        return beats
+
+    @classmethod
+    def attach(cls, name: str) -> Self:
+        """The block of that name, made by another process."""
+        return cls(attach_block(name), owner=False)
+
+    def beat(self, slot: Slot) -> None:
+        """The slot is alive now."""
+        self._times[SLOTS.index(slot)] = time.monotonic()
+
+    def end(self, slot: Slot) -> None:
+        """The slot has ended in order, and is not waited for."""
+        self._times[SLOTS.index(slot)] = 0.0
+
+    def age_s(self, slot: Slot) -> float:
+        """How long ago this slot beat, s; infinite where it has not begun."""
+        last = float(self._times[SLOTS.index(slot)])
+        return time.monotonic() - last if last else math.inf
+
+    def close(self) -> None:
+        """Let go of the block, and remove it where it was created."""
+        del self._times
+        self._block.close()
+        if self._owner:
+            self._block.unlink()
+
+
+def attach_block(name: str) -> shared_memory.SharedMemory:
+    """A block of shared memory that another process made and will remove.
+
+    Python's resource tracker would remove it when this process ends: it is told not to.
+    """
+    block = shared_memory.SharedMemory(name)
+    resource_tracker.unregister(block._name, "shared_memory")  # pyright: ignore[reportAttributeAccessIssue]
+    return block

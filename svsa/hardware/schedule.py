@@ -1,0 +1,39 @@
+"""What of real time the operating system allows, and what not, in words."""
+
+import ctypes
+import gc
+import os
+
+LOOP_PRIORITY = 80
+SUPERVISOR_PRIORITY = 85
+_MCL_CURRENT, _MCL_FUTURE = 1, 2
+
+
+def request_real_time(priority: int) -> list[str]:
+    """Ask for SCHED_FIFO, locked memory and no garbage collection; says what was granted."""
+    gc.collect()
+    gc.freeze()
+    gc.disable()
+    return [_request_priority(priority), _lock_memory(), "garbage collection off while it runs"]
+
+
+def _request_priority(priority: int) -> str:
+    if not hasattr(os, "sched_setscheduler"):
+        return "ordinary priority: this system has no SCHED_FIFO"
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+    except OSError as error:
+        return f"ordinary priority: SCHED_FIFO was refused ({error.strerror}); see `ulimit -r`"
+    return f"SCHED_FIFO, priority {priority}"
+
+
+def _lock_memory() -> str:
+    try:
+        library = ctypes.CDLL(None, use_errno=True)
+        refused = library.mlockall(_MCL_CURRENT | _MCL_FUTURE)
+    except (OSError, AttributeError, TypeError):
+        return "memory not locked: this system has no mlockall"
+    if refused:
+        reason = os.strerror(ctypes.get_errno())
+        return f"memory not locked: mlockall was refused ({reason}); see `ulimit -l`"
+    return "memory locked"

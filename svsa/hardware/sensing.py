@@ -1,0 +1,183 @@
+"""What a bench says: frames and counts in, one reading a tick out, and what went wrong."""
+
+import math
+from typing import NamedTuple
+
+import can
+
+from svsa.hardware.bench import BenchFile
+from svsa.hardware.clock import BenchClock
+from svsa.hardware.conversion import MotorScale, Unwrapped, build_deflection_scale
+from svsa.hardware.drive import Drive, Phase, list_command_ids
+from svsa.hardware.emulation import EMULATED_ID
+from svsa.hardware.encoders import read_source
+from svsa.hardware.encoders.source import EncoderError
+from svsa.hardware.faults import Alarm
+from svsa.hardware.robomodule import LENGTH
+from svsa.signals import Measurement, State
+
+MOST_FRAMES_A_TICK = 200
+BUS_TROUBLE = (can.CanError, OSError, ValueError)
+UNHEARD = (math.inf, math.inf, math.inf)
+
+
+class Reading(NamedTuple):
+    """What a tick found. measurement: angles moved on to now; None until all three are known,
+    and where one has not been heard of for `stale_fault_s`.
+
+    current_a: of both motors, as their drives say, and 0 where they have not for that long.
+    ages_s: of motor 1, motor 2, deflection. counts: the same three.
+    """
+
+    measurement: Measurement | None
+    current_a: tuple[float, float]
+    ages_s: tuple[float, float, float]
+    counts: tuple[int, int, int]
+
+
+class Sensing:
+    """Feedback of two drives and a deflection encoder.
+
+    zero: counts of the deflection encoder at φ = 0. ages_s, current_a: as of the last reading.
+    emulated: the bus says that it is an emulated rig. lost: the bus failed, and has to be
+    opened again.
+    """
+
+    def __init__(
+        self,
+        bench: BenchFile,
+        drives: tuple[Drive, Drive],
+        scales: tuple[MotorScale, MotorScale],
+        zero: int,
+        clock: BenchClock,
+    ) -> None:
+        self._drives, self._clock, self._zero = drives, clock, zero
+        self._angles = tuple(scale.angle_per_count for scale in scales)
+        self._takers = {drive.feedback_id: drive for drive in drives}
+        self._echoers = {drive.online_id: drive for drive in drives}
+        self._complainers = {drive.error_id: drive for drive in drives}
+        self._commands = list_command_ids(bench)
+        self.source = read_source(bench.deflection)
+        self._deflection = Unwrapped(self.source.bits, zero)
+        self._deflection_scale = build_deflection_scale(bench.deflection)
+        self._heard_deflection: float | None = None
+        self._stamped = bench.bus.timestamps == "bus"
+        self._age, self._oldest = bench.timing.feedback_age_s, bench.safety.stale_fault_s
+        self._alarm: Alarm | None = None
+        self.ages_s, self.current_a = UNHEARD, (0.0, 0.0)
+        self._measurement: Measurement | None = None
+        self.emulated = self.lost = False
+
+    def forget_alarm(self) -> None:
+        """What went wrong before counts no longer."""
+        self._alarm = None
+
+    def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
+        """What has come since the last tick. known: x̂, whose velocities bridge the ages."""
+        self._drain(bus, now)
+        one, two = self._drives
+        heard1, heard2, heard3 = one.heard_s, two.heard_s, self._read_deflection(now)
+        age1 = math.inf if heard1 is None else max(0.0, now - heard1)
+        age2 = math.inf if heard2 is None else max(0.0, now - heard2)
+        age3 = math.inf if heard3 is None else max(0.0, now - heard3)
+        self.ages_s = (age1, age2, age3)
+        counts = (one.counts, two.counts, self._deflection.counts)
+        measurement = None
+        if max(self.ages_s) <= self._oldest:
+            phi = (counts[2] - self._zero) * self._deflection_scale
+            measurement = Measurement(
+                counts[0] * self._angles[0] + known.dtheta1 * age1,
+                counts[1] * self._angles[1] + known.dtheta2 * age2,
+                phi + (known.dq - known.dtheta1) * age3,
+                known.dq,
+                known.dtheta1,
+                known.dtheta2,
+            )
+        self.current_a = (
+            one.current_ma * 1e-3 if age1 <= self._oldest else 0.0,
+            two.current_ma * 1e-3 if age2 <= self._oldest else 0.0,
+        )
+        self._measurement = measurement
+        return Reading(measurement, self.current_a, self.ages_s, counts)
+
+    def find_angle(self, step: str) -> float:
+        """How far an axis (a step of the homing) is from zero, rad; 0 where it is unknown."""
+        y = self._measurement
+        if y is None:
+            return 0.0
+        angles = {"link": y.theta1 + y.phi, "motor1": y.theta1, "motor2": y.theta2}
+        return angles.get(step, 0.0)
+
+    def _drain(self, bus: can.BusABC, now: float) -> None:
+        """Take every frame that waits; the bus's trouble becomes an alarm."""
+        for message in self._clock.take_frames():
+            self._take(message, now)
+        try:
+            for _ in range(MOST_FRAMES_A_TICK):
+                message = bus.recv(0)
+                if message is None:
+                    return
+                self._take(message, now)
+        except BUS_TROUBLE as error:
+            self.lost = True
+            self._sound("bus_error", f"The bus failed: {error}.")
+
+    def _take(self, message: can.Message, now: float) -> None:
+        """One frame, to whom it is for; remote frames and frames of others are passed over."""
+        if message.is_error_frame:
+            self._sound(
+                "bus_error", "The bus reported an error frame: check wiring and termination."
+            )
+            return
+        if message.is_remote_frame or not message.is_rx:
+            return
+        identifier, extended = message.arbitration_id, message.is_extended_id
+        time_s = self._clock.convert(message.timestamp, now) if self._stamped else now
+        time_s = min(time_s, now) - self._age
+        drive = None if extended else self._takers.get(identifier)
+        if drive is not None:
+            if len(message.data) == LENGTH:
+                drive.take(message, time_s)
+        elif self.source.feed(message, time_s):
+            return
+        elif extended:
+            self.emulated = self.emulated or identifier == EMULATED_ID
+        elif identifier in self._echoers:
+            self._echoers[identifier].online = True
+        elif identifier in self._complainers:
+            self._complainers[identifier].errors += 1
+        elif identifier in self._commands and self._drives[0].phase is Phase.READY:
+            words = (
+                f"Somebody else gave the drives a command (identifier {identifier:03X}): the"
+                " supervisor, or another program on this bus."
+            )
+            self._sound("foreign_command", words)
+
+    def _read_deflection(self, now: float) -> float | None:
+        """When the deflection was last heard of, and its counts up to then."""
+        try:
+            found = self.source.read(now)
+        except EncoderError as error:
+            self._sound("encoder_lost", str(error))
+            return self._heard_deflection
+        if found is not None and found[1] != self._heard_deflection:
+            self._deflection.update(found[0])
+            self._heard_deflection = found[1]
+        return self._heard_deflection
+
+    def _sound(self, code: str, message: str) -> None:
+        if self._alarm is None:
+            self._alarm = Alarm(code, message, {})
+
+    def find_alarm(self) -> Alarm | None:
+        """The first thing that is wrong with the bus, the encoder or a drive, or None."""
+        if self._alarm is not None:
+            return self._alarm
+        for name, drive in zip(("motor1", "motor2"), self._drives, strict=True):
+            if drive.errors:
+                words = f"The drive of {name} sent an error frame: its stall protection is on."
+                return Alarm("drive_error", words, {f"{name}_error_frames": drive.errors})
+            if drive.zeroed and drive.phase is Phase.READY:
+                words = f"The position of {name} jumped to zero: its drive has restarted."
+                return Alarm("drive_zeroed", words, {f"{name}_counts": drive.counts})
+        return None

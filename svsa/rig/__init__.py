@@ -1,0 +1,1 @@
+"""The emulated rig: a process that behaves on the wire as the bench does."""

@@ -1,0 +1,62 @@
+"""`svsa rig`: the emulated rig as a command."""
+
+import signal
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def rig(
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port of socketcand.")] = 29536,
+    control_port: Annotated[
+        int, typer.Option(min=0, max=65535, help="Port for loads and faults.")
+    ] = 29537,
+    lockstep: Annotated[
+        bool, typer.Option("--lockstep", help="Time goes on only when a client asks for it.")
+    ] = False,
+    file: Annotated[
+        Path | None, typer.Option(help="What the rig is made of (TOML); else the prototype.")
+    ] = None,
+    idle_s: Annotated[
+        float, typer.Option(min=0, help="End after so long without a client; 0: never.")
+    ] = 0.0,
+) -> None:
+    """Emulate the bench on the wire: two drives, an encoder and the actuator, on CAN.
+
+    Clients connect as to a socketcand server (python-can's interface `socketcand`), or to the
+    printed terminal as to a slcan adapter. Reachable from this machine only.
+    """
+    from svsa.rig.control import ControlServer
+    from svsa.rig.parameters import RigParameters, read_rig
+    from svsa.rig.process import RigProcess
+    from svsa.rig.rig import Rig
+    from svsa.rig.slcan import SlcanServer
+    from svsa.rig.socketcand import SocketcandServer
+
+    machine = Rig(read_rig(file) if file else RigParameters())
+    host = "127.0.0.1"
+    serial, network = SlcanServer(), SocketcandServer(host, port)
+    control = ControlServer(machine, host, control_port)
+    process = RigProcess(machine, [network, serial], control, lockstep, idle_s)
+
+    def stop(*_: object) -> None:
+        process.stopped = True
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
+    mode = "EMULATED, lockstep" if lockstep else "EMULATED"
+    print(
+        f"SVSA rig: socketcand {host}:{network.port}, slcan {serial.path},"
+        f" control {host}:{control.port} ({mode})",
+        flush=True,
+    )
+    try:
+        process.run()
+    finally:
+        for server in (serial, network, control):
+            server.close()
+
+
+if __name__ == "__main__":
+    typer.run(rig)

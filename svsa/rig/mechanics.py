@@ -1,0 +1,121 @@
+"""The mechanism between two instants: the true plant, on a grid of 100 µs.
+
+The current loops take a new target at the next point of the grid, as a loop of 10 kHz does.
+Between two events all periods are one compiled call.
+"""
+
+import math
+
+from svsa.errors import StateError
+from svsa.model.dynamics import build_actuator
+from svsa.model.lever import compute_lever_ratio_slope
+from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table, schedule_load
+from svsa.plant.effects import Effects, build_bench
+from svsa.plant.integration import coast
+from svsa.plant.stops import Stops
+from svsa.rig.parameters import RigParameters
+from svsa.signals import State, Torque
+
+GRID_US = 100
+MOST_LOADS = 100
+AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NO_TORQUE = Torque(0.0, 0.0)
+_PERIOD_S = GRID_US * 1e-6
+
+
+class Mechanics:
+    """The actuator, what its motors make, and what hangs on it; begins at rest at home.
+
+    torque: what the motors make at the last point of the grid, target: what they are asked
+    for, N·m at the gearbox outputs.
+    """
+
+    def __init__(self, parameters: RigParameters) -> None:
+        p = parameters
+        effects = Effects(friction=p.friction, current_lag=p.current_lag, gravity=p.gravity)
+        slope = compute_lever_ratio_slope(p.actuator.spiral_reduction)
+        self._actuator = build_actuator(p.actuator, p.lever_ratio)
+        self._bench = build_bench(effects, p.seed, p.actuator, _PERIOD_S)
+        self._stops = Stops(
+            (p.lever_ratio_min - p.lever_ratio) / slope,
+            (p.lever_ratio_max - p.lever_ratio) / slope,
+            float(p.deflection_max_rad),
+        )
+        self._tick = 0
+        self._x = AT_REST
+        self.torque = NO_TORQUE
+        self.target = NO_TORQUE
+        self._loads: tuple[ScheduledLoad, ...] = ()
+        self._table = build_load_table(())
+        self._load_count = 0
+        self._coast(0)
+
+    @property
+    def load_count(self) -> int:
+        """How many loads hang on the rig or are still to come."""
+        return sum(load.end_tick > self._tick for load in self._loads)
+
+    def read(self, time_us: int) -> State:
+        """X at this time; between two points of the grid it goes on with its velocities."""
+        self._coast(time_us // GRID_US)
+        since = time_us * 1e-6 - self._tick * _PERIOD_S
+        x = self._x
+        if time_us == self._tick * GRID_US:
+            return x
+        return State(
+            x.q + x.dq * since,
+            x.dq,
+            x.theta1 + x.dtheta1 * since,
+            x.dtheta1,
+            x.theta2 + x.dtheta2 * since,
+            x.dtheta2,
+        )
+
+    def set_target(self, time_us: int, target: Torque) -> None:
+        """Ask the motors for this torque, N·m, from the next point of the grid on."""
+        if target != self.target:
+            self._coast(-(-time_us // GRID_US))
+            self.target = target
+
+    def add_load(self, time_us: int, load: Load) -> int:
+        """Hang a load on; its `start_s` is the rig's time. Returns its number.
+
+        Raises `StateError` where too many hang there.
+        """
+        if self.load_count >= MOST_LOADS:
+            raise StateError(f"{MOST_LOADS} loads are on the rig: take some off first.")
+        now = max(self._tick, -(-time_us // GRID_US))
+        self._load_count += 1
+        loads = [*self._loads, schedule_load(self._load_count, load, now, _PERIOD_S)]
+        self._loads = tuple(load for load in loads if load.end_tick > self._tick)
+        self._table = build_load_table(self._loads)
+        return self._load_count
+
+    def clear_loads(self, time_us: int) -> None:
+        """Take every load off, also those still to come."""
+        self._coast(-(-time_us // GRID_US))
+        self._loads = ()
+        self._table = build_load_table(())
+
+    def home(self, time_us: int) -> None:
+        """Put the mechanism to its zero marks, at rest, as an operator does by hand."""
+        self._coast(-(-time_us // GRID_US))
+        self._x = AT_REST
+
+    def _coast(self, tick: int) -> None:
+        if tick > self._tick or self._tick == 0:
+            self._x, self.torque = coast(
+                self._actuator,
+                self._bench,
+                self._stops,
+                self._x,
+                self.torque,
+                self.target,
+                self._table,
+                self._tick,
+                _PERIOD_S,
+                tick - self._tick,
+            )
+            self._tick = max(tick, self._tick)
+        if not math.isfinite(sum(self._x)):
+            raise StateError("The emulated mechanism has left all bounds: home it.")

@@ -1,0 +1,47 @@
+"""What a client has still to be said: nothing is lost while it reads, nobody waits while not."""
+
+from collections.abc import Callable
+
+MOST_BYTES = 8 * 2**20
+RETRY_S = 0.002
+
+
+class Outbox:
+    """Writes at once what goes, and keeps the rest in order for `flush`.
+
+    write: a non-blocking write of some of the bytes, as `os.write`; how many went.
+    """
+
+    def __init__(self, write: Callable[[bytes | bytearray], int]) -> None:
+        self._write = write
+        self._kept = bytearray()
+
+    @property
+    def wait_s(self) -> float | None:
+        """When to `flush` again; None where nothing is kept."""
+        return RETRY_S if self._kept else None
+
+    def push(self, text: bytes) -> None:
+        """Say this. Raises `OSError` for a client that has left, or has long read nothing."""
+        if len(self._kept) + len(text) > MOST_BYTES:
+            raise ConnectionError("the client does not read")
+        if self._kept:
+            self._kept += text
+            return
+        try:
+            written = self._write(text)
+        except BlockingIOError:
+            written = 0
+        self._kept += text[written:]
+
+    def flush(self) -> None:
+        """Say what was kept, as far as it goes. Raises `OSError` for a client that has left."""
+        try:
+            while self._kept:
+                del self._kept[: self._write(self._kept)]
+        except BlockingIOError:
+            return
+
+    def clear(self) -> None:
+        """Forget what was kept."""
+        self._kept.clear()

@@ -1,0 +1,59 @@
+"""What a bench runs on: the references and gains of a configuration, the bench's own design."""
+
+from svsa.hardware.bench import BenchFile
+from svsa.hardware.guard import Guard
+from svsa.model.domain import build_domain
+from svsa.model.dynamics import build_actuator
+from svsa.plant.effects import CurrentLag, Effects, Encoders, StateEstimation
+from svsa.runtime.configuration import Configuration, Design, Lane, load_prototype, read_design
+
+
+def read_bench_design(bench: BenchFile) -> Design:
+    """The design of a bench: its parameter file, or the prototype, at the bench's period."""
+    design = read_design(bench.design.file) if bench.design.file else load_prototype()
+    sampling = design.sampling.changed(period_s=bench.timing.period_s)
+    return design.changed(sampling=sampling)
+
+
+def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Configuration:
+    """`wanted` (law, references, loads) on a bench, with its simulated twin as a rival.
+
+    The twin has what is known of the bench: counts, estimated velocities, a sample of
+    delay and the lag of the current loop.
+    """
+    design = read_bench_design(bench)
+    encoders = None
+    motor = bench.motor1
+    if motor.counts_per_rev and motor.gear_ratio and bench.deflection.counts_per_rev:
+        encoders = Encoders(
+            motor_counts_per_rev=motor.counts_per_rev,
+            gear_ratio=motor.gear_ratio,
+            deflection_counts_per_rev=bench.deflection.counts_per_rev,
+        )
+    lag = bench.timing.current_lag_s
+    effects = Effects(
+        encoders=encoders,
+        estimation=StateEstimation(corner_rad_per_s=bench.design.corner_rad_per_s),
+        delay_samples=1,
+        current_lag=CurrentLag(time_constant_s=lag) if lag else None,
+    )
+    return Configuration(
+        **dict(design),
+        law=wanted.law,
+        rivals=(Lane(law=wanted.law),),
+        effects=effects,
+        position=wanted.position,
+        stiffness=wanted.stiffness,
+        loads=wanted.loads,
+    )
+
+
+def build_guard(bench: BenchFile) -> Guard:
+    """The limits of a bench, with the torques and the domain of its design."""
+    design = read_bench_design(bench)
+    return Guard(
+        bench,
+        (design.limits.torque1_nm, design.limits.torque2_nm),
+        build_domain(design.nominal, design.limits),
+        build_actuator(design.nominal, bench.home.lever_ratio),
+    )

@@ -1,0 +1,77 @@
+"""Messages between server and loop: JSON lines over a socket pair, never waited for."""
+
+import json
+import select
+import socket
+from typing import Any
+
+_CHUNK = 65_536
+MOST_UNSENT_BYTES = 1 << 20
+
+
+class LinkClosedError(ConnectionError):
+    """The other side is gone."""
+
+
+class Link:
+    """One end. Neither sending nor receiving waits, unless a timeout is given."""
+
+    def __init__(self, end: socket.socket) -> None:
+        end.setblocking(False)
+        self._socket = end
+        self._unsent = bytearray()
+        self._unread = bytearray()
+
+    @classmethod
+    def from_descriptor(cls, descriptor: int) -> "Link":
+        """The end that a parent process has passed on."""
+        return cls(socket.socket(fileno=descriptor))
+
+    def fileno(self) -> int:
+        """The descriptor, for `select` and for a child process."""
+        return self._socket.fileno()
+
+    def send(self, message: dict[str, Any]) -> None:
+        """Send a message; raises `LinkClosedError` where nobody reads any more."""
+        self._unsent += json.dumps(message).encode() + b"\n"
+        if len(self._unsent) > MOST_UNSENT_BYTES:
+            raise LinkClosedError("the other side does not read")
+        self.flush()
+
+    def flush(self) -> None:
+        """Send what an earlier `send` could not."""
+        while self._unsent:
+            try:
+                sent = self._socket.send(self._unsent)
+            except BlockingIOError:
+                return
+            except OSError as error:
+                raise LinkClosedError(str(error)) from None
+            del self._unsent[:sent]
+
+    def receive(self, timeout_s: float = 0.0) -> list[dict[str, Any]]:
+        """The messages that have come, in order; raises `LinkClosedError` at the end."""
+        if timeout_s > 0.0:
+            select.select([self._socket], [], [], timeout_s)
+        try:
+            chunk = self._socket.recv(_CHUNK)
+        except BlockingIOError:
+            return []
+        except OSError as error:
+            raise LinkClosedError(str(error)) from None
+        if not chunk:
+            raise LinkClosedError("the other side has closed")
+        self._unread += chunk
+        *lines, rest = self._unread.split(b"\n")
+        self._unread = bytearray(rest)
+        return [json.loads(line) for line in lines]
+
+    def close(self) -> None:
+        """Close this end."""
+        self._socket.close()
+
+
+def build_links() -> tuple[Link, Link]:
+    """Both ends of a new link."""
+    one, other = socket.socketpair()
+    return Link(one), Link(other)

@@ -1,0 +1,179 @@
+"""The loop's process: absolute deadlines, one tick each, messages between two ticks.
+
+    python -m svsa.runtime.realtime.process BENCH MEMORY HEARTBEATS DESCRIPTOR
+
+The first message is the configuration to start from. It ends when the server says so or is
+gone, and leaves the drives at zero current.
+"""
+
+import dataclasses
+import gc
+import sys
+from typing import Any
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.hardware.bench import read_bench
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.can_plant import CanPlant
+from svsa.hardware.clock import WallClock
+from svsa.hardware.heartbeat import Heartbeats
+from svsa.hardware.machine import BenchStatus
+from svsa.hardware.schedule import LOOP_PRIORITY, request_real_time
+from svsa.runtime.configuration import Configuration
+from svsa.runtime.realtime.configuration import build_guard
+from svsa.runtime.realtime.link import Link, LinkClosedError
+from svsa.runtime.realtime.loop import MOVING, STATUSES, BenchLoop
+from svsa.runtime.realtime.memory import LoopMemory, add_to_histogram
+
+SERVER_SILENT_S = 2.0
+FIRST_MESSAGE_S = 10.0
+
+
+class LoopProcess:
+    """One bench, its loop, and the link to the server."""
+
+    def __init__(
+        self, loop: BenchLoop, clock: WallClock, link: Link, memory: LoopMemory, beats: Heartbeats
+    ) -> None:
+        self._loop, self._plant, self._clock = loop, loop.plant, clock
+        self._link: Link | None = link
+        self._fields, self._beats = memory.fields, beats
+        self._told: tuple[Any, ...] = ()
+        self._ending = False
+
+    def run(self) -> None:
+        """Tick until the server ends it, or is gone and the bench stands still."""
+        period = self._loop.run.period_s
+        deadline = self._clock.now()
+        while not (self._ending and self._plant.status not in MOVING):
+            deadline += period
+            self._clock.wait_until(deadline)
+            begin = self._clock.now()
+            missed = int((begin - deadline) / period)
+            self._loop.tick(begin, missed)
+            self._beats.beat("loop")
+            self._note(begin - deadline, self._clock.now() - begin, missed)
+            deadline += missed * period
+            if self._fields["emergency"]:
+                self._fields["emergency"] = 0
+                self._plant.emergency_stop(begin, "emergency stop")
+            self._listen()
+            self._tell()
+
+    def _note(self, lateness: float, cost: float, missed: int) -> None:
+        """How punctual this tick was, and what was read, for the server to see."""
+        fields = self._fields
+        add_to_histogram(fields["lateness"], lateness)
+        add_to_histogram(fields["cost"], cost)
+        fields["worst_s"] = max(float(fields["worst_s"]), lateness)
+        fields["ticks"] += 1
+        fields["skipped"] += missed
+        fields["status"] = STATUSES.index(self._plant.status)
+        fields["emulated"] = self._plant.emulated
+        if self._loop.reading is not None:
+            fields["current_a"] = self._loop.reading.current_a
+            fields["ages_s"] = self._loop.reading.ages_s
+
+    def _listen(self) -> None:
+        """Do what the server asks; a server that is gone or hangs stops the bench."""
+        if self._link is None:
+            return
+        try:
+            for message in self._link.receive():
+                self._link.send({"answer": message["number"], **self._answer(message)})
+            self._link.flush()
+        except LinkClosedError:
+            self._link, self._ending = None, True
+            self._stop("the server is gone")
+        if self._plant.status is BenchStatus.RUN and self._beats.age_s("server") > SERVER_SILENT_S:
+            self._stop("the server has not been heard of")
+
+    def _stop(self, reason: str) -> None:
+        if self._plant.status in MOVING:
+            self._plant.stop(self._clock.now(), reason)
+
+    def _answer(self, message: dict[str, Any]) -> dict[str, Any]:
+        try:
+            if self._clock.now() > message["until"]:
+                raise SvsaError("The command came too late, and was not carried out.")
+            return self._do(message["do"], message.get("argument"))
+        except ParameterError as error:
+            violations = [dataclasses.asdict(violation) for violation in error.violations]
+            return {"refused": str(error), "violations": violations}
+        except SvsaError as error:
+            return {"refused": str(error)}
+
+    def _do(self, wanted: str, argument: Any) -> dict[str, Any]:
+        now, loop, plant = self._clock.now(), self._loop, self._plant
+        match wanted:
+            case "change":
+                return {"tick": loop.change(argument["kind"], argument["argument"])}
+            case "load":
+                loop.load(Configuration(**argument))
+            case "arm":
+                gc.collect()
+                plant.arm(now)
+            case "start":
+                start = loop.start(now)
+                return {"mu0": start.mu0, "x": start.x, "run": loop.number}
+            case "stop":
+                plant.stop(now, argument)
+            case "emergency_stop":
+                plant.emergency_stop(now, argument)
+            case "clear":
+                plant.clear(now)
+            case "home":
+                plant.confirm_home(argument["step"], argument["by"])
+            case "end":
+                self._ending = True
+                self._stop("the server ends")
+            case _:
+                raise ParameterError(Violation("do", wanted, "", "a command of the loop"))
+        return {}
+
+    def _tell(self) -> None:
+        """Say what has changed of the bench's state."""
+        plant = self._plant
+        state = (plant.status, plant.fault, tuple(plant.problems), plant.homing_step)
+        if self._link is None or state == self._told:
+            return
+        self._told = state
+        fault = dataclasses.asdict(plant.fault) if plant.fault else None
+        status = {"status": plant.status, "fault": fault, "problems": list(plant.problems)}
+        status |= {"homing_step": plant.homing_step}
+        try:
+            self._link.send({"event": "state", **status})
+        except LinkClosedError:
+            self._link, self._ending = None, True
+
+
+def main(arguments: list[str]) -> int:
+    """Run the loop of a bench; the exit code is 0 unless the bench could not be opened."""
+    path, memory_name, heartbeat_name, descriptor = arguments
+    link = Link.from_descriptor(int(descriptor))
+    memory, beats = LoopMemory.attach(memory_name), Heartbeats.attach(heartbeat_name)
+    try:
+        bench, clock = read_bench(path), WallClock()
+        plant = CanPlant(bench, find_calibration(bench), clock, build_guard(bench), beats)
+        plant.open()
+    except SvsaError as error:
+        link.send({"event": "failed", "message": str(error)})
+        return 1
+    try:
+        (first,) = link.receive(FIRST_MESSAGE_S)
+        loop = BenchLoop(plant, bench, Configuration(**first["configuration"]), memory)
+        loop.warm_up()
+        link.send({"event": "ready", "notes": request_real_time(LOOP_PRIORITY)})
+        LoopProcess(loop, clock, link, memory, beats).run()
+    except LinkClosedError:
+        pass
+    finally:
+        plant.close()
+        beats.end("loop")
+        memory.close()
+        beats.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,80 @@
+"""A run whose first lane is a bench: its samples are read, those of its twins are simulated."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from svsa.model.domain import INSIDE
+from svsa.runtime.configuration import Configuration, Lane, Law
+from svsa.runtime.realtime.memory import LoopMemory
+from svsa.runtime.run import Run, Start
+from svsa.signals import CHANNEL_INDEX
+
+if TYPE_CHECKING:
+    from svsa.errors import Fault
+
+_MEASURED = [CHANNEL_INDEX["position_rad"], CHANNEL_INDEX["stiffness_nm_per_rad"]]
+_RESIDUALS = [
+    CHANNEL_INDEX["position_residual_rad"],
+    CHANNEL_INDEX["stiffness_residual_nm_per_rad"],
+]
+TWIN = 1
+
+
+class BenchRun(Run):
+    """Lane 1 comes from the loop's memory; the other lanes follow it tick for tick.
+
+    The first rival is the bench's twin: the same law, commands and loads on the simulated
+    plant. A twin that leaves the domain of the model ends, with NaN from there on; the bench
+    goes on. fault: the bench's, set by who watches its state.
+    """
+
+    def __init__(self, configuration: Configuration, start: Start, memory: LoopMemory) -> None:
+        self._memory = memory
+        self._number = int(memory.fields["run"])
+        self._ended: set[int] = set()
+        self.fault: Fault | None = None
+        super().__init__(configuration, start=start)
+
+    def count_ready(self) -> int:
+        """How many samples of the bench wait to be read."""
+        fields = self._memory.fields
+        there = int(fields["end_tick"]) if int(fields["run"]) == self._number else 0
+        return max(0, there - self.tick)
+
+    def advance(self, samples: np.ndarray) -> int:
+        """Read and simulate so many ticks as `samples` (lanes, ticks, channels) has room for.
+
+        How many were done: no more than the bench has done.
+        """
+        done = min(samples.shape[1], self.count_ready())
+        self._memory.read(self.tick, samples[0, :done])
+        for number in range(1, len(self.lanes)):
+            self._advance_twin(number, samples[number, :done])
+        if len(self.lanes) > TWIN:
+            bench, twin = samples[0, :done], samples[TWIN, :done]
+            bench[:, _RESIDUALS] = bench[:, _MEASURED] - twin[:, _MEASURED]
+        self.tick += done
+        return done
+
+    def _advance_twin(self, number: int, rows: np.ndarray) -> None:
+        ticks = 0
+        if number not in self._ended:
+            self.lanes[number], ticks, code = self._advance_lane(number, rows)
+            if code != INSIDE:
+                self._ended.add(number)
+        rows[ticks:] = np.nan
+        rows[ticks:, 0] = (self.tick + np.arange(ticks, len(rows))) * self.period_s
+
+    def set_law(self, law: Law) -> None:
+        """Control with this law from now on, the twin too."""
+        twin, *others = self.configuration.rivals or (None,)
+        rivals = (twin.changed(law=law), *others) if twin else ()
+        self._configure(law=law, rivals=rivals)
+
+    def set_rivals(self, rivals: tuple[Lane, ...]) -> list[int]:
+        """As `Run.set_rivals`; a new rival begins where the twin is."""
+        self.lanes[0] = self.lanes[min(TWIN, len(self.lanes) - 1)]
+        origins = super().set_rivals(rivals)
+        self._ended = {lane for lane, origin in enumerate(origins) if origin in self._ended}
+        return origins

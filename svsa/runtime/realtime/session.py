@@ -1,0 +1,219 @@
+"""A session whose first lane is a bench, seen from the server."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from svsa.errors import Fault, StateError
+from svsa.hardware.bench import read_bench
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.machine import BenchStatus
+from svsa.plant.disturbances import Load
+from svsa.runtime.command import Command, build_command
+from svsa.runtime.configuration import Configuration, Lane
+from svsa.runtime.loop import AT_REST
+from svsa.runtime.realtime.configuration import build_bench_configuration
+from svsa.runtime.realtime.launch import BenchProcesses
+from svsa.runtime.realtime.loop import MOVING
+from svsa.runtime.realtime.run import BenchRun
+from svsa.runtime.recording.header import PlantKind
+from svsa.runtime.run import Start
+from svsa.runtime.session import Session, Status
+from svsa.signals import State
+
+LOOP_SILENT_S = 0.5
+UNWATCHED_S = 1.0
+
+Hang = Callable[[tuple[Load, ...]], None]
+
+
+class BenchSession(Session):
+    """A bench as a session: `start` begins a run at t = 0, `pause` ramps to zero torque.
+
+    Every start begins a new run, from where the bench stands. hang: given the loads that are
+    on whenever they change, where something can hang them (an emulated rig). `bench`: the
+    bench file. Raises `BenchError` where the bench cannot be opened.
+    """
+
+    def __init__(
+        self, name: str, path: Path, wanted: Configuration, hang: Hang = lambda _: None
+    ) -> None:
+        self.bench, self._path, self._hang = read_bench(path), path, hang
+        self.calibration = find_calibration(self.bench)
+        self.bench_status = BenchStatus.OFF
+        self.problems: list[str] = []
+        self.homing_step: str | None = None
+        self._fault: Fault | None = None
+        self._unwatched_since = 0.0
+        self._open(build_bench_configuration(self.bench, wanted))
+        super().__init__(name, wanted)
+
+    def _open(self, configuration: Configuration) -> None:
+        self.processes = BenchProcesses(self._path, configuration)
+        self.memory = self.processes.memory
+
+    @property
+    def status(self) -> Status:
+        """Running while the bench moves, fault until it is cleared, else paused."""
+        if self._fault is not None:
+            return "fault"
+        return "running" if self.bench_status in MOVING else "paused"
+
+    @property
+    def plant(self) -> PlantKind:
+        """A bench, or the emulated rig, which says so on the bus."""
+        return "emulated" if self.memory.fields["emulated"] else "bench"
+
+    @property
+    def fault(self) -> Fault | None:
+        """The bench's latched fault."""
+        return self._fault
+
+    @property
+    def supervised(self) -> bool:
+        """Whether the supervisor's heartbeat is fresh."""
+        return self.processes.beats.age_s("supervisor") < LOOP_SILENT_S
+
+    def load(self, configuration: Configuration) -> None:
+        """Use its law, references and loads from the next start on; `StateError` in motion."""
+        configuration = build_bench_configuration(self.bench, configuration)
+        self._ask("load", configuration.model_dump(mode="json"))
+        self.stop_recording()
+        still = Start(self.bench.home.lever_ratio, AT_REST)
+        self._begin(BenchRun(configuration, still, self.memory))
+
+    def reset(self) -> None:
+        """Begin again at t = 0 at the next start; raises `StateError` in motion."""
+        self.load(self.run.configuration.changed(loads=self.initial.loads))
+
+    def arm(self) -> None:
+        """Bring the drives to READY: reset, configuration, mode."""
+        self._ask("arm")
+
+    def confirm_home(self, step: str, by: str) -> None:
+        """That an axis stands at its zero mark, and who says so."""
+        self._ask("home", {"step": step, "by": by})
+
+    def clear(self) -> None:
+        """Clear the latched fault: FAULT → OFF; a loop that is gone is started anew."""
+        if not self.processes.alive:
+            self.processes.close()
+            self._open(self.run.configuration)
+            self.load(self.run.configuration)
+        elif self.bench_status is BenchStatus.FAULT:
+            self._ask("clear")
+        self._fault = None
+        self.version += 1
+
+    def start(self) -> None:
+        """Begin a run; raises `StateError` unless READY, at home and watched."""
+        if self.bench.safety.needs_watcher and not self.watchers:
+            raise StateError("Nobody watches this bench: open the page or a stream of it first.")
+        answer = self._ask("start")
+        configuration = self.run.configuration
+        start = Start(answer["mu0"], State(*answer["x"]))
+        if self.recorder is not None and self.recorder.status.ticks:
+            self.stop_recording()
+        self._begin(BenchRun(configuration, start, self.memory))
+
+    def pause(self) -> None:
+        """Ramp to zero torque."""
+        if self.bench_status in MOVING:
+            self._ask("stop", "stopped by hand")
+
+    def stop_at_once(self) -> None:
+        """The emergency stop: zero current now, latched, even where the loop does not listen."""
+        self.stop_from_keyboard()
+        self._ask("emergency_stop", "emergency stop")
+
+    def stop_from_keyboard(self) -> None:
+        """The emergency stop from any thread, through shared memory alone."""
+        self.memory.fields["emergency"] = 1
+
+    def close(self) -> None:
+        """Ramp to zero, and end the bench's processes."""
+        self.stop_recording()
+        self.processes.close()
+        self.closed = True
+
+    def step(self, ticks: int) -> None:
+        """Refused: a bench has no single ticks."""
+        raise StateError("A bench runs in real time: it cannot go by single ticks.")
+
+    def set_speed(self, factor: float) -> None:
+        """Refused: a bench has the speed of the world."""
+        raise StateError("A bench runs in real time: its speed cannot be changed.")
+
+    def hear_operator(self) -> None:
+        """The operator holds the dead-man's switch."""
+        self.processes.beats.beat("operator")
+
+    def wake(self, now: float) -> None:
+        """Take in what the bench has done since the last time."""
+        self.processes.beats.beat("server")
+        self._advance(self._bench_run.count_ready())
+        for event in self.processes.take_events():
+            if event["event"] == "state":
+                self._take_state(event)
+        if not self.processes.alive and self._fault is None:
+            values = {"tick": float(self.run.tick)}
+            message = (
+                "The process of the loop has ended: the supervisor has set the drives to zero"
+                " current. Clear the fault to start it anew."
+            )
+            self._latch(Fault("loop_lost", 0, self.run.tick, self.run.time_s, message, values))
+        if self.watchers or self.bench_status is not BenchStatus.RUN:
+            self._unwatched_since = now
+        elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
+            self._ask("stop", "nobody watches")
+
+    def _begin_load(self, load: Load) -> None:
+        super()._begin_load(load)
+        self._hang_loads()
+
+    def _end_load(self, load: Load) -> None:
+        super()._end_load(load)
+        self._hang_loads()
+
+    def _hang_loads(self) -> None:
+        """Tell the emulated rig what hangs on it at this tick."""
+        tick = self.run.tick
+        on = (load for load in self.run.loads if load.start_tick <= tick < load.end_tick)
+        self._hang(tuple(load.load for load in on))
+
+    def _take_state(self, event: dict) -> None:
+        self.bench_status = BenchStatus(event["status"])
+        self.problems, self.homing_step = event["problems"], event["homing_step"]
+        fault = event["fault"]
+        if fault is None:
+            self._fault = None
+        elif self._fault is None:
+            self._latch(Fault(**fault))
+        self.version += 1
+
+    def _latch(self, fault: Fault) -> None:
+        self._fault = fault
+        self._log("fault", fault.code)
+
+    def _ask(self, wanted: str, argument: object = None) -> dict:
+        """Have the loop do it; what it says of its state is known when this returns."""
+        answer = self.processes.request(wanted, argument)
+        for event in self.processes.take_events():
+            if event["event"] == "state":
+                self._take_state(event)
+        return answer
+
+    def _take(self, command: Command) -> Command:
+        """The command at the tick at which the loop has taken it."""
+        if command.kind == "rivals":
+            twin = Lane(law=self.run.configuration.law)
+            others = tuple(lane for lane in command.argument if lane != twin)
+            command = build_command(command.tick, "rivals", (twin, *others))
+        tick = self._ask("change", command.to_json())["tick"]
+        self._advance(tick - self.run.tick)
+        return command._replace(tick=tick)
+
+    @property
+    def _bench_run(self) -> BenchRun:
+        if not isinstance(self.run, BenchRun):
+            raise StateError("The session has no run of the bench yet.")
+        return self.run

@@ -1,0 +1,118 @@
+"""A bench that is not there: the page's calls and stream are patched between it and the lab."""
+
+import copy
+import json
+from typing import Any
+
+from playwright.sync_api import Page, Route, WebSocketRoute
+
+BENCH: dict[str, Any] = {
+    "name": "emulated bench",
+    "emulated": True,
+    "status": "off",
+    "interface": "socketcand 127.0.0.1:29536 can0, 1 Mbit/s",
+    "calibrated_by": "Ada Lovelace",
+    "calibrated_on": "2026-11-20T09:30:00+00:00",
+    "problems": [],
+    "homing": {
+        "done": ["link"],
+        "next_step": "motor1",
+        "instruction": "Turn the principal motor until its pointer stands at the scribed line.",
+    },
+    "current_a": [0.42, -0.07],
+    "ages_s": [0.0012, 0.0011, 0.0009],
+    "supervised": True,
+    "operator_required": False,
+    "loop": {
+        "alive": True,
+        "rate_hz": 1000.0,
+        "ticks": 182_341,
+        "skipped_ticks": 3,
+        "lateness_p50_s": 24e-6,
+        "lateness_p99_s": 71e-6,
+        "lateness_p999_s": 148e-6,
+        "lateness_worst_s": 1.9e-3,
+        "cost_p99_s": 182e-6,
+        "lateness_edges_s": [1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3],
+        "lateness_counts": [4210, 61_904, 109_877, 5902, 411, 29, 6, 2, 0],
+        "notes": ["SCHED_FIFO 80", "memory locked", "no isolated CPU: expect late ticks"],
+    },
+}
+HOMED = {"done": ["link", "motor1", "motor2"], "next_step": None, "instruction": ""}
+FAULT = {
+    "code": "emergency_stop",
+    "lane": 1,
+    "tick": 4200,
+    "time_s": 4.2,
+    "message": "Stopped by a client at 4.20 s.",
+    "values": {},
+}
+STATUS = {"run": "running", "ramp": "running", "fault": "fault"}
+
+
+class PatchedBench:
+    """Answers the page's bench calls and puts `bench` into every state that the page gets."""
+
+    def __init__(self, page: Page, **change: Any) -> None:
+        self.bench = copy.deepcopy(BENCH) | change
+        self.calls: list[tuple[str, Any]] = []
+        self._fault: dict | None = None
+        self._version = 0
+        self._stream: WebSocketRoute | None = None
+        page.route("**/api/v1/sessions/lab/**", self._answer)
+        page.route_web_socket("**/api/v1/sessions/lab/stream**", self._patch_stream)
+
+    def change(self, **change: Any) -> None:
+        """Change the bench, and tell the page on its stream."""
+        self.bench |= change
+        if self._stream is not None:
+            self._stream.send(json.dumps({"type": "state", "state": self._told}))
+
+    @property
+    def _told(self) -> dict:
+        return self._patch(self._last)
+
+    def _patch(self, state: dict) -> dict:
+        self._last = state
+        status = STATUS.get(self.bench["status"], "paused")
+        fault = self._fault if self.bench["status"] == "fault" else None
+        return state | {"bench": self.bench, "status": status, "fault": fault}
+
+    def _patch_stream(self, socket: WebSocketRoute) -> None:
+        server = socket.connect_to_server()
+        self._stream = socket
+
+        def forward(message: str | bytes) -> None:
+            if isinstance(message, str):
+                content = json.loads(message)
+                if "state" in content:
+                    content["state"] = self._patch(content["state"])
+                message = json.dumps(content)
+            socket.send(message)
+
+        server.on_message(forward)
+
+    def _answer(self, route: Route) -> None:
+        call = route.request.url.rpartition("/sessions/lab/")[2]
+        if call.startswith("stream"):
+            route.continue_()
+            return
+        self.calls.append((call, route.request.post_data_json))
+        step = {
+            "bench/arm": {"status": "ready"},
+            "bench/clear": {"status": "off"},
+            "bench/home": {"homing": HOMED},
+            "start": {"status": "run"},
+            "pause": {"status": "ready"},
+            "emergency-stop": {"status": "fault"},
+        }.get(call)
+        if call == "emergency-stop":
+            self._fault = FAULT
+        self.bench |= step or {}
+        if step is None:
+            answer = route.fetch()
+            state = answer.json()
+        else:
+            state = route.fetch(url=route.request.url.rpartition("/lab/")[0] + "/lab", method="GET")
+            state = state.json()
+        route.fulfill(json=self._patch(state) if "status" in state else state)

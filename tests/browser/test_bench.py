@@ -1,0 +1,162 @@
+"""The page on a bench, which `bench_fixture` puts between the page and a simulating lab."""
+
+import re
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
+from tests.browser.test_page import open_page
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+BUTTONS = ("Arm", "Run", "Stop", "Clear fault")
+
+
+def find_bench(page: Page) -> Locator:
+    return page.get_by_role("region", name="Bench", exact=True)
+
+
+def expect_enabled(page: Page, *names: str) -> None:
+    for name in BUTTONS:
+        button = find_bench(page).get_by_role("button", name=name, exact=True)
+        expect(button).to_be_enabled(enabled=name in names)
+
+
+def expect_stage(page: Page, stage: str) -> None:
+    line = page.get_by_role("list", name="State of the bench")
+    expect(line.locator("[aria-current=step]")).to_contain_text(stage)
+
+
+def test_a_simulation_shows_no_bench_and_no_mark(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    expect(find_bench(page)).to_have_count(0)
+    expect(page.get_by_text(re.compile("EMULATED|REAL BENCH"))).to_have_count(0)
+    expect(page).to_have_title("SVSA Lab")
+
+
+@pytest.mark.parametrize(("emulated", "name"), [(True, "EMULATED"), (False, "REAL BENCH")])
+def test_the_mark_is_in_band_view_status_bar_and_tab(
+    page: Page, lab: Lab, emulated: bool, name: str
+) -> None:
+    PatchedBench(page, emulated=emulated)
+    open_page(page, lab)
+    expect(page).to_have_title(re.compile(f"^{name}"))
+    expect(page.get_by_text(name, exact=True)).to_have_count(3)
+    for mark in page.get_by_text(name, exact=True).all():
+        expect(mark).to_be_in_viewport(ratio=1)
+    icon = page.locator('link[rel="icon"]')
+    expect(icon).not_to_have_attribute("href", "./icon.svg")
+
+
+def test_what_a_bench_refuses_is_not_offered(page: Page, lab: Lab) -> None:
+    PatchedBench(page)
+    open_page(page, lab)
+    for name in ("Reset", "Step", "Pause"):
+        expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
+    expect(page.get_by_role("combobox", name="Speed")).to_have_count(0)
+
+
+def test_from_off_over_the_marks_to_a_run_and_its_stop(page: Page, lab: Lab) -> None:
+    patched = PatchedBench(page)
+    open_page(page, lab)
+    bench = find_bench(page)
+    expect_stage(page, "Off")
+    expect_enabled(page, "Arm")
+    bench.get_by_role("button", name="Arm").click()
+    expect_stage(page, "Ready")
+    expect_enabled(page)
+
+    confirm = bench.get_by_role("button", name="Motor 1 stands at its mark")
+    expect(confirm).to_be_disabled()
+    expect(bench.get_by_text(BENCH["homing"]["instruction"])).to_be_visible()
+    bench.get_by_label("Your name").fill("Grace")
+    confirm.click()
+    expect_enabled(page, "Run")
+    assert ("bench/home", {"step": "motor1", "by": "Grace"}) in patched.calls
+
+    bench.get_by_role("button", name="Run", exact=True).click()
+    expect_stage(page, "Run")
+    expect_enabled(page, "Stop")
+    bench.get_by_role("button", name="Stop", exact=True).click()
+    expect_enabled(page, "Run")
+    patched.change(status="ramp")
+    expect(bench.get_by_text("Ramping down")).to_be_visible()
+    expect_enabled(page)
+
+
+def test_space_stops_a_bench_and_never_starts_it(page: Page, lab: Lab) -> None:
+    patched = PatchedBench(page, status="run", homing=HOMED)
+    open_page(page, lab)
+    page.keyboard.press("Space")
+    expect_stage(page, "Ready")
+    page.keyboard.press("Space")
+    page.wait_for_timeout(500)
+    assert [call for call, _ in patched.calls] == ["pause"]
+
+
+def test_an_emergency_stop_is_latched_until_the_fault_is_cleared(page: Page, lab: Lab) -> None:
+    patched = PatchedBench(page, status="run", homing=HOMED)
+    open_page(page, lab)
+    page.keyboard.press("Shift+Escape")
+    banner = page.get_by_role("alert").filter(has_text="Emergency stop.")
+    expect(banner).to_contain_text("stay so until somebody clears the fault")
+    expect(page.get_by_role("list", name="To go on")).to_be_visible()
+    expect_enabled(page, "Clear fault")
+    page.reload()
+    expect(banner).to_be_visible()
+    find_bench(page).get_by_role("button", name="Clear fault").click()
+    expect(banner).to_have_count(0)
+    expect_enabled(page, "Arm")
+    assert [call for call, _ in patched.calls] == ["emergency-stop", "bench/clear"]
+
+
+def test_why_it_does_not_arm_is_told_and_everything_else_is_in_the_details(
+    page: Page, lab: Lab
+) -> None:
+    patched = PatchedBench(page, problems=["Calibration is 190 days old: at most 180."])
+    open_page(page, lab)
+    expect_enabled(page)
+    problems = page.get_by_role("region", name="Why it does not arm")
+    expect(problems.get_by_text("at most 180")).to_be_visible()
+    expect(page.get_by_role("region", name="Calibration")).to_contain_text("Ada Lovelace")
+    loop = page.get_by_role("region", name="Control loop")
+    expect(loop.get_by_role("img")).to_have_accessible_name(re.compile("99 % up to 71 µs"))
+    expect(loop.get_by_text("memory locked")).to_be_visible()
+    patched.change(ages_s=[0.0012, 0.008, 0.03], supervised=False)
+    drives = page.get_by_role("region", name="Drives and encoders")
+    expect(drives.get_by_role("row", name=re.compile("Motor 2"))).to_contain_text("stale")
+    expect(drives.get_by_role("row", name=re.compile("Deflection"))).to_contain_text("lost")
+    expect(drives.get_by_text("no heartbeat")).to_be_visible()
+
+
+def test_the_status_bar_tells_the_lateness_of_a_bench(page: Page, lab: Lab) -> None:
+    patched = PatchedBench(page)
+    open_page(page, lab)
+    bar = page.get_by_role("region", name="Status", exact=True)
+    expect(bar.get_by_text("late 24 µs / 71 µs · 3 ticks skipped")).to_be_visible()
+    patched.change(loop=BENCH["loop"] | {"alive": False})
+    expect(bar.get_by_text("Loop is dead")).to_be_visible()
+
+
+def test_on_a_real_bench_the_load_button_only_marks(page: Page, lab: Lab) -> None:
+    PatchedBench(page, emulated=False, status="run", homing=HOMED)
+    open_page(page, lab)
+    page.get_by_role("button", name=re.compile("I hung 3 kg")).click()
+    expect(page.get_by_role("button", name=re.compile("I took 3 kg off"))).to_be_visible()
+    assert lab.read()["loads"][0]["load"]["kind"] == "mass"
+
+
+def test_the_work_is_seen_without_scrolling_on_a_running_bench(page: Page, lab: Lab) -> None:
+    PatchedBench(page, status="run", homing=HOMED)
+    open_page(page, lab)
+    parts = [
+        find_bench(page),
+        page.get_by_role("button", name="Emergency stop"),
+        page.get_by_role("button", name=re.compile("Hang 3 kg")),
+        page.get_by_role("region", name="Disturbance", exact=True),
+        page.locator("iframe"),
+    ]
+    for part in parts:
+        expect(part).to_be_in_viewport(ratio=1)

@@ -1,0 +1,138 @@
+"""Status bar, emergency stop and keyboard of a simulated session, against a real server."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.test_page import open_page
+from tests.lab import Lab, run_lab
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(autouse=True)
+def alone(lab: Lab) -> None:
+    """One lane and no recording, whatever a test before left."""
+    lab.client.delete(lab.session + "/recording")
+    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+
+
+def wait_for_status(page: Page, lab: Lab, status: str) -> None:
+    for _ in range(50):
+        if lab.read()["status"] == status:
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError(f"the session is {lab.read()['status']}, not {status}")
+
+
+def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    bar = page.get_by_role("region", name="Status", exact=True)
+    expect(bar).to_be_in_viewport(ratio=1)
+    for words in ("Running", "1000 Hz", "real time", "Recording", "Live"):
+        expect(bar.get_by_text(words).first).to_be_visible()
+    stop = bar.get_by_role("button", name="Emergency stop")
+    box = stop.bounding_box()
+    assert box is not None
+    assert box["width"] >= 120
+    assert box["height"] >= 36
+    page.set_viewport_size({"width": 420, "height": 800})
+    expect(stop).to_be_in_viewport(ratio=1)
+
+
+def test_the_emergency_stop_pauses_a_simulation_and_tells_how_to_go_on(
+    page: Page, lab: Lab
+) -> None:
+    open_page(page, lab)
+    page.get_by_role("button", name="Emergency stop").click()
+    expect(page.get_by_role("alert").get_by_text("Emergency stop.")).to_be_visible()
+    assert lab.read()["status"] == "paused"
+    page.reload()
+    expect(page.get_by_role("alert").get_by_text("press Run")).to_be_visible()
+    page.get_by_role("button", name="Run", exact=True).click()
+    expect(page.get_by_role("alert").get_by_text("Emergency stop.")).to_have_count(0)
+
+
+def test_shift_escape_stops_from_a_text_field_and_from_the_3d_view(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
+    field.fill("0.3")
+    field.press("Shift+Escape")
+    wait_for_status(page, lab, "paused")
+    lab.client.post(lab.session + "/start").raise_for_status()
+    view = page.frame_locator("iframe").locator("body")
+    view.evaluate("body => { body.tabIndex = 0; body.focus(); }")
+    page.keyboard.press("Shift+Escape")
+    wait_for_status(page, lab, "paused")
+
+
+def test_a_stop_that_is_not_confirmed_says_so_and_is_asked_again(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    page.route("**/emergency-stop", lambda route: route.abort())
+    page.get_by_role("button", name="Emergency stop").click()
+    expect(page.get_by_role("alert").get_by_text("not confirmed")).to_be_visible()
+    page.unroute("**/emergency-stop")
+    wait_for_status(page, lab, "paused")
+    expect(page.get_by_role("alert").get_by_text("not confirmed")).to_have_count(0)
+
+
+def test_a_locked_page_says_that_its_stop_was_refused(page: Page) -> None:
+    with run_lab(secret="correct horse battery") as lab:
+        page.goto(lab.url)
+        page.get_by_label("Secret").fill("half a sec")
+        page.keyboard.press("Shift+Escape")
+        dialog = page.get_by_role("dialog")
+        expect(dialog.get_by_role("alert").get_by_text("stop was refused")).to_be_visible()
+        expect(dialog.get_by_role("button", name="Emergency stop")).to_be_visible()
+        assert lab.read()["status"] == "running"
+
+
+def test_keys_command_the_page(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    page.keyboard.press("Space")
+    expect(page.get_by_role("button", name="Run", exact=True)).to_be_visible()
+    page.keyboard.press("Space")
+    expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
+    wait_for_status(page, lab, "running")
+    page.keyboard.press("l")
+    expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    page.keyboard.press("c")
+    expect(page.get_by_role("switch", name=re.compile("^Compare with"))).to_be_checked()
+    page.keyboard.press("r")
+    expect(page.get_by_role("button", name=re.compile("^Recording"))).to_be_visible()
+    page.keyboard.press("r")
+    expect(page.get_by_role("button", name="Record", exact=True)).to_be_visible()
+
+
+def test_keys_typed_into_a_field_stay_there(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
+    field.focus()
+    for key in ("Space", "l", "c", "?"):
+        page.keyboard.press(key)
+    page.wait_for_timeout(500)
+    state = lab.read()
+    assert state["status"] == "running"
+    assert state["loads"] == []
+    assert len(state["lanes"]) == 1
+    expect(page.get_by_role("dialog", name="Keyboard")).to_have_count(0)
+
+
+def test_the_help_sheet_opens_closes_and_switches_single_keys_off(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    opener = page.get_by_role("button", name="Keyboard shortcuts")
+    opener.focus()
+    page.keyboard.press("?")
+    sheet = page.get_by_role("dialog", name="Keyboard")
+    expect(sheet).to_be_visible()
+    expect(page.get_by_role("button", name="Emergency stop")).to_be_in_viewport(ratio=1)
+    sheet.get_by_role("checkbox", name="Single keys").uncheck()
+    page.keyboard.press("Escape")
+    expect(sheet).to_have_count(0)
+    expect(opener).to_be_focused()
+    page.keyboard.press("l")
+    page.wait_for_timeout(500)
+    assert lab.read()["loads"] == []
+    page.keyboard.press("Shift+Escape")
+    wait_for_status(page, lab, "paused")

@@ -1,0 +1,100 @@
+"""The time of frames in the loop's own clock, and waits on absolute deadlines."""
+
+import time
+
+import can
+import pytest
+
+from svsa.hardware.clock import DRIFT, ClockError, LockstepClock, WallClock
+from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
+
+
+class Adapter:
+    """A bus that answers as a rig in lockstep, or not at all."""
+
+    def __init__(self, answers: bool = True) -> None:
+        self.asked: list[int] = []
+        self._waiting: list[can.Message] = []
+        self._answers = answers
+
+    def send(self, message: can.Message) -> None:
+        self.asked.append(decode_time(message.data))
+        if self._answers:
+            data = encode_time(max(self.asked))
+            self._waiting += [
+                can.Message(arbitration_id=0x01B, is_extended_id=False, data=b"\x00" * 8),
+                can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=data),
+            ]
+
+    def recv(self, timeout: float) -> can.Message | None:
+        return self._waiting.pop(0) if self._waiting else None
+
+
+def test_waits_until_a_deadline_and_not_for_one_that_is_past() -> None:
+    clock = WallClock()
+    deadline = clock.now() + 0.02
+    clock.wait_until(deadline)
+    late = clock.now()
+    assert late >= deadline
+    clock.wait_until(deadline - 10.0)
+    assert clock.now() - late < 1.0
+
+
+def test_frames_stamped_with_the_time_of_day() -> None:
+    clock = WallClock()
+    clock.bind(None)  # pyright: ignore[reportArgumentType]
+    now, of_day = time.monotonic(), time.time()
+    assert clock.convert(of_day - 0.003, now) == pytest.approx(now - 0.003, abs=0.5)
+    one = clock.convert(of_day - 0.003, now)
+    assert clock.convert(of_day - 0.001, now) - one == pytest.approx(0.002, abs=0.01)
+
+
+def test_frames_stamped_by_a_clock_of_its_own() -> None:
+    """Origin 7 s after start-up: the frame that waited least tells how far apart they are."""
+    clock = WallClock()
+    clock.bind(None)  # pyright: ignore[reportArgumentType]
+    for tick in range(100):
+        sent = 1000.0 + 0.001 * tick
+        waited = 0.0009 - 1e-5 * (tick % 90)
+        told = clock.convert(sent - 993.0, sent + waited)
+    assert told == pytest.approx(sent, abs=2e-5)
+
+
+def test_a_drifting_clock_is_followed() -> None:
+    """An adapter that is 100 ppm slow for an hour would look 0.36 s late, were it not."""
+    clock = WallClock()
+    clock.bind(None)  # pyright: ignore[reportArgumentType]
+    for tick in range(36_000):
+        arrival = 50.0 + 0.1 * tick
+        told = clock.convert(7.0 + 0.1 * tick * (1.0 - 0.5 * DRIFT), arrival)
+    assert told == pytest.approx(arrival, abs=1e-4)
+
+
+def test_late_frames_are_told_as_late_and_a_new_origin_is_found() -> None:
+    clock = WallClock()
+    clock.bind(None)  # pyright: ignore[reportArgumentType]
+    clock.convert(1.0, 100.0)
+    assert clock.convert(1.01, 100.04) == pytest.approx(100.01, abs=1e-4), "30 ms late"
+    assert clock.convert(0.0, 101.0) == pytest.approx(101.0), "the adapter has started anew"
+    assert clock.convert(0.5, 101.5) == pytest.approx(101.5, abs=1e-3)
+
+
+def test_lockstep_lets_the_rig_go_on_and_keeps_its_frames() -> None:
+    clock, bus = LockstepClock(), Adapter()
+    clock.bind(bus)  # pyright: ignore[reportArgumentType]
+    assert clock.now() == 0.0
+    clock.wait_until(0.0015)
+    assert bus.asked[-1] == 1500
+    assert clock.now() == 0.0015
+    clock.wait_until(0.001)
+    assert bus.asked[-1] == 1500, "no going back"
+    assert len(clock.take_frames()) == 2
+    assert clock.take_frames() == []
+    assert clock.convert(1.25, 3.0) == 1.25
+
+
+def test_a_rig_that_does_not_answer_is_an_error() -> None:
+    with pytest.raises(ClockError, match="lockstep"):
+        LockstepClock().wait_until(1.0)
+    with pytest.raises(ClockError, match="lockstep"):
+        LockstepClock().bind(Adapter(answers=False))  # pyright: ignore[reportArgumentType]

@@ -1,0 +1,43 @@
+"""Heartbeats across processes: seen at once, and left alone by who only reads."""
+
+import math
+import subprocess
+import sys
+
+from svsa.hardware.heartbeat import SLOTS, Heartbeats
+
+BEAT = """
+import sys
+from svsa.hardware.heartbeat import Heartbeats
+beats = Heartbeats.attach(sys.argv[1])
+assert beats.age_s("server") < 60.0
+beats.beat("loop")
+beats.close()
+"""
+
+
+def test_before_its_first_beat_a_slot_is_infinitely_old() -> None:
+    beats = Heartbeats.create()
+    try:
+        assert {beats.age_s(slot) for slot in SLOTS} == {math.inf}
+        beats.beat("operator")
+        assert 0.0 <= beats.age_s("operator") < 60.0
+        assert beats.age_s("supervisor") == math.inf, "slots do not touch each other"
+        beats.end("operator")
+        assert beats.age_s("operator") == math.inf
+    finally:
+        beats.close()
+
+
+def test_another_process_beats_and_its_end_does_not_remove_the_block() -> None:
+    beats = Heartbeats.create()
+    try:
+        beats.beat("server")
+        for _ in range(2):
+            done = subprocess.run(
+                [sys.executable, "-c", BEAT, beats.name], capture_output=True, text=True, timeout=60
+            )
+            assert (done.returncode, done.stderr) == (0, "")
+        assert 0.0 <= beats.age_s("loop") < 60.0
+    finally:
+        beats.close()

@@ -1,0 +1,158 @@
+"""The rig as a process: its ready line, its control port, lockstep over a real socket."""
+
+import json
+import socket
+import time
+
+import pytest
+
+from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, encode_time
+from svsa.plant.disturbances import ConstantLoad, MassLoad
+from svsa.rig.control import RigError
+from svsa.rig.faults import Silence
+from svsa.rig.launch import start_rig
+
+HANG_S = 60.0
+
+
+class Wire:
+    """A socketcand client of a few lines, so that the rig is tested without our own plant."""
+
+    def __init__(self, port):
+        self._socket = socket.create_connection(("127.0.0.1", port), HANG_S)
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._text = ""
+        assert self.read() == ["hi"]
+        for command in ("open rig", "rawmode"):
+            self._socket.sendall(f"< {command} >".encode())
+            assert self.read() == ["ok"]
+
+    def read(self):
+        while ">" not in self._text:
+            chunk = self._socket.recv(65536)
+            assert chunk, "the rig has closed the connection"
+            self._text += chunk.decode()
+        head, _, self._text = self._text.partition(">")
+        return head.strip("< ").split()
+
+    def send(self, can_id, data):
+        name = f"{can_id:08X}" if can_id > 0x7FF else f"{can_id:03X}"
+        spaced = data.hex(" ").upper()
+        self._socket.sendall(f"< send {name} {len(data)} {spaced} >".encode())
+
+    def advance(self, time_us):
+        """Ask for that time; all that is said until the echo."""
+        self.send(ADVANCE_ID, encode_time(time_us))
+        said = []
+        while True:
+            words = self.read()
+            said.append(words)
+            if words[1] == f"{ADVANCE_ID:08X}":
+                assert int(words[3], 16) == time_us
+                return said
+
+    def close(self):
+        self._socket.close()
+
+
+@pytest.fixture
+def rig():
+    with start_rig(lockstep=True) as running:
+        yield running
+
+
+def test_in_lockstep_time_stands_until_it_is_asked_to_go_on(rig):
+    wire = Wire(rig.port)
+    time.sleep(0.05)
+    assert rig.control.read_state()["time_s"] == 0.0
+    said = wire.advance(10_000)
+    assert sum(words[1] == "700" for words in said) == 10
+    assert rig.control.read_state()["time_s"] == pytest.approx(0.010)
+    emulation = {f"{ADVANCE_ID:08X}", f"{EMULATED_ID:08X}"}
+    assert {words[1] for words in wire.advance(10_000)} <= emulation
+    assert rig.control.read_state()["time_s"] == pytest.approx(0.010)
+    wire.close()
+
+
+def test_lockstep_over_the_wire_is_the_same_to_the_byte():
+    def record():
+        with start_rig(lockstep=True) as running:
+            wire = Wire(running.port)
+            said = []
+            wire.send(0x000, b"\x55" * 8)
+            said += wire.advance(600_000)
+            for number in (1, 2):
+                wire.send(number << 4 | 0xA, b"\x01\x00" + b"\x55" * 6)
+                wire.send(number << 4 | 0x1, b"\x02" + b"\x55" * 7)
+            said += wire.advance(1_200_000)
+            for tick in range(1, 100):
+                for number in (1, 2):
+                    current = (400 if tick // 20 % 2 else -400).to_bytes(2, "big", signed=True)
+                    wire.send(number << 4 | 0x3, b"\x13\x88" + current + b"\x55" * 4)
+                said += wire.advance(1_200_000 + 1000 * tick)
+            wire.close()
+            return said
+
+    first, second = record(), record()
+    assert first == second
+    assert len(first) > 1500
+
+
+def test_a_client_is_told_that_this_is_an_emulation(rig):
+    wire = Wire(rig.port)
+    assert f"{EMULATED_ID:08X}" in {words[1] for words in wire.advance(150_000)}
+    wire.close()
+
+
+def test_loads_and_faults_are_told_over_the_control_port(rig):
+    rig.control.load(MassLoad())
+    rig.control.load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)), at_s=0.05)
+    rig.control.fault(Silence(node="motor1"), at_s=0.02)
+    wire = Wire(rig.port)
+    wire.advance(10_000)
+    assert rig.control.read_state()["drives"]["motor1"]["powered"]
+    wire.advance(30_000)
+    state = rig.control.read_state()
+    assert not state["drives"]["motor1"]["powered"]
+    assert state["x"]["q"] == 0.0
+    wire.advance(80_000)
+    assert rig.control.read_state()["x"]["q"] > 0.01
+    wire.close()
+
+
+def test_what_the_control_port_does_not_understand_is_answered_with_why(rig):
+    lines = (
+        b"nonsense",
+        b"[]",
+        b"{}",
+        b'{"do": "explode"}',
+        b'{"do": "load"}',
+        b'{"do": "load", "load": {"kind": "mass"}, "at_s": "soon"}',
+        b'{"do": "fault", "fault": {"kind": "stall", "node": "deflection"}}',
+        b"\xff\xfe",
+    )
+    with socket.create_connection(("127.0.0.1", rig.control_port), HANG_S) as client:
+        answers = client.makefile()
+        for line in lines:
+            client.sendall(line + b"\n")
+            told = json.loads(answers.readline())
+            assert told["ok"] is False, line
+            assert told["message"], line
+    with pytest.raises(RigError):
+        rig.control.ask("explode")
+    assert rig.control.read_state()["time_s"] == 0.0
+
+
+def test_against_the_clock_time_goes_on_by_itself():
+    with start_rig(lockstep=False) as running:
+        deadline = time.monotonic() + HANG_S
+        while running.control.read_state()["time_s"] < 0.1:
+            assert time.monotonic() < deadline
+
+
+def test_it_ends_when_told_and_when_idle():
+    with start_rig(lockstep=True) as running:
+        process = running.process
+    assert process.returncode == 0
+    with start_rig(True, 0.3) as running:
+        assert running.process.wait(HANG_S) == 0

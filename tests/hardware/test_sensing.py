@@ -1,0 +1,168 @@
+"""What the plant makes of a bench: signs and zeros, ages, gaps on the wire, any frame at all."""
+
+import math
+from itertools import pairwise
+
+import can
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from svsa.hardware.bench import read_bench
+from svsa.hardware.calibration import Calibration, compute_fingerprint
+from svsa.hardware.drive import COMMAND_GATE_S
+from svsa.hardware.machine import BenchStatus
+from svsa.hardware.robomodule import Command, split_id
+from svsa.rig.parameters import RigDeflection, RigParameters
+from svsa.signals import State, Torque
+from tests.hardware import wired_bench
+from tests.hardware.wired_bench import AT_REST, RIG_BENCH, WiredBench
+
+PUSH = Torque(0.8, 0.25)
+HOLD = Torque(0.02, 0.01)  # less than the friction holds: the axes stay at their marks
+ZERO_COUNTS = -2500
+COUNT1_RAD = 2.0 * math.pi / 2000 / 50
+COUNT_PHI_RAD = 2.0 * math.pi / 8000
+
+
+def build_bench(monkeypatch, signs, zero):
+    """A rig and a bench file of these signs (motor 1, motor 2, deflection), and its record."""
+    parameters, bench = RigParameters(), read_bench(RIG_BENCH)
+    for part, sign in zip(("motor1", "motor2", "deflection"), signs, strict=True):
+        turned = getattr(parameters, part).changed(sign=sign)
+        parameters = parameters.changed(**{part: turned})
+        bench = bench.changed(**{part: getattr(bench, part).changed(sign=sign)})
+    assert isinstance(parameters.deflection, RigDeflection)
+    deflection = parameters.deflection.changed(offset_counts=zero)
+    parameters = parameters.changed(deflection=deflection)
+    calibration = Calibration(
+        date="2026-01-02T03:04:05+00:00",
+        by="a test",
+        fingerprint=compute_fingerprint(bench),
+        deflection_zero_counts=zero,
+        signs_confirmed=True,
+    )
+    monkeypatch.setattr(wired_bench, "find_calibration", lambda _: calibration)
+    return WiredBench(bench, parameters)
+
+
+@pytest.mark.parametrize("signs", [(1, 1, 1), (-1, -1, -1), (1, -1, 1), (-1, 1, -1)])
+def test_whatever_the_wiring_a_positive_torque_grows_the_angle_and_all_is_measured_as_it_is(
+    signs, monkeypatch
+):
+    """The truth is the rig's, at the very moment of the reading; the bench knows its velocity.
+
+    Half a count of rounding, and what a velocity changes within the age of a frame.
+    """
+    with build_bench(monkeypatch, signs, ZERO_COUNTS) as b:
+        b.make_run()
+        for _ in range(60):
+            b.tick(1, PUSH, known=b.rig.mechanics.read(b.rig.now_us))
+            truth: State = b.rig.mechanics.read(b.rig.now_us)
+            y = b.plant.read(b.now, truth).measurement
+            assert y is not None
+            assert y.theta1 == pytest.approx(truth.theta1, abs=COUNT1_RAD)
+            assert y.theta2 == pytest.approx(truth.theta2, abs=COUNT1_RAD)
+            assert y.phi == pytest.approx(truth.q - truth.theta1, abs=COUNT_PHI_RAD)
+        assert truth.theta1 > 20.0 * COUNT1_RAD
+        assert truth.theta2 > 20.0 * COUNT1_RAD
+        assert b.plant.fault is None
+
+
+def test_without_the_velocity_the_age_of_a_frame_is_an_error_many_times_a_count(monkeypatch):
+    """That the reading is moved on to now matters: the same reading, taken as it is."""
+    with build_bench(monkeypatch, (1, 1, 1), 0) as b:
+        b.make_run()
+        for _ in range(60):
+            b.tick(1, PUSH, known=b.rig.mechanics.read(b.rig.now_us))
+        truth = b.rig.mechanics.read(b.rig.now_us)
+        y = b.plant.read(b.now, AT_REST).measurement
+        assert y is not None
+        assert truth.theta1 - y.theta1 > 3.0 * COUNT1_RAD
+
+
+def test_what_has_not_been_heard_of_is_not_measured():
+    """Off, after a reset: the last angles of a drive say nothing, nor do its currents."""
+    with WiredBench() as b:
+        b.tick(5)
+        assert b.reading is not None
+        assert b.reading.measurement is None
+        b.make_run(PUSH)
+        assert b.reading.measurement is not None
+        b.plant.emergency_stop(b.now, "a test")
+        b.tick(100)
+        assert b.reading.measurement is None
+        assert b.reading.current_a == (0.0, 0.0)
+        assert min(b.reading.ages_s[:2]) > 0.02
+
+
+def list_gaps(b, number):
+    """Between the commands that reached a drive, s; a broadcast is one to every drive."""
+    times = [
+        sent.time_s
+        for sent in b.clock.sent
+        if sent.can_id <= 0x7FF
+        and split_id(sent.can_id)[0].number in (0, number)
+        and split_id(sent.can_id)[1] <= Command.CONFIG
+    ]
+    return [later - earlier for earlier, later in pairwise(times)]
+
+
+def test_no_drive_ever_gets_two_commands_within_a_millisecond():
+    """Through arming, running, a fault, clearing and arming in one breath, and the end."""
+    b = WiredBench()
+    b.plant.arm(b.now)
+    b.tick_until(BenchStatus.READY)
+    b.make_run(HOLD)
+    b.plant.stop(b.now, "a test")
+    b.tick_until(BenchStatus.READY, torque=HOLD)
+    b.plant.start(b.now)
+    b.tick(5, HOLD)
+    b.plant.emergency_stop(b.now, "a test")
+    b.tick(1, HOLD)
+    b.plant.clear(b.now)
+    b.make_run(HOLD)
+    b.plant.emergency_stop(b.now, "a test")
+    b.tick(5, HOLD)
+    b.plant.clear(b.now)
+    b.make_run(HOLD)
+    b.plant.close()
+    b.clock.collect()
+    b.wire.shutdown()
+    for number in (1, 2):
+        gaps = list_gaps(b, number)
+        assert len(gaps) > 100
+        assert min(gaps) >= COMMAND_GATE_S - 1e-9
+
+
+FRAMES = st.builds(
+    can.Message,
+    timestamp=st.floats(allow_nan=False, allow_infinity=False),
+    arbitration_id=st.one_of(
+        st.sampled_from([0x01B, 0x02B, 0x01D, 0x02D, 0x01F, 0x700, 0x013, 0x000]),
+        st.integers(0, 0x7FF),
+    ),
+    is_extended_id=st.booleans(),
+    is_remote_frame=st.booleans(),
+    is_error_frame=st.booleans(),
+    data=st.binary(max_size=8),
+)
+
+
+@settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(frames=st.lists(FRAMES, max_size=20))
+def test_no_frame_whatever_breaks_the_tick(frames):
+    """Whatever is on the bus, a tick reads, writes, and what it sends is zero or the limits'."""
+    with WiredBench() as b:
+        b.plant.arm(b.now)
+        b.tick(3)
+        for frame in frames:
+            if frame.is_remote_frame:
+                frame.data = bytearray()
+            b.wire.send(frame)
+            b.tick(1, PUSH)
+        assert b.reading is not None
+        assert all(age >= 0.0 for age in b.reading.ages_s)
+        assert {current for _, _, current in b.read_currents()} <= {0}
