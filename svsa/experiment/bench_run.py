@@ -18,7 +18,7 @@ from svsa.hardware.can_plant import CanPlant
 from svsa.hardware.clock import LockstepClock
 from svsa.hardware.machine import BenchStatus
 from svsa.rig.launch import RunningRig, start_rig
-from svsa.runtime.configuration import Law
+from svsa.runtime.configuration import Configuration, Law
 from svsa.runtime.realtime.configuration import build_bench_configuration, build_guard
 from svsa.runtime.realtime.loop import BenchLoop
 from svsa.signals import CHANNELS
@@ -49,9 +49,12 @@ class SampleArray:
 
 
 class LockstepBench:
-    """The emulated rig behind the bench's own loop, a tick at a time. A context manager."""
+    """The emulated rig behind the bench's own loop, a tick at a time.
 
-    def __init__(self, rig: RunningRig, figure: Figure, law: Law, ticks: int) -> None:
+    wanted: law, references and loads of the run. ticks: how many samples are kept.
+    """
+
+    def __init__(self, rig: RunningRig, wanted: Configuration, ticks: int) -> None:
         self.rig = rig
         self.bench = connect_bench(rig)
         self.sink = SampleArray(ticks)
@@ -59,7 +62,6 @@ class LockstepBench:
         calibration, guard = find_calibration(self.bench), build_guard(self.bench)
         self.plant = CanPlant(self.bench, calibration, self._clock, guard)
         self.plant.open()
-        wanted = figure.build_configuration(law)
         self.configuration = build_bench_configuration(self.bench, wanted)
         self.loop = BenchLoop(self.plant, self.bench, self.configuration, self.sink)
         self._deadline = self.now()
@@ -117,7 +119,7 @@ def run_on_rig(
     Raises `FaultError` where the run ends in a fault.
     """
     with start_rig(lockstep=True) as rig:
-        bench = LockstepBench(rig, figure, law, round(duration_s / 0.001))
+        bench = LockstepBench(rig, figure.build_configuration(law), round(duration_s / 0.001))
         try:
             bench.prepare()
             bench.start()

@@ -49,7 +49,8 @@ _FOUND = {
     "static_ratio": ("static_ratio", "τ_s/τ_c", "1"),
     "stribeck_rad_per_s": ("stribeck", "v_s", "rad/s"),
     "link_gravity_moment_nm": ("gravity_moment", "m g r", "N·m"),
-    "torque_delay_s": ("delay", "delay of u", "s"),
+    "torque1_delay_s": ("delay1", "delay of u1", "s"),
+    "torque2_delay_s": ("delay2", "delay of u2", "s"),
 }
 ACTUATOR = tuple(name for name in _FOUND if name in ActuatorParameters.model_fields)
 

@@ -37,7 +37,7 @@ Progress = Callable[[float], None]
 class Fit(NamedTuple):
     """What was found.
 
-    values, deviations: (15,) of `Parameters` and their standard deviations; to what the
+    values, deviations: (16,) of `Parameters` and their standard deviations; to what the
     record gives a ten-thousandth of the value is added, for torques between samples. residual:
     (3,) rms of θ1, θ2, φ that the model does not explain, rad. used, dropped: segments; dropped
     are those that the model explains far worse than the others.

@@ -16,7 +16,10 @@ _WINDOW_S = 0.012
 _CREEP_RAD_PER_S = 0.05
 _LEAST = 1e-5
 _SMOOTH_ROWS = 11
-_SHAPE = {"static_ratio": 1.2, "stribeck": 0.1, "creep1": 0.02, "creep2": 0.02, "delay": 0.0}
+_SHAPE = {"static_ratio": 1.2, "stribeck": 0.1, "creep1": 0.02, "creep2": 0.02} | {
+    "delay1": 0.0,
+    "delay2": 0.0,
+}
 
 
 def guess_states(evidence: Evidence) -> np.ndarray:

@@ -47,7 +47,8 @@ class Parameters(NamedTuple):
     """All that is estimated, in SI units, in the order of the vector of unknowns.
 
     M … K: see `Actuator`. coulomb, static_ratio, stribeck, creep: of `compute_friction`.
-    gravity_moment: m g r of the link, N·m. delay: from the recorded torque to the motors', s.
+    gravity_moment: m g r of the link, N·m. delay1, delay2: from a recorded torque to the
+    motor's, s: drives that are told one after the other act one after the other.
     """
 
     M: float
@@ -64,33 +65,39 @@ class Parameters(NamedTuple):
     creep1: float
     creep2: float
     gravity_moment: float
-    delay: float
+    delay1: float
+    delay2: float
 
 
 @compiled
 def build_parameters(p):
-    """The vector of unknowns (15,) as `Parameters`."""
+    """The vector of unknowns (16,) as `Parameters`."""
     return Parameters(
         p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], p[13],
-        p[14],
+        p[14], p[15],
     )  # fmt: skip
 
 
 @compiled
-def compute_shifted_torque(torques, row, shift):
-    """The torque at the sample `row` of a recorded one that is late, N·m.
+def compute_late_value(torques, row, motor, shift):
+    """A motor's torque at the sample `row` of a recorded one that is late, N·m.
 
-    torques: (rows, 2), N·m. shift: by how many periods; between two samples on the straight
-    line, beyond the ends the last.
+    torques: (rows, 2), N·m. motor: 0 or 1. shift: by how many periods; between two samples on
+    the straight line, beyond the ends the last.
     """
     whole = math.floor(shift)
     share = shift - whole
     last = torques.shape[0] - 1
     late = min(max(row - int(whole), 0), last)
     later = min(max(row - int(whole) - 1, 0), last)
+    return (1.0 - share) * torques[late, motor] + share * torques[later, motor]
+
+
+@compiled
+def compute_shifted_torque(torques, row, shift1, shift2):
+    """Both motors' `Torque` at the sample `row`, each late by its own shift, periods."""
     return Torque(
-        (1.0 - share) * torques[late, 0] + share * torques[later, 0],
-        (1.0 - share) * torques[late, 1] + share * torques[later, 1],
+        compute_late_value(torques, row, 0, shift1), compute_late_value(torques, row, 1, shift2)
     )
 
 
@@ -98,7 +105,7 @@ def compute_shifted_torque(torques, row, shift):
 def simulate(setting, p, start, torques, first, outputs):
     """θ1, θ2, φ of the plant from the sample `first` on: outputs (samples, 3), rad, written.
 
-    p: (15,) see `Parameters`. start: (6,) the state at the first sample. torques: of the
+    p: (16,) see `Parameters`. start: (6,) the state at the first sample. torques: of the
     whole record, `Torques`.
     """
     c = build_parameters(p)
@@ -111,13 +118,13 @@ def simulate(setting, p, start, torques, first, outputs):
         c.gravity_moment,
     )  # fmt: skip
     x = State(start[0], start[1], start[2], start[3], start[4], start[5])
-    shift = c.delay / setting.period
+    shift1, shift2 = c.delay1 / setting.period, c.delay2 / setting.period
     for k in range(outputs.shape[0]):
         outputs[k, 0] = x.theta1
         outputs[k, 1] = x.theta2
         outputs[k, 2] = x.q - x.theta1
-        made = compute_shifted_torque(torques.made, first + k, shift)
-        asked = compute_shifted_torque(torques.asked, first + k, shift)
+        made = compute_shifted_torque(torques.made, first + k, shift1, shift2)
+        asked = compute_shifted_torque(torques.asked, first + k, shift1, shift2)
         x = integrate_period(
             actuator, bench, x, made, asked, setting.loads, first + k, setting.period, 1
         )
@@ -127,7 +134,7 @@ def simulate(setting, p, start, torques, first, outputs):
 def differentiate(setting, p, start, steps, torques, first, outputs, slopes):
     """`simulate`, and the difference quotients by every unknown and by the start.
 
-    steps: (15 + 6,) of the quotients. outputs: (samples, 3), slopes: (15 + 6, samples, 3),
+    steps: (16 + 6,) of the quotients. outputs: (samples, 3), slopes: (16 + 6, samples, 3),
     both written.
     """
     unknowns = p.shape[0]

@@ -29,23 +29,24 @@ _HELD = 1e-6
 # that it decides only where the record says nothing.
 _WIDTHS = Parameters(
     M=0.1, B1=0.1, B2=0.1, D=0.1, D1=0.1, D2=0.1, K=100.0, coulomb1=1.0, coulomb2=1.0,
-    static_ratio=0.5, stribeck=0.1, creep1=0.02, creep2=0.02, gravity_moment=5.0, delay=0.002,
+    static_ratio=0.5, stribeck=0.1, creep1=0.02, creep2=0.02, gravity_moment=5.0, delay1=0.002,
+    delay2=0.002,
 )  # fmt: skip
 _LEAST = Parameters(
     M=1e-6, B1=1e-6, B2=1e-6, D=0.0, D1=0.0, D2=0.0, K=1e-3, coulomb1=0.0, coulomb2=0.0,
     static_ratio=1.0, stribeck=1e-3, creep1=1e-3, creep2=1e-3,
-    gravity_moment=-_INFINITE, delay=-0.01,
+    gravity_moment=-_INFINITE, delay1=-0.01, delay2=-0.01,
 )  # fmt: skip
 _MOST = Parameters(
     *(_INFINITE,) * UNKNOWNS,
-)._replace(static_ratio=5.0, stribeck=10.0, creep1=1.0, creep2=1.0, delay=0.01)
+)._replace(static_ratio=5.0, stribeck=10.0, creep1=1.0, creep2=1.0, delay1=0.01, delay2=0.01)
 _ALWAYS_POSITIVE = np.array([least > 0.0 for least in _LEAST])
 _MOST_FACTOR = 3.0
 _CREEP_SHARE = 0.5
 
 
 class Point(NamedTuple):
-    """values: (15,) of `Parameters`. starts: (segments, 6), the state at each first row."""
+    """values: (16,) of `Parameters`. starts: (segments, 6), the state at each first row."""
 
     values: np.ndarray
     starts: np.ndarray
@@ -54,7 +55,7 @@ class Point(NamedTuple):
 class Normal(NamedTuple):
     """The normal equations of every segment, of its parameters and its start state.
 
-    information: (segments, 21, 21). score: (segments, 21). squares: (segments, 3), the sum
+    information: (segments, 22, 22). score: (segments, 22). squares: (segments, 3), the sum
     of the squared errors of θ1, θ2, φ, rad².
     """
 
@@ -92,7 +93,7 @@ class Problem:
 
     @property
     def prior_weight(self) -> np.ndarray:
-        """(15,) the information that the prior adds to each parameter."""
+        """(16,) the information that the prior adds to each parameter."""
         return self._widths**-2.0
 
     def compute_cost(self, squares: np.ndarray, values: np.ndarray) -> float:
@@ -152,7 +153,7 @@ class Problem:
         )
 
     def sum_up(self, reduced: Reduced, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Information (15, 15) and score (15,) of the parameters: all segments and the prior."""
+        """Information (16, 16) and score (16,) of the parameters: all segments and the prior."""
         weight = self.prior_weight
         score = reduced.score.sum(axis=0) + weight * (self._centre - values)
         return reduced.information.sum(axis=0) + np.diag(weight), score

@@ -9,6 +9,8 @@ from svsa.errors import SvsaError
 from svsa.hardware.bench import BusSettings
 
 _ANSWER_S = 5.0
+DELIVERY_S = 0.05
+"""How long a bus stays open after the last frame: closing a socket may take back what was sent."""
 
 
 class BusError(SvsaError):
@@ -25,6 +27,7 @@ def open_bus(settings: BusSettings) -> can.BusABC:
     before = socket.getdefaulttimeout()
     socket.setdefaulttimeout(_ANSWER_S)
     try:
+        _ask_for_server(settings)
         return can.Bus(
             interface=settings.interface,
             channel=settings.channel,
@@ -39,3 +42,10 @@ def open_bus(settings: BusSettings) -> can.BusABC:
         ) from None
     finally:
         socket.setdefaulttimeout(before)
+
+
+def _ask_for_server(settings: BusSettings) -> None:
+    """Raise `OSError` where nothing listens: python-can's socketcand would go on trying."""
+    host, port = settings.options.get("host"), settings.options.get("port")
+    if settings.interface == "socketcand" and host and port:
+        socket.create_connection((host, port)).close()

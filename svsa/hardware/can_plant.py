@@ -7,7 +7,7 @@ import can
 
 from svsa.errors import Fault, StateError, SvsaError
 from svsa.hardware.bench import BenchFile
-from svsa.hardware.bus import open_bus
+from svsa.hardware.bus import DELIVERY_S, open_bus
 from svsa.hardware.calibration import Calibration, list_problems
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.conversion import build_motor_scale, compute_current_ma
@@ -151,7 +151,7 @@ class CanPlant:
         self._machine.fail(Alarm(code, message, values))
 
     def read(self, now: float, known: State) -> Reading:
-        """What has come since the last tick. known: x̂, whose velocities bridge the ages."""
+        """What has come since the last tick. known: x̂ now, whose velocities bridge the ages."""
         return self._sensing.read(self._get_bus(), now, known)
 
     def write(
@@ -242,12 +242,12 @@ class CanPlant:
                 self._try_zero(bus, drive, math.inf)
             self._pause()
             self._send_resets(bus)
-            self._pause()
+            self._pause(DELIVERY_S)
         bus.shutdown()
 
-    def _pause(self) -> None:
-        """The time that a drive needs between two commands."""
-        self._clock.wait_until(self._clock.now() + PAUSE_S)
+    def _pause(self, seconds: float = PAUSE_S) -> None:
+        """As long as a drive needs between two commands, or longer."""
+        self._clock.wait_until(self._clock.now() + seconds)
 
     def _get_bus(self) -> can.BusABC:
         if self._bus is None:

@@ -5,6 +5,7 @@ import math
 from svsa.hardware.bench import BenchFile, MotorSettings
 from svsa.hardware.conversion import build_motor_scale
 from svsa.hardware.faults import Alarm
+from svsa.hardware.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.model.domain import FAULT_CODES, INSIDE, Domain, check_domain
 from svsa.model.dynamics import Actuator
 from svsa.signals import Disturbance, State, Torque
@@ -12,6 +13,7 @@ from svsa.signals import Disturbance, State, Torque
 POSITION_MARGIN_RAD = 0.2
 WARM = 0.9
 OVERLOAD = 1.05
+_STILL = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class MotorGuard:
@@ -86,6 +88,8 @@ class Guard:
         self.motor1 = MotorGuard("motor1", bench.motor1, torque_max[0], rate)
         self.motor2 = MotorGuard("motor2", bench.motor2, torque_max[1], rate)
         self.motors = (self.motor1, self.motor2)
+        self._vibrations = (Vibration(self._period), Vibration(self._period))
+        check_domain(domain, actuator, _STILL)  # compiled here, not in the first tick that runs
 
     def limit(self, asked: Torque, known: State) -> Torque:
         """What of `asked` may be sent, N·m."""
@@ -111,7 +115,17 @@ class Guard:
         alarm = self.motor1.check(known.theta1, known.dtheta1) or self.motor2.check(
             known.theta2, known.dtheta2
         )
-        return alarm or self._check_link(known) or self._check_estimate(estimate)
+        return (
+            alarm
+            or self._check_link(known)
+            or self._check_estimate(estimate)
+            or self._check_vibration(known)
+        )
+
+    def begin(self) -> None:
+        """A new run begins."""
+        for vibration in self._vibrations:
+            vibration.reset()
 
     def _check_link(self, known: State) -> Alarm | None:
         safety = self._safety
@@ -130,6 +144,19 @@ class Guard:
             f" {values['deflection_rad']:.4f} rad, stiffness motor at {known.theta2:.4f} rad."
         )
         return Alarm(FAULT_CODES[code], message, values)
+
+    def _check_vibration(self, known: State) -> Alarm | None:
+        shakes1 = self._vibrations[0].update(known.dtheta1)
+        shakes2 = self._vibrations[1].update(known.dtheta2)
+        if not (shakes1 or shakes2):
+            return None
+        name, velocity = ("motor1", known.dtheta1) if shakes1 else ("motor2", known.dtheta2)
+        words = (
+            f"{name} shakes: it turned around {REVERSALS} times within {WINDOW_S:g} s. The loop is"
+            " unstable: an encoder stands still or counts the wrong way, feedback comes late, or"
+            " the gains are too high."
+        )
+        return Alarm("vibration", words, {f"{name}_velocity_rad_per_s": velocity})
 
     def _check_estimate(self, estimate: Disturbance) -> Alarm | None:
         most = self._safety.disturbance_max_nm

@@ -102,6 +102,7 @@ class Machine:
         if self._safety.dead_man and operator_age_s > OPERATOR_S:
             raise StateError("The dead-man's switch is not held: hold it, then start.")
         self.status, self._share, self._tick = BenchStatus.RUN, 1.0, 0
+        self._guard.begin()
 
     def stop(self) -> None:
         """Ramp to zero torque; nothing where it does not run."""

@@ -73,7 +73,7 @@ class Sensing:
         self._alarm = None
 
     def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
-        """What has come since the last tick. known: x̂, whose velocities bridge the ages."""
+        """What has come since the last tick. known: x̂ now, whose velocities bridge the ages."""
         self._drain(bus, now)
         one, two = self._drives
         heard1, heard2, heard3 = one.heard_s, two.heard_s, self._read_deflection(now)

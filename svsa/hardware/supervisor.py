@@ -17,7 +17,7 @@ import can
 
 from svsa.errors import SvsaError
 from svsa.hardware.bench import BenchFile, read_bench
-from svsa.hardware.bus import open_bus
+from svsa.hardware.bus import DELIVERY_S, open_bus
 from svsa.hardware.drive import build_broadcast_resets, build_zero_currents
 from svsa.hardware.heartbeat import Heartbeats
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
@@ -90,6 +90,7 @@ def main(arguments: list[str]) -> int:
             supervisor.watch()
             time.sleep(PERIOD_S)
         supervisor.stop_drives()
+        time.sleep(DELIVERY_S)
     except (can.CanError, OSError) as error:
         print(f"Supervisor: the bus is lost: {error}", file=sys.stderr)
         return 1

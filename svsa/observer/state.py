@@ -26,17 +26,26 @@ def correct(position, velocity, measured, decay, period):
 
 
 @compiled
-def update_state_estimate(nominal, decay, x, w, torque, measurement, period):
-    """x̂ after a sample: predicted by the nominal model with ŵ (Eq 8), then corrected.
+def predict_state(nominal, x, w, torque, period):
+    """x̂ a period later by Heun's rule on ẋ = f(x) + g(x)u + p(x)ŵ.
 
-    The prediction is Heun's rule on ẋ = f(x) + g(x)u + p(x)ŵ. nominal: `Actuator`. decay:
-    e^(−ωT) of the corner ω. x: the last x̂, `State`. w: ŵ, `Disturbance`, N·m. torque:
-    applied since, `Torque`. measurement: `Measurement` now. period: T, s.
+    nominal: `Actuator`. x: `State`. w: ŵ, `Disturbance`, N·m. torque: `Torque`. period: T, s.
     """
     load = ExternalLoad(w.w2, w.w4, w.w6, 0.0, 0.0)
     k1 = compute_rate(nominal, x, torque, load)
     k2 = compute_rate(nominal, shift(x, k1, period), torque, load)
-    x = shift(shift(x, k1, 0.5 * period), k2, 0.5 * period)
+    return shift(shift(x, k1, 0.5 * period), k2, 0.5 * period)
+
+
+@compiled
+def update_state_estimate(nominal, decay, x, w, torque, measurement, period):
+    """x̂ after a sample: predicted by the nominal model with ŵ (Eq 8), then corrected.
+
+    nominal: `Actuator`. decay: e^(−ωT) of the corner ω. x: the last x̂, `State`. w: ŵ,
+    `Disturbance`, N·m. torque: applied since, `Torque`. measurement: `Measurement` now.
+    period: T, s.
+    """
+    x = predict_state(nominal, x, w, torque, period)
     y = measurement
     q, dq = correct(x.q, x.dq, y.theta1 + y.phi, decay, period)
     theta1, dtheta1 = correct(x.theta1, x.dtheta1, y.theta1, decay, period)

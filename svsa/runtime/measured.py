@@ -1,6 +1,6 @@
 """The loop's pieces where the plant is a bench: what is measured takes the place of x.
 
-A tick on a bench is read → follow → decide → write → publish: the loop of
+A tick on a bench is foresee → read → follow → decide → write → publish: the loop of
 `svsa.runtime.loop`, cut open where the bench is read.
 """
 
@@ -9,10 +9,13 @@ from typing import NamedTuple
 
 from svsa.compilation import compiled
 from svsa.model.domain import compute_deflection_limit
+from svsa.model.dynamics import ExternalLoad, compute_acceleration
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
+from svsa.observer.state import predict_state
 from svsa.plant.drive import compute_late_torque
 from svsa.runtime.loop import observe
+from svsa.signals import State
 
 
 class Actuation(NamedTuple):
@@ -20,6 +23,25 @@ class Actuation(NamedTuple):
 
     latency: float
     lag: float
+
+
+@compiled
+def foresee(blocks, actuation, known, estimate, made, before, sent, ages):
+    """X̂ as it is expected now, with the velocities that each axis had half its age ago.
+
+    A count of age a is then brought to now by y + v(t − a/2) a, right to the second order.
+    ages: s, of motor 1, motor 2, deflection. The rest as in `follow`. Returns `State`.
+    """
+    _, applied = compute_late_torque(
+        made, before, sent, actuation.lag, actuation.latency, blocks.period
+    )
+    x = predict_state(blocks.nominal, known, estimate, applied, blocks.period)
+    load = ExternalLoad(estimate.w2, estimate.w4, estimate.w6, 0.0, 0.0)
+    a = compute_acceleration(blocks.nominal, x, applied, load)
+    motor1 = x.dtheta1 - 0.5 * ages[0] * a.ddtheta1
+    motor2 = x.dtheta2 - 0.5 * ages[1] * a.ddtheta2
+    deflection = x.dq - x.dtheta1 - 0.5 * ages[2] * (a.ddq - a.ddtheta1)
+    return State(x.q, motor1 + deflection, x.theta1, motor1, x.theta2, motor2)
 
 
 @compiled

@@ -84,7 +84,7 @@ def test_friction_and_the_delay_of_the_torque_are_found_with_it(found):
     friction = Friction()
     for name in ("coulomb1_nm", "coulomb2_nm", "static_ratio", "stribeck_rad_per_s"):
         assert found.estimates[name].value == pytest.approx(getattr(friction, name), rel=0.02)
-    assert found.estimates["torque_delay_s"].value == pytest.approx(PERIOD_S, abs=2e-5)
+    assert found.estimates["torque1_delay_s"].value == pytest.approx(PERIOD_S, abs=2e-5)
     assert abs(found.estimates["link_gravity_moment_nm"].value) < 1e-3
 
 
@@ -191,10 +191,10 @@ def test_torques_made_and_asked_for_follow_from_each_other():
 
 def test_a_late_torque_lies_between_two_samples():
     torques = np.arange(10.0)[:, None] * np.array([1.0, -2.0])
-    assert compute_shifted_torque(torques, 5, 0.0) == (5.0, -10.0)
-    assert compute_shifted_torque(torques, 5, 1.25) == pytest.approx((3.75, -7.5))
-    assert compute_shifted_torque(torques, 5, -0.5) == pytest.approx((5.5, -11.0))
-    assert compute_shifted_torque(torques, 0, 3.0) == (0.0, 0.0)
+    assert compute_shifted_torque(torques, 5, 0.0, 0.0) == (5.0, -10.0)
+    assert compute_shifted_torque(torques, 5, 1.25, 0.0) == pytest.approx((3.75, -10.0))
+    assert compute_shifted_torque(torques, 5, 1.25, -0.5) == pytest.approx((3.75, -11.0))
+    assert compute_shifted_torque(torques, 0, 3.0, 3.0) == (0.0, 0.0)
 
 
 def test_the_command_writes_a_design_that_can_be_read(

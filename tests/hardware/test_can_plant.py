@@ -3,6 +3,7 @@
 Zero current is looked for where a sniffer would: in the commands on the wire.
 """
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -136,7 +137,7 @@ def test_stop_ramps_to_zero_and_ends_ready() -> None:
             sent.append(b.tick(1, PUSH).u1)
             assert b.plant.status in (BenchStatus.RAMP, BenchStatus.READY)
         assert b.now - begin == pytest.approx(0.3, abs=0.002)
-        steps = [before - after for before, after in zip(sent, sent[1:], strict=False)]
+        steps = [before - after for before, after in itertools.pairwise(sent)]
         assert all(0.0 <= step < 0.006 for step in steps), "even steps down"
         assert sent[0] > 0.49
         assert sent[-1] == 0.0
@@ -244,6 +245,11 @@ def _lose_supervisor(b: WiredBench) -> None:
     b.beats.ages["supervisor"] = 0.101
 
 
+def _shake(b: WiredBench) -> None:
+    for turn in range(11):
+        b.ask(known=AT_REST._replace(dtheta2=3.0 * (-1) ** turn))
+
+
 def _overheat(b: WiredBench) -> None:
     b.guard.motor2.heat = 1.06
 
@@ -299,6 +305,7 @@ MOVING = {
         _ask(known=AT_REST._replace(theta1=2.8, q=2.4)),
         _ask(known=AT_REST._replace(theta1=-2.4, q=-2.6)),
     ],
+    "vibration": [_shake],
     "implausible": [_ask(estimate=Disturbance(0.0, -12.5, 0.0))],
     "deflection_limit": [_ask(known=AT_REST._replace(q=0.74))],
     "lever_end": [_ask(known=AT_REST._replace(theta2=2.9))],

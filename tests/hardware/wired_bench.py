@@ -19,6 +19,7 @@ from svsa.rig.frame import Frame
 from svsa.rig.parameters import RigParameters
 from svsa.rig.rig import Rig
 from svsa.runtime.realtime.configuration import build_guard
+from svsa.runtime.realtime.loop import BenchLoop
 from svsa.signals import Disturbance, State, Torque
 
 RIG_BENCH = Path(__file__).parents[2] / "svsa" / "rig" / "bench.toml"
@@ -157,6 +158,14 @@ class WiredBench:
             sent = self.plant.write(self.now, torque, known or x, estimate, missed)
             self.clock.collect()
         return sent
+
+    def drive(self, loop: BenchLoop, count: int = 1) -> None:
+        """So many periods of the bench's own loop."""
+        for _ in range(count):
+            self._tick += 1
+            self.clock.wait_until(self._tick * self.bench.timing.period_s)
+            loop.tick(self.now)
+            self.clock.collect()
 
     def skip(self, seconds: float) -> None:
         """Time goes on and the plant does nothing, as when its process does not run."""

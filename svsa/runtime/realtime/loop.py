@@ -1,4 +1,4 @@
-"""The loop on a bench, tick by tick: read → follow → decide → write → publish.
+"""The loop on a bench, tick by tick: foresee → read → follow → decide → write → publish.
 
 The same pieces as on the simulated plant, around a plant that is read and written. It
 knows neither processes nor shared memory: a test or an experiment runs it in lockstep, the
@@ -16,7 +16,7 @@ from svsa.hardware.machine import BenchStatus
 from svsa.runtime.command import build_command
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED, decide
-from svsa.runtime.measured import Actuation, follow, publish_measured
+from svsa.runtime.measured import Actuation, follow, foresee, publish_measured
 from svsa.runtime.run import Run, Start
 from svsa.signals import CHANNELS, Measurement, State
 
@@ -101,12 +101,14 @@ class BenchLoop:
         blocks, sample = self.run.blocks[0], np.empty(len(CHANNELS))
         still = Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         reference, torque = decide(blocks, self.run.inputs, AT_REST, UNDISTURBED, 0)
-        follow(blocks, self._actuation, AT_REST, UNDISTURBED, NO_TORQUE, NO_TORQUE, torque, still)
+        rest = (AT_REST, UNDISTURBED, NO_TORQUE, NO_TORQUE, torque)
+        foresee(blocks, self._actuation, *rest, (0.0, 0.0, 0.0))
+        follow(blocks, self._actuation, *rest, still)
         publish_measured(blocks, reference, still, AT_REST, UNDISTURBED, torque, 0, sample)
 
     def tick(self, now: float, missed: int = 0) -> None:
         """One period. now: time of the plant's clock, s. missed: ticks lost before it."""
-        reading = self.plant.read(now, self._known or AT_REST)
+        reading = self.plant.read(now, self._foresee())
         self.reading = reading
         blocks, measurement = self.run.blocks[0], reading.measurement
         if measurement is None:
@@ -126,6 +128,21 @@ class BenchLoop:
             publish_measured(blocks, reference, measurement, known, self._estimate, sent, tick, row)
             self.run.tick = tick + 1
             self.sink.commit(tick)
+
+    def _foresee(self) -> State:
+        """The state in which the bench is about to be found."""
+        if self._known is None or self.reading is None:
+            return AT_REST
+        return foresee(
+            self.run.blocks[0],
+            self._actuation,
+            self._known,
+            self._estimate,
+            self._made,
+            self._before,
+            self._sent,
+            self.reading.ages_s,
+        )
 
     def _follow(self, blocks: Any, measurement: Measurement) -> None:
         if self._known is None:

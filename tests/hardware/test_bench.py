@@ -1,0 +1,80 @@
+"""Bench files: what is refused and how, and what an unfinished bench lacks."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomli_w
+
+from svsa.errors import ParameterError
+from svsa.hardware.bench import read_bench
+from tests.hardware.wired_bench import RIG_BENCH
+
+
+def write(folder: Path, **changes: Any) -> Path:
+    """The rig's bench file with fields replaced, as section__name=value; None leaves it out."""
+    sections = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
+    for name, value in changes.items():
+        section, field = name.split("__")
+        if value is None:
+            sections[section].pop(field)
+        else:
+            sections[section][field] = value
+    path = folder / "bench.toml"
+    path.write_text(tomli_w.dumps(sections), encoding="utf-8")
+    return path
+
+
+def test_the_rigs_own_file_lacks_nothing() -> None:
+    bench = read_bench(RIG_BENCH)
+    assert bench.find_missing() == []
+    assert bench.path == str(RIG_BENCH)
+
+
+def test_what_belongs_to_a_motor_has_no_default(tmp_path: Path) -> None:
+    """Winding, gearbox, efficiency, sign and counts: not given, they are missed one by one."""
+    names = ["counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency", "sign"]
+    changes = {f"motor1__{name}": None for name in names}
+    bench = read_bench(write(tmp_path, **changes, deflection__sign=None))
+    missing = " ".join(bench.find_missing())
+    assert all(f"[motor1] {name}" in missing for name in names)
+    assert "[deflection] sign" in missing
+    assert len(bench.find_missing()) == 6
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("motor1__gear_ratio", 0.0, "gear_ratio is 0.0: it must be greater than 0"),
+        ("motor1__sign", 2, "sign"),
+        ("motor1__torque_constant_nm_per_a", float("nan"), "torque_constant_nm_per_a"),
+        ("motor1__efficiency", 1.2, "efficiency is 1.2: it must be at most 1"),
+        ("motor2__drive_number", 0, "drive_number"),
+        ("motor2__drive_number", 1, "another than motor1's"),
+        ("motor2__position_min_rad", 9.0, "less than position_max_rad = 3 rad"),
+        ("motor2__peak_current_a", 1.0, "at least nominal_current_a = 1.16 A"),
+        ("deflection__source", "guess", "source"),
+        ("timing__period_s", 0.003, "period_s"),
+        ("safety__torque_rate_nm_per_s", -1.0, "torque_rate_nm_per_s"),
+        ("safety__dead_man", "no", "dead_man"),
+        ("motor1__gearratio", 50.0, "gearratio"),
+        ("home__lever_ratio", 1.0, "lever_ratio"),
+    ],
+)
+def test_a_wrong_value_is_named_with_its_bound(
+    tmp_path: Path, name: str, value: Any, words: str
+) -> None:
+    with pytest.raises(ParameterError) as refused:
+        read_bench(write(tmp_path, **{name: value}))
+    assert words in str(refused.value)
+
+
+@pytest.mark.parametrize("text", ["not toml", "name = 'empty'", ""])
+def test_a_file_that_is_none_is_an_error_with_words(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "bench.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ParameterError):
+        read_bench(path)
+    with pytest.raises(ParameterError, match="readable TOML"):
+        read_bench(tmp_path / "nowhere.toml")

@@ -1,0 +1,147 @@
+"""The limits of one tick: what of a torque is let through, and what ends the run."""
+
+import itertools
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from svsa.hardware.bench import read_bench
+from svsa.hardware.guard import Guard
+from svsa.model.domain import build_domain
+from svsa.model.dynamics import build_actuator
+from svsa.runtime.realtime.configuration import build_guard, read_bench_design
+from svsa.signals import Disturbance, State, Torque
+from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
+
+BENCH = read_bench(RIG_BENCH)
+CALM = (0.0, 0.0)
+NM_PER_A = (50.0 * 0.9 * 0.0396, 50.0 * 0.9 * 0.0234)
+FULL = Torque(100.0, -100.0)
+
+
+def build(**safety: float) -> Guard:
+    return build_guard(BENCH.changed(safety=BENCH.safety.changed(**safety)))
+
+
+def test_the_torque_stays_within_design_and_peak_current() -> None:
+    """Motor 1: 15 N·m of the design. Motor 2: 5 A give 5.265 N·m, the design says 5."""
+    guard = build()
+    assert guard.limit(FULL, AT_REST) == (15.0, -5.0)
+    weak = BENCH.changed(motor1=BENCH.motor1.changed(peak_current_a=9.0, nominal_current_a=4.0))
+    limited = build_guard(weak).limit(FULL, AT_REST)
+    assert limited.u1 == pytest.approx(min(15.0, 9.0 * NM_PER_A[0]))
+    one_ampere = BENCH.changed(motor1=BENCH.motor1.changed(peak_current_a=1.0, nominal_current_a=1))
+    assert build_guard(one_ampere).limit(FULL, AT_REST).u1 == pytest.approx(NM_PER_A[0])
+
+
+@given(asked=st.lists(st.tuples(st.floats(-50, 50), st.floats(-50, 50)), min_size=1, max_size=30))
+def test_no_torque_changes_faster_than_its_rate(asked: list[tuple[float, float]]) -> None:
+    guard, last = build(torque_rate_nm_per_s=300.0), Torque(0.0, 0.0)
+    for torque in asked:
+        sent = guard.limit(Torque(*torque), AT_REST)
+        guard.note(sent, CALM)
+        assert abs(sent.u1 - last.u1) <= 0.3 + 1e-9
+        assert abs(sent.u2 - last.u2) <= 0.3 + 1e-9
+        last = sent
+
+
+def test_beyond_an_end_only_the_torque_further_out_is_blocked() -> None:
+    guard, beyond = build(), AT_REST._replace(theta1=2.6, theta2=-3.1)
+    assert guard.limit(Torque(1.0, -1.0), beyond) == (0.0, 0.0)
+    assert guard.limit(Torque(-1.0, 1.0), beyond) == (-1.0, 1.0)
+    other = AT_REST._replace(theta1=-2.6, theta2=3.1)
+    assert guard.limit(Torque(-1.0, 1.0), other) == (0.0, 0.0)
+    assert guard.limit(Torque(1.0, -1.0), other) == (1.0, -1.0)
+    assert guard.check(Torque(0.0, 0.0), AT_REST._replace(theta1=2.6, q=2.4), UNDISTURBED) is None
+
+
+def test_a_warm_motor_is_held_to_its_nominal_current() -> None:
+    """I²t: full torque for ever settles at the nominal current, evenly, without a fault."""
+    guard, sent = build(), [Torque(0.0, 0.0)]
+    nominal = BENCH.motor2.nominal_current_a * NM_PER_A[1]
+    for _ in range(60_000):
+        sent.append(guard.limit(FULL, AT_REST))
+        guard.note(sent[-1], CALM)
+        assert guard.find_overload() is None
+    falling = [after.u2 - before.u2 for before, after in itertools.pairwise(sent[1:])]
+    assert sent[1].u2 == -5.0, "cold, it has the peak"
+    assert sent[-1].u2 == pytest.approx(-nominal, rel=0.01)
+    assert max(abs(step) for step in falling) < 0.1, "no switching to and fro"
+    assert guard.motor2.heat <= 1.0
+    for _ in range(60_000):
+        guard.note(Torque(0.0, 0.0), CALM)
+    assert guard.limit(FULL, AT_REST).u2 == -5.0, "rested, it has the peak again"
+
+
+def test_heat_counts_what_the_drive_makes_where_that_is_more() -> None:
+    guard = build()
+    for _ in range(3000):
+        guard.note(Torque(0.0, 0.0), (0.0, -3.0))
+    alarm = guard.find_overload()
+    assert alarm is not None
+    assert alarm.code == "overload"
+    assert "motor2" in alarm.message
+
+
+@pytest.mark.parametrize(
+    ("known", "code"),
+    [
+        (AT_REST, None),
+        (AT_REST._replace(dtheta1=19.9, dq=19.9), None),
+        (AT_REST._replace(dtheta1=-20.1), "overspeed"),
+        (AT_REST._replace(dtheta2=30.1), "overspeed"),
+        (AT_REST._replace(dq=25.1), "overspeed"),
+        (AT_REST._replace(theta1=2.71, q=2.4), "position_limit"),
+        (AT_REST._replace(theta1=2.3, q=2.51), "position_limit"),
+        (AT_REST._replace(q=0.45), None),
+        (AT_REST._replace(q=-0.48), "deflection_limit"),
+        (AT_REST._replace(theta2=1.4), "lever_end"),
+        (AT_REST._replace(theta2=-3.19), "lever_end"),
+        (AT_REST._replace(q=math.nan), "not_finite"),
+    ],
+)
+def test_a_state_that_must_not_be_ends_the_run(known: State, code: str | None) -> None:
+    alarm = build().check(Torque(0.0, 0.0), known, UNDISTURBED)
+    assert (alarm and alarm.code) == code
+    if alarm is not None and code != "not_finite":
+        assert alarm.values
+        assert all(math.isfinite(value) for value in alarm.values.values())
+
+
+def test_the_deflection_that_ends_a_run_depends_on_the_lever_ratio() -> None:
+    """Stiff (μ larger), the spring's stiffness is zero earlier: 0.5 rad is too much there only."""
+    guard, soft = build(), AT_REST._replace(theta2=-1.5, q=0.5)
+    stiff = AT_REST._replace(theta2=1.0, q=0.5)
+    assert guard.check(Torque(0.0, 0.0), soft, UNDISTURBED) is None
+    alarm = guard.check(Torque(0.0, 0.0), stiff, UNDISTURBED)
+    assert alarm is not None
+    assert alarm.code == "deflection_limit"
+
+
+def test_a_decoupling_matrix_near_singular_ends_the_run() -> None:
+    design = read_bench_design(BENCH)
+    limits = design.limits.changed(singularity_fraction=0.6)
+    guard = Guard(
+        BENCH,
+        (15.0, 5.0),
+        build_domain(design.nominal, limits),
+        build_actuator(design.nominal, BENCH.home.lever_ratio),
+    )
+    alarm = guard.check(Torque(0.0, 0.0), AT_REST._replace(q=0.45), UNDISTURBED)
+    assert alarm is not None
+    assert alarm.code == "singular_decoupling"
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_torque_that_no_load_makes_ends_the_run(axis: int, sign: float) -> None:
+    below, above = [0.0] * 3, [0.0] * 3
+    below[axis], above[axis] = 11.9 * sign, 12.1 * sign
+    guard = build()
+    assert guard.check(Torque(0.0, 0.0), AT_REST, Disturbance(*below)) is None
+    alarm = guard.check(Torque(0.0, 0.0), AT_REST, Disturbance(*above))
+    assert alarm is not None
+    assert alarm.code == "implausible"
+    assert ("link", "motor1", "motor2")[axis] in alarm.message

@@ -1,0 +1,193 @@
+"""The states of a bench: every call in every state, and what each condition leads to."""
+
+import math
+from typing import Any
+
+import pytest
+
+from svsa.errors import ParameterError, StateError
+from svsa.hardware.bench import read_bench
+from svsa.hardware.drive import Phase
+from svsa.hardware.faults import FAULTS, Alarm
+from svsa.hardware.homing import STEPS
+from svsa.hardware.machine import BenchStatus, Conditions, Machine
+from svsa.runtime.realtime.configuration import build_guard
+from svsa.signals import Torque
+from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
+
+BENCH = read_bench(RIG_BENCH)
+FINE = Conditions(Phase.READY, (0.001, 0.001, 0.001), None, 0, 0.0, 0.0)
+PUSH = Torque(1.0, 0.5)
+ALL = list(BenchStatus)
+
+
+def build(**safety: Any) -> Machine:
+    bench = BENCH.changed(safety=BENCH.safety.changed(**safety))
+    return Machine(bench, build_guard(bench), [])
+
+
+def update(machine: Machine, **changes: Any) -> Torque:
+    return machine.update(FINE._replace(**changes), PUSH, AT_REST, UNDISTURBED)
+
+
+def bring(status: BenchStatus, **safety: Any) -> Machine:
+    """A machine in this state, by the way that leads there."""
+    machine = build(**safety)
+    if status is BenchStatus.FAULT:
+        machine.fail(Alarm("bus_error", "a test", {}))
+    elif status is not BenchStatus.OFF:
+        machine.arm()
+        for phase in (Phase.RESET, Phase.CONFIG, Phase.MODE, Phase.READY):
+            if machine.status is status:
+                break
+            update(machine, phase=phase)
+        if status in (BenchStatus.RUN, BenchStatus.RAMP):
+            for step in STEPS:
+                machine.confirm_home(step.name, "a test")
+            machine.start(0.0)
+        if status is BenchStatus.RAMP:
+            machine.stop()
+    assert machine.status is status
+    return machine
+
+
+def is_refused(status: BenchStatus, call: str, *arguments: Any) -> bool:
+    machine = bring(status)
+    try:
+        getattr(machine, call)(*arguments)
+    except StateError as error:
+        assert str(error).startswith("The bench is") or "zero mark" in str(error)
+        assert machine.status is status, "a refused call changes nothing"
+        return True
+    return False
+
+
+def test_what_may_be_called_in_which_state() -> None:
+    takes = {
+        call: {status for status in ALL if not is_refused(status, call, *arguments)}
+        for call, arguments in {
+            "arm": (),
+            "confirm_home": ("link", "a test"),
+            "start": (0.0,),
+            "stop": (),
+            "clear": (),
+        }.items()
+    }
+    assert takes == {
+        "arm": {BenchStatus.OFF, BenchStatus.READY},
+        "confirm_home": {BenchStatus.READY},
+        "start": set(),
+        "stop": set(ALL),
+        "clear": {BenchStatus.FAULT},
+    }, "start needs the marks as well"
+
+
+@pytest.mark.parametrize("status", ALL)
+def test_torque_flows_in_run_and_ramp_only(status: BenchStatus) -> None:
+    phase = Phase(status) if status in Phase else Phase.READY
+    torque = update(bring(status), phase=phase)
+    assert (torque != (0.0, 0.0)) == (status in (BenchStatus.RUN, BenchStatus.RAMP))
+
+
+@pytest.mark.parametrize("status", ALL)
+def test_stop_leaves_run_alone(status: BenchStatus) -> None:
+    machine = bring(status)
+    machine.stop()
+    assert machine.status is (BenchStatus.RAMP if status is BenchStatus.RUN else status)
+
+
+def test_problems_keep_it_from_arming() -> None:
+    machine = Machine(BENCH, build_guard(BENCH), ["uncalibrated: this", "uncalibrated: that"])
+    with pytest.raises(StateError, match="uncalibrated: this; uncalibrated: that"):
+        machine.arm()
+
+
+def test_arming_again_asks_for_the_marks_again() -> None:
+    machine = bring(BenchStatus.RAMP)
+    while machine.status is BenchStatus.RAMP:
+        update(machine)
+    assert machine.homing.next_step is None
+    machine.arm()
+    assert machine.homing.next_step == STEPS[0].name
+    machine.stop()
+    assert machine.status is BenchStatus.RESET
+
+
+@pytest.mark.parametrize("by", ["", "  "])
+def test_a_mark_is_confirmed_by_somebody(by: str) -> None:
+    with pytest.raises(ParameterError, match="by"):
+        bring(BenchStatus.READY).confirm_home("link", by)
+
+
+CONDITIONS = {
+    "bus_error": {"alarm": Alarm("bus_error", "a test", {})},
+    "drive_silent": {"phase": Phase.SILENT},
+    "stale_feedback": {"ages_s": (0.001, 0.0201, 0.001)},
+    "missed_ticks": {"missed": 20},
+    "supervisor_lost": {"supervisor_age_s": 0.1001},
+}
+UNWATCHED = (BenchStatus.OFF, BenchStatus.FAULT)
+ARMING = (BenchStatus.RESET, BenchStatus.CONFIG, BenchStatus.MODE)
+
+
+@pytest.mark.parametrize("code", CONDITIONS)
+@pytest.mark.parametrize("status", [status for status in ALL if status is not BenchStatus.FAULT])
+def test_where_each_condition_is_a_fault(status: BenchStatus, code: str) -> None:
+    machine = bring(status)
+    phase = Phase(status) if status in Phase else Phase.READY
+    assert update(machine, **{"phase": phase} | CONDITIONS[code]) is not None
+    own = status in ARMING and code not in ("bus_error", "drive_silent")
+    if status in UNWATCHED or own:
+        assert machine.fault is None
+        return
+    assert machine.status is BenchStatus.FAULT
+    assert machine.fault is not None
+    assert machine.fault.code == code
+    assert code in FAULTS
+
+
+@pytest.mark.parametrize(
+    ("conditions", "torque"),
+    [
+        ({"ages_s": (0.0049, 0.001, 0.001)}, True),
+        ({"ages_s": (0.0051, 0.001, 0.001)}, False),
+        ({"ages_s": (0.001, 0.0199, 0.001)}, False),
+        ({"ages_s": (0.001, 0.001, 0.0051)}, False),
+        ({"missed": 19}, True),
+        ({"supervisor_age_s": 0.0999}, True),
+    ],
+)
+def test_just_within_the_bounds_it_goes_on(conditions: Any, torque: bool) -> None:
+    machine = bring(BenchStatus.RUN)
+    assert (update(machine, **conditions) != (0.0, 0.0)) == torque
+    assert machine.status is BenchStatus.RUN
+
+
+def test_an_axis_never_heard_of_is_a_fault_and_no_infinity_is_told() -> None:
+    machine = bring(BenchStatus.READY)
+    update(machine, ages_s=(0.001, 0.001, math.inf))
+    assert machine.fault is not None
+    assert machine.fault.code == "stale_feedback"
+    assert all(math.isfinite(value) for value in machine.fault.values.values())
+
+
+def test_the_operators_silence_ramps_only_where_a_switch_is_asked_for() -> None:
+    machine = bring(BenchStatus.RUN)
+    update(machine, operator_age_s=math.inf)
+    assert machine.status is BenchStatus.RUN
+    machine = bring(BenchStatus.RUN, dead_man=True)
+    update(machine, operator_age_s=0.0999)
+    assert machine.status is BenchStatus.RUN
+    update(machine, operator_age_s=0.1001)
+    assert machine.status is BenchStatus.RAMP
+
+
+def test_a_fault_has_the_time_of_its_run() -> None:
+    machine = bring(BenchStatus.RUN)
+    for _ in range(250):
+        update(machine)
+    machine.fail(Alarm("bus_error", "first", {}))
+    machine.fail(Alarm("overspeed", "second", {}))
+    assert machine.fault is not None
+    assert (machine.fault.code, machine.fault.tick) == ("bus_error", 250)
+    assert machine.fault.time_s == pytest.approx(0.25)

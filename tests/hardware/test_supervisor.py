@@ -1,0 +1,220 @@
+"""The supervisor: another process with its own bus stops the drives of a loop that is dead."""
+
+import contextlib
+import select
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import can
+import pytest
+import tomli_w
+
+from svsa.hardware.bench import read_bench
+from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID
+from svsa.hardware.heartbeat import Heartbeats
+from svsa.hardware.robomodule import Current, encode
+from svsa.hardware.supervisor import Supervisor
+from svsa.rig.frame import Frame
+from svsa.rig.socketcand import SocketcandServer
+from tests.hardware.wired_bench import RIG_BENCH
+
+ZERO, RESET = encode(Current(5000, 0)), b"\x55" * 8
+STOPPED = {(0x013, ZERO), (0x023, ZERO), (0x000, RESET)}
+LONG_S = 60.0
+LOOP = """
+import sys, time
+from svsa.hardware.heartbeat import Heartbeats
+beats = Heartbeats.attach(sys.argv[1])
+while True:
+    beats.beat("loop")
+    time.sleep(0.001)
+"""
+
+
+class RecordingBus:
+    """Takes what is sent; says a frame whenever it is asked, or nothing at all."""
+
+    def __init__(self) -> None:
+        self.sent: list[tuple[int, bytes]] = []
+        self.talks = True
+        self._said = False
+
+    def send(self, message: can.Message) -> None:
+        self.sent.append((message.arbitration_id, bytes(message.data)))
+
+    def recv(self, timeout: float) -> can.Message | None:
+        self._said = self.talks and not self._said
+        return can.Message(arbitration_id=0x700, is_extended_id=False) if self._said else None
+
+
+class Ages:
+    """Heartbeats whose ages a test sets."""
+
+    def __init__(self) -> None:
+        self.loop_s = float("inf")
+        self.beats: list[str] = []
+
+    def beat(self, slot: str) -> None:
+        self.beats.append(slot)
+
+    def age_s(self, slot: str) -> float:
+        return self.loop_s
+
+
+@pytest.fixture
+def watched() -> tuple[Supervisor, RecordingBus, Ages]:
+    bus, ages = RecordingBus(), Ages()
+    return Supervisor(read_bench(RIG_BENCH), bus, ages), bus, ages  # pyright: ignore[reportArgumentType]
+
+
+def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
+    watched: tuple[Supervisor, RecordingBus, Ages], capsys: pytest.CaptureFixture[str]
+) -> None:
+    supervisor, bus, ages = watched
+    supervisor.watch()
+    assert bus.sent == [], "a loop that has not begun is not missed"
+    ages.loop_s = 0.0199
+    supervisor.watch()
+    assert bus.sent == []
+    ages.loop_s = 0.0201
+    for times in (1, 2, 3):
+        supervisor.watch()
+        assert bus.sent == [(0x013, ZERO), (0x023, ZERO), (0x000, RESET)] * times
+    assert capsys.readouterr().out.count("the loop is silent") == 1
+    ages.loop_s = 0.001
+    supervisor.watch()
+    assert len(bus.sent) == 9
+    assert not supervisor.silenced
+
+
+def test_beats_only_while_it_hears_the_bus(
+    watched: tuple[Supervisor, RecordingBus, Ages], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A bus can be lost without an error; a supervisor with a dead bus must not look alive."""
+    supervisor, bus, ages = watched
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    bus.talks = False
+    supervisor.watch()
+    assert ages.beats == []
+    bus.talks = True
+    supervisor.watch()
+    assert ages.beats == ["supervisor"]
+    bus.talks = False
+    now[0] += 0.2
+    supervisor.watch()
+    assert len(ages.beats) == 2
+    now[0] += 0.1
+    supervisor.watch()
+    assert len(ages.beats) == 2
+
+
+def write_bench(folder: Path, port: int) -> Path:
+    sections: dict[str, Any] = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
+    sections["bus"]["options"]["port"] = port
+    path = folder / "bench.toml"
+    path.write_text(tomli_w.dumps(sections), encoding="utf-8")
+    return path
+
+
+@contextlib.contextmanager
+def run(*arguments: str) -> Iterator[subprocess.Popen[str]]:
+    process = subprocess.Popen(
+        [sys.executable, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+        for pipe in (process.stdout, process.stderr):
+            if pipe is not None:
+                pipe.close()
+
+
+class Wire:
+    """The bus as the drives hear it: serves the supervisor, and keeps what it says."""
+
+    def __init__(self) -> None:
+        self.server = SocketcandServer()
+        self.heard: list[tuple[int, bytes]] = []
+
+    def serve_until(self, done: Any) -> None:
+        end = time.monotonic() + LONG_S
+        while not done():
+            assert time.monotonic() < end, f"heard {self.heard[-3:]}"
+            select.select(self.server.sources(), [], [], 0.01)
+            self.heard += [(frame.can_id, frame.data) for _, frame in self.server.poll()]
+            self.server.send(Frame(EMULATED_ID, EMULATED_DATA, extended=True), time.monotonic())
+
+    def hears_all(self, since: int) -> bool:
+        return set(self.heard[since:]) >= STOPPED
+
+
+@pytest.fixture
+def wire() -> Iterator[Wire]:
+    served = Wire()
+    yield served
+    served.server.close()
+
+
+@pytest.fixture
+def beats() -> Iterator[Heartbeats]:
+    made = Heartbeats.create()
+    yield made
+    made.close()
+
+
+def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
+    wire: Wire, beats: Heartbeats, tmp_path: Path
+) -> None:
+    bench = write_bench(tmp_path, wire.server.port)
+    with (
+        run("-m", "svsa.hardware.supervisor", str(bench), beats.name) as supervisor,
+        run("-c", LOOP, beats.name) as loop,
+    ):
+        wire.serve_until(lambda: beats.age_s("supervisor") < 0.1 and beats.age_s("loop") < 0.02)
+        loop.send_signal(signal.SIGKILL)
+        loop.wait()
+        since = len(wire.heard)
+        wire.serve_until(lambda: wire.hears_all(since))
+        again = len(wire.heard)
+        wire.serve_until(lambda: wire.hears_all(again))
+        supervisor.terminate()
+        last = len(wire.heard)
+        wire.serve_until(lambda: supervisor.poll() is not None)
+        wire.serve_until(lambda: wire.hears_all(last))
+        assert supervisor.returncode == 0
+        assert supervisor.stdout is not None
+        assert "the loop is silent" in supervisor.stdout.read()
+
+
+def test_told_to_end_it_leaves_a_last_zero(wire: Wire, beats: Heartbeats, tmp_path: Path) -> None:
+    bench = write_bench(tmp_path, wire.server.port)
+    with run("-m", "svsa.hardware.supervisor", str(bench), beats.name) as supervisor:
+        wire.serve_until(lambda: beats.age_s("supervisor") < 0.1)
+        assert wire.heard == []
+        supervisor.terminate()
+        wire.serve_until(lambda: supervisor.poll() is not None and wire.hears_all(0))
+        assert supervisor.returncode == 0
+
+
+def test_without_a_bus_it_says_so_and_fails(beats: Heartbeats, tmp_path: Path) -> None:
+    closed = SocketcandServer()
+    closed.close()
+    bench = write_bench(tmp_path, closed.port)
+    done = subprocess.run(
+        [sys.executable, "-m", "svsa.hardware.supervisor", str(bench), beats.name],
+        capture_output=True,
+        text=True,
+        timeout=LONG_S,
+    )
+    assert done.returncode == 1
+    assert "cannot be opened" in done.stderr
+    assert "Traceback" not in done.stderr
