@@ -5,23 +5,23 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, quantity
+from svsa.hardware.homing import Axis
 
 BenchStatusName = Literal["off", "reset", "config", "mode", "ready", "run", "ramp", "fault"]
-HomingStepName = Literal["link", "motor1", "motor2"]
 
 
 class HomingRequest(Checked):
     """Confirms that one axis stands at its zero mark."""
 
-    step: HomingStepName = quantity("", "Axis at its mark: link, motor1 or motor2")
+    step: Axis = quantity("", "Axis at its mark: link, motor1 or motor2")
     by: Annotated[str, Field(min_length=1, max_length=100)] = quantity("", "Who looked at the mark")
 
 
 class HomingState(BaseModel):
     """The guided zero: what is done, and the next step in words; null when all is done."""
 
-    done: list[str]
-    next_step: str | None
+    done: list[Axis]
+    next_step: Axis | None
     instruction: str
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from svsa.hardware.homing import STEPS, get_instruction
+from svsa.hardware.homing import STEPS, Axis, get_instruction
 from svsa.runtime.realtime.memory import LATENESS_EDGES_S, read_quantile
 from svsa.runtime.realtime.session import BenchSession
 from svsa_server.bench_schemas import BenchState, HomingState, LoopState
@@ -30,8 +30,8 @@ def build_bench_state(session: BenchSession) -> BenchState:
     )
 
 
-def _build_homing(next_step: str | None) -> HomingState:
-    names = [step.name for step in STEPS]
+def _build_homing(next_step: Axis | None) -> HomingState:
+    names: list[Axis] = [step.name for step in STEPS]
     done = names[: names.index(next_step)] if next_step else names
     return HomingState(done=done, next_step=next_step, instruction=get_instruction(next_step))
 

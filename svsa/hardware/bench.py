@@ -92,6 +92,12 @@ class SafetySettings(Checked):
     disturbance_max_nm: Number = quantity(
         "N·m", "|ŵ| beyond which an encoder or motor must be wrong", gt=0, le=1000
     )
+    standstill_max_nm: Number = quantity(
+        "N·m",
+        "Change of ŵ while counts stand still: more than twice the friction",
+        gt=0,
+        default=1.0,
+    )
     link_position_max_rad: Number = quantity("rad", "|q| at most", gt=0, le=100)
     link_speed_max_rad_per_s: Number = quantity("rad/s", "Fastest link", gt=0, le=1000)
     ramp_s: Number = quantity("s", "From full torque to zero at a stop", ge=0.01, le=5, default=0.3)

@@ -15,6 +15,7 @@ from svsa.hardware.drive import Drive, Phase, build_broadcast_resets
 from svsa.hardware.faults import Alarm
 from svsa.hardware.guard import Guard
 from svsa.hardware.heartbeat import Heartbeats, Slot
+from svsa.hardware.homing import Axis
 from svsa.hardware.machine import NO_TORQUE, BenchStatus, Conditions, Machine
 from svsa.hardware.sensing import BUS_TROUBLE, Reading, Sensing
 from svsa.signals import Disturbance, State, Torque
@@ -71,7 +72,7 @@ class CanPlant:
         return self._machine.problems
 
     @property
-    def homing_step(self) -> str | None:
+    def homing_step(self) -> Axis | None:
         """The axis whose mark is confirmed next, or None when all are."""
         return self._machine.homing.next_step
 
@@ -161,6 +162,8 @@ class CanPlant:
 
         known: x̂. estimate: ŵ, N·m. missed: ticks lost before this one.
         """
+        fresh = max(self._sensing.ages_s) <= self._bench.safety.stale_zero_s
+        self._guard.counts = self._sensing.counts if fresh else None
         torque = self._machine.update(self._find_conditions(missed), asked, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
         try:

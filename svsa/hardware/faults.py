@@ -33,6 +33,9 @@ FAULTS: dict[str, FaultKind] = {
     "implausible": FaultKind(
         "the observer sees a torque that no load makes: an encoder or motor is wrong", _TICK_S
     ),
+    "encoder_frozen": FaultKind(
+        "an encoder stands still while the torque on its axis changes by over 1 N·m", _TICK_S
+    ),
     "vibration": FaultKind("a motor shakes: ten reversals within 0.5 s", 0.502),
     "supervisor_lost": FaultKind("the supervisor has not been heard of for 0.1 s", 0.102),
     **{

@@ -5,6 +5,7 @@ import math
 from svsa.hardware.bench import BenchFile, MotorSettings
 from svsa.hardware.conversion import build_motor_scale
 from svsa.hardware.faults import Alarm
+from svsa.hardware.standstill import Standstill
 from svsa.hardware.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.model.domain import FAULT_CODES, INSIDE, Domain, check_domain
 from svsa.model.dynamics import Actuator
@@ -77,7 +78,10 @@ class MotorGuard:
 
 
 class Guard:
-    """The limits of the whole bench."""
+    """The limits of the whole bench.
+
+    counts: of motor 1, motor 2 and deflection in this tick; None where one is too old.
+    """
 
     def __init__(
         self, bench: BenchFile, torque_max: tuple[float, float], domain: Domain, actuator: Actuator
@@ -88,6 +92,8 @@ class Guard:
         self.motor1 = MotorGuard("motor1", bench.motor1, torque_max[0], rate)
         self.motor2 = MotorGuard("motor2", bench.motor2, torque_max[1], rate)
         self.motors = (self.motor1, self.motor2)
+        self.counts: tuple[int, int, int] | None = None
+        self._standstill = Standstill(bench.safety.standstill_max_nm)
         self._vibrations = (Vibration(self._period), Vibration(self._period))
         check_domain(domain, actuator, _STILL)  # compiled here, not in the first tick that runs
 
@@ -119,11 +125,13 @@ class Guard:
             alarm
             or self._check_link(known)
             or self._check_estimate(estimate)
+            or self._standstill.check(self.counts, estimate)
             or self._check_vibration(known)
         )
 
     def begin(self) -> None:
         """A new run begins."""
+        self._standstill.reset()
         for vibration in self._vibrations:
             vibration.reset()
 

@@ -5,15 +5,17 @@ the mechanism stands at its marks when the drives are reset. What outlives a pow
 the deflection encoder's zero, in the calibration record.
 """
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from svsa.errors import ParameterError, StateError, Violation
+
+Axis = Literal["link", "motor1", "motor2"]
 
 
 class HomingStep(NamedTuple):
     """An axis and what to look at before it is confirmed."""
 
-    name: str
+    name: Axis
     instruction: str
 
 
@@ -32,7 +34,7 @@ class Homing:
         self.confirmed: dict[str, str] = {}
 
     @property
-    def next_step(self) -> str | None:
+    def next_step(self) -> Axis | None:
         """The axis to confirm next, or None when all are."""
         return next((step.name for step in STEPS if step.name not in self.confirmed), None)
 

@@ -4,6 +4,7 @@ import ctypes
 import gc
 import os
 
+RIG_PRIORITY = 75
 LOOP_PRIORITY = 80
 SUPERVISOR_PRIORITY = 85
 _MCL_CURRENT, _MCL_FUTURE = 1, 2

@@ -38,7 +38,7 @@ class Reading(NamedTuple):
 class Sensing:
     """Feedback of two drives and a deflection encoder.
 
-    zero: counts of the deflection encoder at φ = 0. ages_s, current_a: as of the last reading.
+    zero: counts of the deflection encoder at φ = 0. ages_s, current_a, counts: of the last reading.
     emulated: the bus says that it is an emulated rig. lost: the bus failed, and has to be
     opened again.
     """
@@ -64,7 +64,7 @@ class Sensing:
         self._stamped = bench.bus.timestamps == "bus"
         self._age, self._oldest = bench.timing.feedback_age_s, bench.safety.stale_fault_s
         self._alarm: Alarm | None = None
-        self.ages_s, self.current_a = UNHEARD, (0.0, 0.0)
+        self.ages_s, self.current_a, self.counts = UNHEARD, (0.0, 0.0), (0, 0, 0)
         self._measurement: Measurement | None = None
         self.emulated = self.lost = False
 
@@ -81,7 +81,7 @@ class Sensing:
         age2 = math.inf if heard2 is None else max(0.0, now - heard2)
         age3 = math.inf if heard3 is None else max(0.0, now - heard3)
         self.ages_s = (age1, age2, age3)
-        counts = (one.counts, two.counts, self._deflection.counts)
+        self.counts = counts = (one.counts, two.counts, self._deflection.counts)
         measurement = None
         if max(self.ages_s) <= self._oldest:
             phi = (counts[2] - self._zero) * self._deflection_scale

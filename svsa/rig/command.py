@@ -27,6 +27,7 @@ def rig(
     Clients connect as to a socketcand server (python-can's interface `socketcand`), or to the
     printed terminal as to a slcan adapter. Reachable from this machine only.
     """
+    from svsa.hardware.schedule import RIG_PRIORITY, request_real_time
     from svsa.rig.control import ControlServer
     from svsa.rig.parameters import RigParameters, read_rig
     from svsa.rig.process import RigProcess
@@ -51,6 +52,8 @@ def rig(
         f" control {host}:{control.port} ({mode})",
         flush=True,
     )
+    if not lockstep:
+        request_real_time(RIG_PRIORITY)  # hardware does not wait for other programs
     try:
         process.run()
     finally:

@@ -6,6 +6,7 @@ from pathlib import Path
 from svsa.errors import Fault, StateError
 from svsa.hardware.bench import read_bench
 from svsa.hardware.calibration import find_calibration
+from svsa.hardware.homing import Axis
 from svsa.hardware.machine import BenchStatus
 from svsa.plant.disturbances import Load
 from svsa.runtime.command import Command, build_command
@@ -41,7 +42,7 @@ class BenchSession(Session):
         self.calibration = find_calibration(self.bench)
         self.bench_status = BenchStatus.OFF
         self.problems: list[str] = []
-        self.homing_step: str | None = None
+        self.homing_step: Axis | None = None
         self._fault: Fault | None = None
         self._unwatched_since = 0.0
         self._open(build_bench_configuration(self.bench, wanted))

@@ -1383,9 +1383,9 @@ export interface components {
          */
         HomingState: {
             /** Done */
-            done: string[];
+            done: ("link" | "motor1" | "motor2")[];
             /** Next Step */
-            next_step: string | null;
+            next_step: ("link" | "motor1" | "motor2") | null;
             /** Instruction */
             instruction: string;
         };

@@ -3,13 +3,14 @@ import type { SessionState } from "../api/types";
 import { inkOf } from "../plots/inks";
 import { Swatch } from "../plots/legend";
 import { CONTROL, toggleCompare } from "../state/commands";
-import { otherLaw } from "../state/lanes";
+import { otherLaw, rivalsOf } from "../state/lanes";
 import { text } from "../text/en";
 import { Problem } from "./problem";
 
 /** The other law beside the session's own, switched on and off. */
 export function Compare({ state }: { state: SessionState }) {
-  const { law, rivals } = state.configuration;
+  const { law } = state.configuration;
+  const rivals = rivalsOf(state);
   const id = useId();
   const isOn = rivals.length > 0;
   const isRecording = state.recording !== null;

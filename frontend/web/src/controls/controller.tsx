@@ -2,7 +2,7 @@ import { useId } from "preact/hooks";
 import { putController, putLanes } from "../api/client";
 import type { Law, SessionState } from "../api/types";
 import { perform } from "../state/actions";
-import { otherLaw } from "../state/lanes";
+import { otherLaw, rivalsOf } from "../state/lanes";
 import { text } from "../text/en";
 import { Choice } from "./choice";
 import { Compare } from "./compare";
@@ -17,7 +17,7 @@ const LAWS = [
 
 /** Takes a law; one that ran beside as a rival changes places with it. */
 async function chooseLaw(law: Law, state: SessionState): Promise<SessionState> {
-  const { rivals } = state.configuration;
+  const rivals = rivalsOf(state);
   const answer = await putController(law);
   const isDouble = rivals.length === 1 && rivals[0]?.law === law && state.recording === null;
   return isDouble ? putLanes([otherLaw(law)]) : answer;

@@ -12,7 +12,7 @@ import {
 import type { SessionState } from "../api/types";
 import { text } from "../text/en";
 import { perform } from "./actions";
-import { laneNames, otherLaw } from "./lanes";
+import { laneNames, otherLaw, rivalsOf } from "./lanes";
 import { hungWeights, nextWeight } from "./load";
 
 /** Names of the controls that show why a command was refused. */
@@ -31,8 +31,8 @@ export function toggleRecording({ recording }: SessionState): Promise<boolean> {
   return perform(CONTROL.session, recording === null ? begin : stopRecording);
 }
 
-export function toggleCompare({ configuration: { law, rivals } }: SessionState): Promise<boolean> {
-  const laws = rivals.length > 0 ? [] : [otherLaw(law)];
+export function toggleCompare(state: SessionState): Promise<boolean> {
+  const laws = rivalsOf(state).length > 0 ? [] : [otherLaw(state.configuration.law)];
   return perform(CONTROL.compare, () => putLanes(laws));
 }
 
