@@ -16,6 +16,7 @@ from svsa.hardware.bench import BenchFile, read_bench
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant
 from svsa.hardware.clock import LockstepClock
+from svsa.hardware.heartbeat import Heartbeats
 from svsa.hardware.machine import BenchStatus
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.runtime.configuration import Configuration, Law
@@ -51,16 +52,24 @@ class SampleArray:
 class LockstepBench:
     """The emulated rig behind the bench's own loop, a tick at a time.
 
-    wanted: law, references and loads of the run. ticks: how many samples are kept.
+    wanted: law, references and loads of the run. ticks: how many samples are kept. bench:
+    the bench file, else that of the emulated rig. beats: heartbeats, where they are watched.
     """
 
-    def __init__(self, rig: RunningRig, wanted: Configuration, ticks: int) -> None:
+    def __init__(
+        self,
+        rig: RunningRig,
+        wanted: Configuration,
+        ticks: int,
+        bench: BenchFile | None = None,
+        beats: Heartbeats | None = None,
+    ) -> None:
         self.rig = rig
-        self.bench = connect_bench(rig)
+        self.bench = bench or connect_bench(rig)
         self.sink = SampleArray(ticks)
         self._clock = LockstepClock()
         calibration, guard = find_calibration(self.bench), build_guard(self.bench)
-        self.plant = CanPlant(self.bench, calibration, self._clock, guard)
+        self.plant = CanPlant(self.bench, calibration, self._clock, guard, beats)
         self.plant.open()
         self.configuration = build_bench_configuration(self.bench, wanted)
         self.loop = BenchLoop(self.plant, self.bench, self.configuration, self.sink)

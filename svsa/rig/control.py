@@ -2,7 +2,7 @@
 
     {"do": "load", "load": {"kind": "mass"}, "at_s": 5.0}    {"do": "set_loads", "loads": [...]}
     {"do": "fault", "fault": {"kind": "freeze", "node": "deflection"}}
-    {"do": "clear_faults"}                                    {"do": "state"}
+    {"do": "clear_faults"}    {"do": "home"}                  {"do": "state"}
 
 Each line is answered by one: {"ok": true, ...} or {"ok": false, "message": "..."}.
 """
@@ -109,8 +109,10 @@ def _do(rig: Rig, wanted: dict[str, Any]) -> dict[str, Any]:
             happen = lambda: rig.inject(fault)  # noqa: E731
         case "clear_faults":
             happen = rig.clear_faults
+        case "home":
+            happen = rig.home
         case other:
-            bound = "one of state, load, set_loads, fault, clear_faults"
+            bound = "one of state, load, set_loads, fault, clear_faults, home"
             raise ParameterError(Violation("do", other, "", bound))
     if at_us <= rig.now_us:
         happen()
@@ -178,6 +180,14 @@ class RigControl:
     def fault(self, fault: RigFault, at_s: float | None = None) -> None:
         """Make something go wrong, now or at a time of the rig."""
         self.ask("fault", fault=fault.model_dump(mode="json"), at_s=at_s)
+
+    def clear_faults(self) -> None:
+        """Everything works again."""
+        self.ask("clear_faults")
+
+    def home(self) -> None:
+        """Set the mechanism to its marks by hand."""
+        self.ask("home")
 
     def read_state(self) -> dict[str, Any]:
         """See `describe`."""

@@ -103,6 +103,10 @@ class Rig:
         for load in loads:
             self.add_load(load)
 
+    def home(self) -> None:
+        """Somebody sets the mechanism to its marks by hand, and lets go of it."""
+        self.mechanics.home(self.now_us)
+
     def inject(self, fault: RigFault) -> None:
         """Make something go wrong, from now on."""
         match fault:

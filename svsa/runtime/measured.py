@@ -1,6 +1,6 @@
 """The loop's pieces where the plant is a bench: what is measured takes the place of x.
 
-A tick on a bench is foresee → read → follow → decide → write → publish: the loop of
+A tick on a bench is read → follow → decide → write → publish → foresee: the loop of
 `svsa.runtime.loop`, cut open where the bench is read.
 """
 
@@ -14,8 +14,8 @@ from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.state import predict_state
 from svsa.plant.drive import compute_late_torque
-from svsa.runtime.loop import observe
-from svsa.signals import State
+from svsa.runtime.loop import decide, observe
+from svsa.signals import Disturbance, State, Torque
 
 
 class Actuation(NamedTuple):
@@ -25,18 +25,52 @@ class Actuation(NamedTuple):
     lag: float
 
 
-@compiled
-def foresee(blocks, actuation, known, estimate, made, before, sent, ages):
-    """X̂ as it is expected now, with the velocities that each axis had half its age ago.
+class Carried(NamedTuple):
+    """What the loop carries from tick to tick on a bench.
 
-    A count of age a is then brought to now by y + v(t − a/2) a, right to the second order.
-    ages: s, of motor 1, motor 2, deflection. The rest as in `follow`. Returns `State`.
+    known, estimate: x̂ and ŵ. made: what the motors make now, N·m. before, sent: the torques
+    sent last but one and last, N·m.
     """
-    _, applied = compute_late_torque(
-        made, before, sent, actuation.lag, actuation.latency, blocks.period
+
+    known: State
+    estimate: Disturbance
+    made: Torque
+    before: Torque
+    sent: Torque
+
+
+@compiled
+def follow(blocks, actuation, carried, measurement):
+    """`Carried` a period later, with what was measured then; nothing is sent yet."""
+    c = carried
+    made, applied = compute_late_torque(
+        c.made, c.before, c.sent, actuation.lag, actuation.latency, blocks.period
     )
-    x = predict_state(blocks.nominal, known, estimate, applied, blocks.period)
-    load = ExternalLoad(estimate.w2, estimate.w4, estimate.w6, 0.0, 0.0)
+    x, w = observe(blocks, c.known, c.estimate, applied, measurement)
+    return Carried(x, w, made, c.before, c.sent)
+
+
+@compiled
+def follow_and_decide(blocks, inputs, actuation, carried, measurement, tick):
+    """`follow`, then `decide`: (`Carried`, `Reference`, `Torque` asked for, N·m)."""
+    carried = follow(blocks, actuation, carried, measurement)
+    reference, torque = decide(blocks, inputs, carried.known, carried.estimate, tick)
+    return carried, reference, torque
+
+
+@compiled
+def foresee(blocks, actuation, carried, ages):
+    """X̂ as it is expected a period later, with the velocities of half the ages before.
+
+    A count of age a is then brought to its tick by y + v(t − a/2) a, right to the second
+    order. ages: s, of motor 1, motor 2, deflection. Returns `State`.
+    """
+    c = carried
+    _, applied = compute_late_torque(
+        c.made, c.before, c.sent, actuation.lag, actuation.latency, blocks.period
+    )
+    x = predict_state(blocks.nominal, c.known, c.estimate, applied, blocks.period)
+    load = ExternalLoad(c.estimate.w2, c.estimate.w4, c.estimate.w6, 0.0, 0.0)
     a = compute_acceleration(blocks.nominal, x, applied, load)
     motor1 = x.dtheta1 - 0.5 * ages[0] * a.ddtheta1
     motor2 = x.dtheta2 - 0.5 * ages[1] * a.ddtheta2
@@ -45,17 +79,11 @@ def foresee(blocks, actuation, known, estimate, made, before, sent, ages):
 
 
 @compiled
-def follow(blocks, actuation, known, estimate, made, before, sent, measurement):
-    """What is known a period later. Returns (x̂, ŵ, `Torque` the motors make now).
-
-    known, estimate, made: x̂, ŵ and the motors' torque a period ago. before, sent: the
-    `Torque` sent a period earlier still, and then, N·m. measurement: `Measurement` now.
-    """
-    made, applied = compute_late_torque(
-        made, before, sent, actuation.lag, actuation.latency, blocks.period
-    )
-    x, w = observe(blocks, known, estimate, applied, measurement)
-    return x, w, made
+def publish_and_foresee(blocks, actuation, carried, reference, measurement, ages, tick, sample):
+    """`publish_measured` into `sample`, then `foresee`."""
+    c = carried
+    publish_measured(blocks, reference, measurement, c.known, c.estimate, c.sent, tick, sample)
+    return foresee(blocks, actuation, carried, ages)
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""The loop on a bench, tick by tick: foresee → read → follow → decide → write → publish.
+"""The loop on a bench, tick by tick: read → follow → decide → write → publish.
 
 The same pieces as on the simulated plant, around a plant that is read and written. It
 knows neither processes nor shared memory: a test or an experiment runs it in lockstep, the
@@ -15,10 +15,10 @@ from svsa.hardware.can_plant import CanPlant, Reading
 from svsa.hardware.machine import BenchStatus
 from svsa.runtime.command import build_command
 from svsa.runtime.configuration import Configuration
-from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED, decide
-from svsa.runtime.measured import Actuation, follow, foresee, publish_measured
+from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED
+from svsa.runtime.measured import Actuation, Carried, follow_and_decide, publish_and_foresee
 from svsa.runtime.run import Run, Start
-from svsa.signals import CHANNELS, Measurement, State
+from svsa.signals import CHANNELS, Measurement, Reference, State, Torque
 
 STATUSES = tuple(BenchStatus)
 MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
@@ -56,19 +56,20 @@ class BenchLoop:
         self._actuation = Actuation(bench.timing.latency_s, bench.timing.current_lag_s)
         self._mu0 = bench.home.lever_ratio
         self.run = Run(configuration, start=Start(self._mu0, AT_REST))
+        self._scratch = np.empty(len(CHANNELS))
         self._forget()
 
     def _forget(self) -> None:
         """Know nothing of the state: the next measurement is where it begins."""
-        self._known: State | None = None
-        self._estimate = UNDISTURBED
-        self._made = self._before = self._sent = NO_TORQUE
+        self._carried: Carried | None = None
+        self._expected = AT_REST
 
     def load(self, configuration: Configuration) -> None:
         """Use this configuration from the next start on; raises `StateError` in motion."""
         if self.plant.status in MOVING:
             raise StateError("The bench is moving: stop it before another run is loaded.")
-        self.run = Run(configuration, start=Start(self._mu0, self._known or AT_REST))
+        x = self._carried.known if self._carried else AT_REST
+        self.run = Run(configuration, start=Start(self._mu0, x))
 
     def start(self, now: float) -> Start:
         """Begin a run at tick 0 from where the bench stands; raises `StateError`.
@@ -76,13 +77,13 @@ class BenchLoop:
         The references fade in from the measured position and stiffness, and ŵ begins at
         zero, so that the first torque is about zero.
         """
-        if self._known is None:
+        if self._carried is None:
             raise StateError("The bench has not been read yet: arm it and wait until READY.")
         self.plant.start(now)
-        still = self._known._replace(dq=0.0, dtheta1=0.0, dtheta2=0.0)
+        still = self._carried.known._replace(dq=0.0, dtheta1=0.0, dtheta2=0.0)
         start = Start(self._mu0, still)
         self.run = Run(self.run.configuration, start=start)
-        self._estimate = UNDISTURBED
+        self._carried = self._carried._replace(estimate=UNDISTURBED)
         self.number += 1
         self.sink.begin_run(self.number)
         return start
@@ -98,64 +99,56 @@ class BenchLoop:
 
     def warm_up(self) -> None:
         """Have every compiled piece loaded before time counts."""
-        blocks, sample = self.run.blocks[0], np.empty(len(CHANNELS))
         still = Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        reference, torque = decide(blocks, self.run.inputs, AT_REST, UNDISTURBED, 0)
-        rest = (AT_REST, UNDISTURBED, NO_TORQUE, NO_TORQUE, torque)
-        foresee(blocks, self._actuation, *rest, (0.0, 0.0, 0.0))
-        follow(blocks, self._actuation, *rest, still)
-        publish_measured(blocks, reference, still, AT_REST, UNDISTURBED, torque, 0, sample)
+        carried, reference, _ = self._decide(_begin_at(still), still)
+        self._publish(carried, reference, still, (0.0, 0.0, 0.0), self._scratch)
 
     def tick(self, now: float, missed: int = 0) -> None:
         """One period. now: time of the plant's clock, s. missed: ticks lost before it."""
-        reading = self.plant.read(now, self._foresee())
-        self.reading = reading
-        blocks, measurement = self.run.blocks[0], reading.measurement
+        plant = self.plant
+        reading = self.reading = plant.read(now, self._expected)
+        measurement = reading.measurement
         if measurement is None:
             self._forget()
-        else:
-            self._follow(blocks, measurement)
-        known = self._known or AT_REST
-        torque, moving = NO_TORQUE, self.plant.status in MOVING
-        reference, asked = decide(blocks, self.run.inputs, known, self._estimate, self.run.tick)
+            plant.write(now, NO_TORQUE, AT_REST, UNDISTURBED, missed)
+            return
+        carried, reference, asked = self._decide(
+            self._carried or _begin_at(measurement), measurement
+        )
+        moving = plant.status in MOVING
+        torque = asked if moving else NO_TORQUE
+        sent = plant.write(now, torque, carried.known, carried.estimate, missed)
+        self._carried = carried = carried._replace(before=carried.sent, sent=sent)
+        tick = self.run.tick
+        row = self.sink.get_row(tick) if moving else self._scratch
+        self._expected = self._publish(carried, reference, measurement, reading.ages_s, row)
         if moving:
-            torque = asked
-        sent = self.plant.write(now, torque, known, self._estimate, missed)
-        self._before, self._sent = self._sent, sent
-        if moving and measurement is not None:
-            tick = self.run.tick
-            row = self.sink.get_row(tick)
-            publish_measured(blocks, reference, measurement, known, self._estimate, sent, tick, row)
             self.run.tick = tick + 1
             self.sink.commit(tick)
 
-    def _foresee(self) -> State:
-        """The state in which the bench is about to be found."""
-        if self._known is None or self.reading is None:
-            return AT_REST
-        return foresee(
-            self.run.blocks[0],
-            self._actuation,
-            self._known,
-            self._estimate,
-            self._made,
-            self._before,
-            self._sent,
-            self.reading.ages_s,
+    def _decide(
+        self, carried: Carried, measurement: Measurement
+    ) -> tuple[Carried, Reference, Torque]:
+        run = self.run
+        return follow_and_decide(
+            run.blocks[0], run.inputs, self._actuation, carried, measurement, run.tick
         )
 
-    def _follow(self, blocks: Any, measurement: Measurement) -> None:
-        if self._known is None:
-            y = measurement
-            self._known = State(y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
-            return
-        self._known, self._estimate, self._made = follow(
-            blocks,
-            self._actuation,
-            self._known,
-            self._estimate,
-            self._made,
-            self._before,
-            self._sent,
-            measurement,
+    def _publish(
+        self,
+        carried: Carried,
+        reference: Reference,
+        measurement: Measurement,
+        ages: tuple[float, float, float],
+        row: np.ndarray,
+    ) -> State:
+        run = self.run
+        return publish_and_foresee(
+            run.blocks[0], self._actuation, carried, reference, measurement, ages, run.tick, row
         )
+
+
+def _begin_at(y: Measurement) -> Carried:
+    """At rest where the bench was measured first."""
+    x = State(y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
+    return Carried(x, UNDISTURBED, NO_TORQUE, NO_TORQUE, NO_TORQUE)
