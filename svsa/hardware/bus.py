@@ -2,6 +2,8 @@
 
 import logging
 import socket
+from collections.abc import Iterator
+from typing import Any
 
 import can
 
@@ -11,6 +13,10 @@ from svsa.hardware.bench import BusSettings
 _ANSWER_S = 5.0
 DELIVERY_S = 0.05
 """How long a bus stays open after the last frame: closing a socket may take back what was sent."""
+
+
+_ACKNOWLEDGEMENTS = 8
+_SLCAN = "slcan"
 
 
 class BusError(SvsaError):
@@ -32,7 +38,7 @@ def open_bus(settings: BusSettings) -> can.BusABC:
             interface=settings.interface,
             channel=settings.channel,
             bitrate=settings.bitrate,
-            **settings.options,
+            **_choose_options(settings),
         )
     except (can.CanError, OSError, ValueError, TypeError, ImportError) as error:
         raise BusError(
@@ -49,3 +55,26 @@ def _ask_for_server(settings: BusSettings) -> None:
     host, port = settings.options.get("host"), settings.options.get("port")
     if settings.interface == "socketcand" and host and port:
         socket.create_connection((host, port)).close()
+
+
+def _choose_options(settings: BusSettings) -> dict[str, Any]:
+    """As written; an slcan adapter is not waited for: 1 ms of its own would be a whole tick."""
+    return (
+        {"timeout": 0.0, **settings.options} if settings.interface == _SLCAN else settings.options
+    )
+
+
+def take_waiting(bus: can.BusABC, settings: BusSettings, most: int) -> Iterator[can.Message]:
+    """The messages that have come, at most so many, without waiting for one.
+
+    An slcan adapter acknowledges every command, and python-can tells that as nothing: there,
+    several nothings in a row are the end.
+    """
+    patience = nothings = _ACKNOWLEDGEMENTS if settings.interface == _SLCAN else 1
+    for _ in range(most):
+        message = bus.recv(0)
+        if message is not None:
+            nothings = patience
+            yield message
+        elif (nothings := nothings - 1) == 0:
+            return

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import can
 
 from svsa.hardware.bench import BenchFile
+from svsa.hardware.bus import take_waiting
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.conversion import MotorScale, Unwrapped, build_deflection_scale
 from svsa.hardware.drive import Drive, Phase, list_command_ids
@@ -61,7 +62,9 @@ class Sensing:
         self._deflection = Unwrapped(self.source.bits, zero)
         self._deflection_scale = build_deflection_scale(bench.deflection)
         self._heard_deflection: float | None = None
+        self._settings = bench.bus
         self._stamped = bench.bus.timestamps == "bus"
+        self._wait = 0.5 * bench.timing.period_s  # on average, where nothing stamps a frame
         self._age, self._oldest = bench.timing.feedback_age_s, bench.safety.stale_fault_s
         self._alarm: Alarm | None = None
         self.ages_s, self.current_a, self.counts = UNHEARD, (0.0, 0.0), (0, 0, 0)
@@ -113,10 +116,7 @@ class Sensing:
         for message in self._clock.take_frames():
             self._take(message, now)
         try:
-            for _ in range(MOST_FRAMES_A_TICK):
-                message = bus.recv(0)
-                if message is None:
-                    return
+            for message in take_waiting(bus, self._settings, MOST_FRAMES_A_TICK):
                 self._take(message, now)
         except BUS_TROUBLE as error:
             self.lost = True
@@ -132,8 +132,8 @@ class Sensing:
         if message.is_remote_frame or not message.is_rx:
             return
         identifier, extended = message.arbitration_id, message.is_extended_id
-        time_s = self._clock.convert(message.timestamp, now) if self._stamped else now
-        time_s = min(time_s, now) - self._age
+        stamp = self._clock.convert(message.timestamp, now) if self._stamped else now - self._wait
+        time_s = min(stamp, now) - self._age
         drive = None if extended else self._takers.get(identifier)
         if drive is not None:
             if len(message.data) == LENGTH:

@@ -17,7 +17,7 @@ import can
 
 from svsa.errors import SvsaError
 from svsa.hardware.bench import BenchFile, read_bench
-from svsa.hardware.bus import DELIVERY_S, open_bus
+from svsa.hardware.bus import DELIVERY_S, open_bus, take_waiting
 from svsa.hardware.drive import build_broadcast_resets, build_zero_currents
 from svsa.hardware.heartbeat import Heartbeats
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
@@ -33,7 +33,7 @@ class Supervisor:
     """Watches the loop's heartbeat. silenced: whether it has taken over."""
 
     def __init__(self, bench: BenchFile, bus: can.BusABC, beats: Heartbeats) -> None:
-        self._bus, self._beats = bus, beats
+        self._bus, self._settings, self._beats = bus, bench.bus, beats
         self._frames = [*build_zero_currents(bench), *build_broadcast_resets(bench)]
         self._heard_s = -math.inf
         self.silenced = False
@@ -44,9 +44,7 @@ class Supervisor:
         A bus can be lost without a word: a supervisor that hears nothing on it is no use.
         """
         now = time.monotonic()
-        for _ in range(_MOST_FRAMES):
-            if self._bus.recv(0) is None:
-                break
+        for _ in take_waiting(self._bus, self._settings, _MOST_FRAMES):
             self._heard_s = now
         if now - self._heard_s <= DEAF_S:
             self._beats.beat("supervisor")

@@ -51,7 +51,7 @@ class EmulatedDrive:
         self.frozen = False
         self.errors = 0
         self._raw = 0
-        self.reset(0)
+        self.reset(-SETTLE_US)
         self._started = False
 
     def reset(self, time_us: int) -> None:

@@ -1,5 +1,6 @@
 """The emulated rig as a python-can bus in virtual time: who waits for a frame moves time on."""
 
+import math
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
@@ -46,7 +47,7 @@ class RigBus:
         self.rig.receive(Frame(message.arbitration_id, bytes(message.data)), self)
 
     def recv(self, timeout: float) -> can.Message | None:
-        end_us = self.rig.now_us + round(timeout * 1e6)
+        end_us = self.rig.now_us + math.ceil(timeout * 1e6)
         while not self._heard and self.rig.now_us < end_us:
             self._advance(min(STEP_US, end_us - self.rig.now_us))
         return self._heard.popleft() if self._heard else None

@@ -174,7 +174,7 @@ def test_a_dead_motor_encoder_does_not_make_the_motor_run_away(path, bus):
 def test_a_load_that_pulls_the_motor_is_not_taken_for_a_sign(path, bus):
     bus.rig.schedule(
         round(MOVING_S * 1e6),
-        lambda: bus.rig.add_load(ConstantLoad(torques_nm=(0.0, 2.0, 0.0))),
+        lambda: bus.rig.add_load(ConstantLoad(torque_nm=(0.0, 2.0, 0.0))),
     )
     steps = check(path, bus, move=True, watch=lambda _: True)
     assert Result.FAIL in {steps[name].result for name in steps if name in SIGN_STEPS}

@@ -320,7 +320,7 @@ LISTED = [
     for code, ways in causes.items()
     for number, cause in enumerate(ways)
 ]
-ELSEWHERE = {"drive_silent", "singular_decoupling"}
+ELSEWHERE = {"drive_silent", "encoder_frozen", "singular_decoupling"}
 
 
 def test_every_fault_is_tested() -> None:

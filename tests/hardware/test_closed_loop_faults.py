@@ -65,8 +65,8 @@ def break_in_motion(
 @pytest.mark.parametrize(
     ("fault", "codes", "within_s"),
     [
-        (FrozenEncoder(node="motor1"), {"implausible", "deflection_limit", "overspeed"}, 0.1),
-        (FrozenEncoder(node="deflection"), {"vibration"}, 0.6),
+        (FrozenEncoder(node="motor1"), {"encoder_frozen"}, 0.1),
+        (FrozenEncoder(node="deflection"), {"encoder_frozen", "vibration"}, 0.6),
         (ReversedEncoder(node="motor1"), {"overspeed", "drive_zeroed"}, 0.003),
         (ReversedEncoder(node="motor2"), {"overspeed", "drive_zeroed"}, 0.003),
         (ReversedEncoder(node="deflection"), {"vibration", "implausible"}, 0.6),

@@ -40,11 +40,15 @@ class Pulse(NamedTuple):
 
 
 def check_motion(probe: Probe, name: str) -> Iterator[CheckStep]:
-    """Turn one motor a little forth and back; judge its signs, and those of the deflection."""
+    """Turn one motor a little forth and back; judge its signs, and those of the deflection.
+
+    The deflection is judged by motor 1, so only where that counts the right way.
+    """
     motor: MotorSettings = getattr(probe.bench, name)
     pulse, back = _turn(probe, name, motor)
-    yield _judge_motor(name, motor, pulse, back)
-    if name == "motor1" and abs(pulse.moved) >= LEAST_COUNTS:
+    judged = _judge_motor(name, motor, pulse, back)
+    yield judged
+    if name == "motor1" and judged.result is not Result.FAIL:
         yield _judge_deflection(probe.bench, pulse)
 
 

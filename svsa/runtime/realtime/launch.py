@@ -67,6 +67,11 @@ class BenchProcesses:
         """Whether the loop's process runs."""
         return self._loop.poll() is None
 
+    @property
+    def complete(self) -> bool:
+        """Whether the supervisor's process runs too: a bench without it does not get ready."""
+        return self.alive and self._supervisor.poll() is None
+
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
         """Have the loop do something between two ticks, and wait for its answer.
 

@@ -95,8 +95,8 @@ class BenchSession(Session):
         self._ask("home", {"step": step, "by": by})
 
     def clear(self) -> None:
-        """Clear the latched fault: FAULT → OFF; a loop that is gone is started anew."""
-        if not self.processes.alive:
+        """Clear the latched fault: FAULT → OFF; loop and supervisor begin anew if one is gone."""
+        if not self.processes.complete:
             self.processes.close()
             self._open(self.run.configuration)
             self.load(self.run.configuration)

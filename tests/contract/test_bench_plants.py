@@ -1,0 +1,326 @@
+"""One contract for three plants behind read and write: a simulated one, and two on the wire.
+
+What a controller may rely on is the same wherever it runs: signs, limits, states, and the
+torque that it is told was sent.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from svsa.errors import StateError
+from svsa.experiment.bench_run import SampleArray, connect_bench
+from svsa.experiment.paper import get_figure
+from svsa.hardware.bench import BenchFile, BusSettings, read_bench
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.can_plant import CanPlant
+from svsa.hardware.clock import LockstepClock
+from svsa.hardware.conversion import build_motor_scale, compute_current_ma
+from svsa.hardware.drive import Phase
+from svsa.hardware.machine import BenchStatus, Conditions, Machine
+from svsa.hardware.sensing import Reading
+from svsa.model.dynamics import compute_deflection
+from svsa.rig.launch import RunningRig, start_rig
+from svsa.rig.mechanics import Mechanics
+from svsa.rig.parameters import RigParameters
+from svsa.runtime.realtime.configuration import build_bench_configuration, build_guard
+from svsa.runtime.realtime.loop import BenchLoop
+from svsa.signals import CHANNEL_INDEX, Disturbance, Measurement, State, Torque
+from tests.hardware.wired_bench import RIG_BENCH
+
+AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
+NO_TORQUE = Torque(0.0, 0.0)
+PLANTS = ("simulated", "socketcand", "slcan")
+FIGURE = get_figure("4a").build_configuration(load=False)
+TRACKED_RAD = math.radians(0.5)
+TRACKED_NM_PER_RAD = 1.0
+PHASE_S = 0.0007
+"""Where the paper's gains bear that an adapter without timestamps knows no age of a count: the
+principal motor, whose frame comes at 0.43 ms, must be heard less than half a tick late."""
+UNSTAMPED_AGE_S = 0.0005
+"""An adapter without timestamps: a count is half a tick old when it is read, on the average."""
+
+
+class SimulatedPlant:
+    """The mechanism of Table 1 without drives and wire, within the bench's states and limits."""
+
+    def __init__(self, bench: BenchFile) -> None:
+        self._guard = build_guard(bench)
+        self._machine = Machine(bench, self._guard, [])
+        self._scales = (build_motor_scale(bench.motor1), build_motor_scale(bench.motor2))
+        self.mechanics = Mechanics(RigParameters())
+        self.now_s = 0.0
+
+    def __getattr__(self, name: str) -> Any:
+        """What the machine does, as a plant of the bench does it."""
+        return getattr(self._machine, name)
+
+    @property
+    def homing_step(self) -> str | None:
+        return self._machine.homing.next_step
+
+    @property
+    def time_us(self) -> int:
+        return round(self.now_s * 1e6)
+
+    def arm(self, now: float) -> None:
+        self._machine.arm()
+
+    def start(self, now: float) -> None:
+        self._machine.start(0.0)
+
+    def stop(self, now: float, reason: str) -> None:
+        self._machine.stop()
+
+    def read(self, now: float, known: State) -> Reading:
+        x = self.mechanics.read(self.time_us)
+        y = Measurement(x.theta1, x.theta2, compute_deflection(x), known.dq, known.dtheta1, 0.0)
+        y = y._replace(dtheta2=known.dtheta2)
+        return Reading(y, (0.0, 0.0), (0.0, 0.0, 0.0), (0, 0, 0))
+
+    def write(
+        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+    ) -> Torque:
+        conditions = Conditions(Phase.READY, (0.0, 0.0, 0.0), None, missed, 0.0, 0.0)
+        torque = self._machine.update(conditions, asked, known, estimate)
+        sent = Torque(
+            *(
+                compute_current_ma(one, scale) * scale.torque_per_ma
+                for one, scale in zip(torque, self._scales, strict=True)
+            )
+        )
+        self._guard.note(sent, (0.0, 0.0))
+        self.mechanics.set_target(self.time_us, sent)
+        return sent
+
+    def close(self) -> None:
+        self.mechanics.set_target(self.time_us, NO_TORQUE)
+
+
+class Stand:
+    """A plant, time that goes on, and the truth about it.
+
+    wait: lets time go on to a time, s. Ticks are at `PHASE_S` of each ms, so that frames are of
+    the same age in every test. describe: x, the torques that the motors aim at, the modes of the drives.
+    """
+
+    def __init__(
+        self,
+        plant: Any,
+        bench: BenchFile,
+        wait: Callable[[float], None],
+        now_s: float,
+        describe: Callable[[], tuple[State, list[float], list[Any]]],
+    ) -> None:
+        self.plant, self.bench, self.describe = plant, bench, describe
+        self._wait, self._now = wait, math.ceil(1e3 * now_s) * 1e-3 + PHASE_S
+        self.sink = SampleArray(2000)
+        self.loop = BenchLoop(plant, bench, build_bench_configuration(bench, FIGURE), self.sink)
+        self.reading: Reading | None = None
+
+    @property
+    def x(self) -> State:
+        return self.describe()[0]
+
+    @property
+    def targets(self) -> list[float]:
+        return self.describe()[1]
+
+    @property
+    def now(self) -> float:
+        return self._now
+
+    def go_on(self) -> None:
+        self._now += self.bench.timing.period_s
+        self._wait(self._now)
+
+    def tick(self, ticks: int = 1) -> None:
+        """Periods of the bench's own loop."""
+        for _ in range(ticks):
+            self.go_on()
+            self.loop.tick(self._now)
+
+    def push(self, torque: Torque, ticks: int = 1) -> Torque:
+        """Periods with this torque, by hand; what the last one really sent."""
+        sent = NO_TORQUE
+        for _ in range(ticks):
+            self.go_on()
+            reading = self.reading = self.plant.read(self._now, AT_REST)
+            known = AT_REST
+            if reading.measurement is not None:
+                y = reading.measurement
+                known = State(y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
+            sent = self.plant.write(self._now, torque, known, UNDISTURBED, 0)
+        return sent
+
+    def prepare(self) -> None:
+        self.plant.arm(self._now)
+        while self.plant.status is not BenchStatus.READY:
+            assert self.plant.fault is None
+            self.tick()
+        while (step := self.plant.homing_step) is not None:
+            self.plant.confirm_home(step, "a test")
+        self.tick(5)
+
+    def start(self, by_hand: bool = True) -> None:
+        self.prepare()
+        self.plant.start(self._now) if by_hand else self.loop.start(self._now)
+
+
+def stand_simulated() -> Iterator[Stand]:
+    bench = read_bench(RIG_BENCH)
+    plant = SimulatedPlant(bench)
+
+    def wait(until: float) -> None:
+        plant.now_s = until
+
+    def describe() -> tuple[State, list[float], list[Any]]:
+        return plant.mechanics.read(plant.time_us), list(plant.mechanics.target), [None, None]
+
+    yield Stand(plant, bench, wait, 0.0, describe)
+    plant.close()
+
+
+def stand_emulated(rig: RunningRig, interface: str) -> Iterator[Stand]:
+    bench = connect_bench(rig)
+    if interface == "slcan":
+        bench = bench.changed(
+            bus=BusSettings(
+                interface="slcan",
+                channel=rig.slcan,
+                options={"sleep_after_open": 0.0},
+                timestamps="arrival",
+            ),
+            timing=bench.timing.changed(feedback_age_s=UNSTAMPED_AGE_S),
+        )
+    clock = LockstepClock()
+    plant = CanPlant(bench, find_calibration(bench), clock, build_guard(bench))
+    plant.open()
+    rig.control.home()
+
+    def describe() -> tuple[State, list[float], list[Any]]:
+        state = rig.control.read_state()
+        drives = state["drives"].values()
+        return (
+            State(**state["x"]),
+            [drive["target_nm"] for drive in drives],
+            [drive["mode"] for drive in drives],
+        )
+
+    yield Stand(plant, bench, clock.wait_until, clock.now(), describe)
+    plant.close()
+
+
+@pytest.fixture(scope="module")
+def rig() -> Iterator[RunningRig]:
+    with start_rig(lockstep=True) as running:
+        yield running
+
+
+@pytest.fixture(params=PLANTS)
+def stand(request: pytest.FixtureRequest, rig: RunningRig) -> Iterator[Stand]:
+    if request.param == "simulated":
+        yield from stand_simulated()
+    else:
+        yield from stand_emulated(rig, request.param)
+
+
+def test_at_rest_it_stays_at_rest(stand: Stand) -> None:
+    stand.start()
+    stand.push(NO_TORQUE, 200)
+    assert stand.plant.status is BenchStatus.RUN
+    assert np.max(np.abs(stand.x)) < 1e-9
+    assert stand.reading is not None
+    assert stand.reading.measurement is not None
+    assert np.max(np.abs(stand.reading.measurement)) < 1e-9
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_positive_torque_grows_the_angle_of_its_own_motor_first(stand: Stand, number: int) -> None:
+    """And φ = q − θ1 falls where θ1 goes ahead of the link."""
+    stand.start()
+    torque = Torque(1.0, 0.0) if number == 0 else Torque(0.0, 1.0)
+    sent = stand.push(torque, 20)
+    assert sent[number] == pytest.approx(1.0, abs=0.001)
+    assert sent[1 - number] == 0.0
+    x = stand.x
+    moved, others = (x.theta1, (x.theta2,)) if number == 0 else (x.theta2, (x.theta1, x.q))
+    assert moved > 0.001
+    assert all(abs(other) < 0.05 * moved for other in others)
+    assert stand.reading is not None
+    y = stand.reading.measurement
+    assert y is not None
+    seen = y.theta1 if number == 0 else y.theta2
+    assert seen == pytest.approx(moved, rel=0.25)
+    if number == 0:
+        assert x.q < x.theta1
+        assert y.phi < 0.0
+        assert y.phi == pytest.approx(x.q - x.theta1, abs=0.004)
+
+
+def test_the_torque_told_is_the_torque_that_the_motors_aim_at(stand: Stand) -> None:
+    """To the last mA: what is rounded away or cut off at 15 and 5 N·m is known to the observer."""
+    stand.start()
+    sent = stand.push(Torque(0.123456, -0.0654321), 5)
+    stand.go_on()
+    assert stand.targets == pytest.approx(list(sent), abs=1e-12)
+    assert sent != Torque(0.123456, -0.0654321)
+    per_ma = [50.0 * 0.9 * 0.0396e-3, 50.0 * 0.9 * 0.0234e-3]
+    assert sent == pytest.approx((0.123456, -0.0654321), abs=0.5 * max(per_ma))
+    whole = np.divide(sent, per_ma)
+    assert np.max(np.abs(whole - np.round(whole))) < 1e-6
+    assert stand.push(Torque(100.0, -100.0)) == pytest.approx((15.0, -5.0), abs=0.002)
+    stand.go_on()
+    assert stand.targets == pytest.approx([15.0, -5.0], abs=0.002)
+
+
+def test_what_is_not_finite_is_refused(stand: Stand) -> None:
+    stand.start()
+    stand.push(Torque(0.5, 0.1), 5)
+    assert stand.push(Torque(math.nan, 0.0)) == NO_TORQUE
+    assert stand.plant.fault.code == "not_finite"
+    stand.push(Torque(0.5, 0.1), 3)
+    assert stand.targets == [0.0, 0.0]
+    with pytest.raises(StateError):
+        stand.plant.start(stand.now)
+
+
+def test_stop_ramps_to_zero(stand: Stand) -> None:
+    stand.start()
+    wanted = Torque(0.3, 0.1)
+    stand.push(wanted, 5)
+    stand.plant.stop(stand.now, "a test")
+    sent = [stand.push(wanted).u1 for _ in range(310)]
+    assert stand.plant.status is BenchStatus.READY
+    assert sent[0] == pytest.approx(wanted.u1, abs=0.01)
+    assert sent[150] == pytest.approx(0.5 * wanted.u1, abs=0.01)
+    assert np.all(np.diff(sent) <= 1e-12)
+    assert sent[-1] == 0.0
+    assert stand.plant.fault is None
+    stand.go_on()
+    assert stand.targets == [0.0, 0.0]
+
+
+def test_closed_it_makes_no_torque_and_has_no_mode(stand: Stand) -> None:
+    stand.start()
+    stand.push(Torque(0.5, 0.1), 5)
+    stand.plant.close()
+    assert stand.targets == [0.0, 0.0]
+    assert stand.describe()[2] == [None, None]
+
+
+def test_it_follows_a_second_of_figure_4a(stand: Stand) -> None:
+    """Through encoders, currents and the wire within half a degree, and 1 N·m/rad at the end."""
+    stand.start(by_hand=False)
+    stand.tick(1000)
+    assert stand.plant.status is BenchStatus.RUN, stand.plant.fault
+    samples = stand.sink.samples[:1000]
+    assert np.max(np.abs(samples[:, CHANNEL_INDEX["position_error_rad"]])) < TRACKED_RAD
+    stiffness = samples[-1, CHANNEL_INDEX["stiffness_error_nm_per_rad"]]
+    assert abs(stiffness) < TRACKED_NM_PER_RAD
+    true = samples[-1, CHANNEL_INDEX["position_reference_rad"]]
+    assert stand.x.q == pytest.approx(true, abs=TRACKED_RAD)

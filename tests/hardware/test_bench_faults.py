@@ -1,0 +1,467 @@
+"""Every fault that can be caused is caused, on the emulated rig while it runs Figure 4A.
+
+In lockstep, over the wire. What counts is what the rig's own drives were told, in the rig's
+time, and where its true mechanism went; physics decides which of several faults comes first, so
+some causes name more than one.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import can
+import pytest
+
+from svsa.errors import StateError
+from svsa.experiment.bench_run import LockstepBench, connect_bench
+from svsa.experiment.paper import get_figure
+from svsa.hardware.bus import open_bus
+from svsa.hardware.drive import build_broadcast_resets
+from svsa.hardware.emulation import ADVANCE_ID, encode_time
+from svsa.hardware.faults import FAULTS
+from svsa.hardware.guard import OVERLOAD
+from svsa.hardware.machine import BenchStatus
+from svsa.plant.disturbances import ConstantLoad
+from svsa.rig.faults import (
+    BrownOut,
+    BusErrors,
+    CurrentOffset,
+    DriveName,
+    DropFrames,
+    FrozenEncoder,
+    LateFrames,
+    Node,
+    ReversedEncoder,
+    ReversedMotor,
+    RigFault,
+    Silence,
+    Stall,
+    Unplugged,
+    ZeroedCounter,
+)
+from svsa.rig.launch import RunningRig, start_rig
+from svsa.signals import Torque
+
+DRIVES: tuple[DriveName, DriveName] = ("motor1", "motor2")
+NODES: tuple[Node, ...] = (*DRIVES, "deflection")
+FIGURE = get_figure("4a").build_configuration(load=False)
+MOVING_TICKS = 500
+LONGEST_TICKS = 700
+WITHOUT_VALUES = {"emergency_stop", "not_finite", "bus_error", "foreign_command", "drive_silent"}
+WRONG = {"implausible", "encoder_frozen", "overspeed", "vibration", "lever_end", "drive_zeroed"}
+SEEN_IN_MOTION = {*WRONG, "deflection_limit", "position_limit", "overload"}
+
+
+class RigBeats:
+    """Heartbeats in the rig's time: `stopped` is when a slot fell silent, s."""
+
+    def __init__(self) -> None:
+        self.now: Callable[[], float] = lambda: 0.0
+        self.stopped: dict[str, float] = {}
+
+    def age_s(self, slot: str) -> float:
+        return self.now() - self.stopped[slot] if slot in self.stopped else 0.0
+
+
+class Bench(LockstepBench):
+    """A bench on the rig that has been brought to READY, and watched tick by tick.
+
+    fastest, farthest: the true |dq|, |dθ1|, |dθ2| and |q| since `watch` began. last_current_s:
+    when a drive that hears was last told anything but zero, in the rig's time.
+    """
+
+    def __init__(self, rig: RunningRig, **safety: Any) -> None:
+        bench, self.beats = connect_bench(rig), RigBeats()
+        bench = bench.changed(safety=bench.safety.changed(**safety))
+        super().__init__(rig, FIGURE, 1, bench, self.beats)  # pyright: ignore[reportArgumentType]
+        self.beats.now = self.now
+        self.fastest, self.farthest = {"dq": 0.0, "dtheta1": 0.0, "dtheta2": 0.0}, 0.0
+        self.last_current_s = 0.0
+
+    def run(self, ticks: int = MOVING_TICKS) -> None:
+        self.start()
+        self.tick(ticks)
+        assert self.plant.status is BenchStatus.RUN, self.plant.fault
+
+    def miss(self, ticks: int) -> None:
+        """The loop does not run for so long."""
+        self._deadline += ticks * self.bench.timing.period_s
+        self._clock.wait_until(self._deadline)
+        self.loop.tick(self.now(), ticks)
+
+    def begin_watch(self) -> float:
+        """Forget what was fastest and farthest; the rig's time now, s."""
+        self.fastest, self.farthest = dict.fromkeys(self.fastest, 0.0), 0.0
+        self.last_current_s = self.now()
+        return self.now()
+
+    def watch(self, ticks: int = 1) -> None:
+        for _ in range(ticks):
+            self.tick()
+            self.look()
+
+    def tick_until_fault(self) -> None:
+        for _ in range(LONGEST_TICKS):
+            if self.plant.fault is None:
+                self.watch()
+
+    def look(self) -> None:
+        state = self.rig.control.read_state()
+        for name in self.fastest:
+            self.fastest[name] = max(self.fastest[name], abs(state["x"][name]))
+        self.farthest = max(self.farthest, abs(state["x"]["q"]))
+        if any(self.read_currents(state)):
+            self.last_current_s = state["time_s"]
+
+    def read_currents(self, state: dict[str, Any] | None = None) -> list[int]:
+        """What both drives were told, mA; a drive without power makes none."""
+        drives = (state or self.rig.control.read_state())["drives"].values()
+        return [drive["commanded_ma"] if drive["powered"] else 0 for drive in drives]
+
+    def recover(self) -> None:
+        """Clear the fault, mend the rig, set it to its marks, and arm it again."""
+        self.plant.clear(self.now())
+        assert self.plant.status is BenchStatus.OFF
+        assert self.plant.fault is None
+        self.beats.stopped.clear()
+        self.rig.control.clear_faults()
+        self.rig.control.set_loads(())
+        self.rig.control.home()
+        self.prepare()
+        assert self.plant.status is BenchStatus.READY
+        assert self.read_currents() == [0, 0]
+
+
+@pytest.fixture(scope="module")
+def rig() -> Iterator[RunningRig]:
+    with start_rig(lockstep=True) as running:
+        yield running
+
+
+class Place:
+    """The one bench of this module: READY for each test, made anew after one that failed."""
+
+    def __init__(self, rig: RunningRig) -> None:
+        self._rig = rig
+        self._bench: Bench | None = None
+
+    def get(self) -> Bench:
+        if self._bench is None or self._bench.plant.status is not BenchStatus.READY:
+            self.close()
+            self._bench = make_ready(self._rig)
+        return self._bench
+
+    def close(self) -> None:
+        if self._bench is not None:
+            self._bench.close()
+            self._bench = None
+
+
+def make_ready(rig: RunningRig, **safety: Any) -> Bench:
+    bench = Bench(rig, **safety)
+    rig.control.clear_faults()
+    rig.control.set_loads(())
+    rig.control.home()
+    bench.prepare()
+    return bench
+
+
+@pytest.fixture(scope="module")
+def place(rig: RunningRig) -> Iterator[Place]:
+    made = Place(rig)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def ready(place: Place) -> Bench:
+    return place.get()
+
+
+class Case(NamedTuple):
+    """A cause, and the faults of which it leads to one."""
+
+    cause: Callable[[Bench], Any]
+    codes: set[str]
+
+
+def inject(fault: RigFault) -> Callable[[Bench], Any]:
+    return lambda b: b.rig.control.fault(fault)
+
+
+def load(*torque_nm: Any) -> Callable[[Bench], Any]:
+    return lambda b: b.rig.control.load(ConstantLoad.model_validate({"torque_nm": torque_nm}))
+
+
+def lose_supervisor(b: Bench) -> None:
+    b.beats.stopped["supervisor"] = b.now()
+
+
+def stop_at_once(b: Bench) -> None:
+    b.plant.emergency_stop(b.now(), "a test")
+
+
+def intrude(b: Bench) -> None:
+    """Another program on the bus resets the drives, and waits until the rig has heard it."""
+    bus = open_bus(connect_bench(b.rig).bus)
+    for frame in build_broadcast_resets(b.bench):
+        bus.send(frame)
+    bus.send(can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(0)))
+    while (heard := bus.recv(10.0)) is not None and heard.arbitration_id != ADVANCE_ID:
+        pass
+    bus.shutdown()
+
+
+CASES = {
+    **{f"no frames of {n}": Case(inject(DropFrames(node=n)), {"stale_feedback"}) for n in NODES},
+    "frames of motor2 30 ms late": Case(
+        inject(LateFrames(node="motor2", delay_s=0.03)), {"stale_feedback"}
+    ),
+    "frames of motor1 4 ms late": Case(inject(LateFrames(node="motor1", delay_s=0.004)), WRONG),
+    "motor1 frozen": Case(inject(FrozenEncoder(node="motor1")), {"encoder_frozen"}),
+    "motor2 frozen": Case(inject(FrozenEncoder(node="motor2")), {"encoder_frozen"}),
+    "deflection frozen": Case(inject(FrozenEncoder(node="deflection")), {"encoder_frozen"}),
+    **{f"{n} counts backwards": Case(inject(ReversedEncoder(node=n)), WRONG) for n in NODES},
+    **{f"{n} turns backwards": Case(inject(ReversedMotor(node=n)), WRONG) for n in DRIVES},
+    **{f"brown-out of {n}": Case(inject(BrownOut(node=n)), {"stale_feedback"}) for n in DRIVES},
+    **{f"no power at {n}": Case(inject(Silence(node=n)), {"stale_feedback"}) for n in DRIVES},
+    **{
+        f"{n} stalls": Case(inject(Stall(node=n)), {"drive_error", "implausible", "encoder_frozen"})
+        for n in DRIVES
+    },
+    **{
+        f"{n} takes its position for zero": Case(inject(ZeroedCounter(node=n)), {"drive_zeroed"})
+        for n in DRIVES
+    },
+    **{
+        f"{n} makes {a} A too much": Case(
+            inject(CurrentOffset(node=n, offset_a=a)), WRONG | {"overload"}
+        )
+        for n, a in zip(DRIVES, (15, -15), strict=True)
+    },
+    "error frames": Case(inject(BusErrors(count=20)), {"bus_error"}),
+    "a stranger resets the drives": Case(intrude, {"foreign_command"}),
+    "ticks missed": Case(lambda b: b.miss(20), {"missed_ticks"}),
+    "no supervisor": Case(lose_supervisor, {"supervisor_lost"}),
+    "emergency stop": Case(stop_at_once, {"emergency_stop"}),
+    "too great a load": Case(load(10.0, 0.0, 0.0), {"deflection_limit"}),
+    "the lever is pulled to its end": Case(load(0.0, 0.0, 9.0), {"lever_end", "overspeed"}),
+}
+
+
+def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
+    """The fault is one of those expected, in time, latched, with its values; nothing flows.
+
+    The time of a fault that shows in the mechanism's motion counts from the tick that shows it.
+    """
+    b.tick_until_fault()
+    fault = b.plant.fault
+    assert fault is not None, "nothing was found"
+    found_s = b.now()
+    assert b.plant.status is BenchStatus.FAULT
+    assert fault.code in case.codes
+    b.look()
+    b.watch(20)
+    since = found_s if fault.code in SEEN_IN_MOTION else begin_s
+    assert b.last_current_s - since < FAULTS[fault.code].within_s
+    assert b.read_currents() == [0, 0]
+    assert fault.message
+    assert bool(fault.values) is (fault.code not in WITHOUT_VALUES)
+    assert all(math.isfinite(value) for value in fault.values.values())
+    b.plant.emergency_stop(b.now(), "a second cause")
+    b.rig.control.fault(BusErrors())
+    b.watch(30)
+    assert b.plant.fault is fault
+    assert b.read_currents() == [0, 0]
+    with pytest.raises(StateError):
+        b.plant.arm(b.now())
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_fault_ends_the_run_and_is_cleared_by_hand_only(ready: Bench, name: str) -> None:
+    """Coasting included, no axis becomes much faster than it is allowed to be, unless pulled."""
+    ready.run()
+    begin = ready.begin_watch()
+    CASES[name].cause(ready)
+    check_stopped(ready, CASES[name], begin)
+    if "load" not in name and "pulled" not in name:
+        check_speeds(ready, 0.25 if "frozen" in name else 1.4)
+    ready.recover()
+
+
+def check_speeds(b: Bench, share: float) -> None:
+    """How fast and how far the true mechanism went, against what the bench file allows."""
+    safety = b.bench.safety
+    assert b.fastest["dtheta1"] <= share * b.bench.motor1.speed_max_rad_per_s
+    assert b.fastest["dtheta2"] <= share * b.bench.motor2.speed_max_rad_per_s
+    assert b.fastest["dq"] <= share * safety.link_speed_max_rad_per_s
+    assert b.farthest <= 1.4 * safety.link_position_max_rad
+
+
+@pytest.mark.parametrize("fault", [FrozenEncoder, ReversedEncoder])
+@pytest.mark.parametrize("node", NODES)
+def test_an_encoder_that_is_wrong_from_the_start_lets_nothing_run_away(
+    ready: Bench, fault: Any, node: str
+) -> None:
+    """Worst where nobody has seen it right before: the run begins with it.
+
+    A deflection that stays near zero may go on: it moves nothing wrong.
+    """
+    ready.rig.control.fault(fault(node=node))
+    ready.start()
+    ready.begin_watch()
+    ready.tick_until_fault()
+    if ready.plant.fault is None:
+        assert node == "deflection"
+        ready.plant.emergency_stop(ready.now(), "a test")
+    else:
+        assert ready.plant.fault.code in WRONG
+    ready.watch(100)
+    assert ready.read_currents() == [0, 0]
+    check_speeds(ready, 1.0)
+    ready.recover()
+
+
+def test_a_not_finite_torque_is_never_sent(ready: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    ready.run()
+    begin, decide = ready.begin_watch(), ready.loop._decide
+    broken = Torque(math.nan, 0.0)
+    monkeypatch.setattr(ready.loop, "_decide", lambda *given: (*decide(*given)[:2], broken))
+    check_stopped(ready, Case(stop_at_once, {"not_finite"}), begin)
+    monkeypatch.undo()
+    ready.recover()
+
+
+def test_a_third_of_all_frames_lost_is_borne(ready: Bench) -> None:
+    """Below the 5 ms nothing happens to the run: x̂ bridges what is missing."""
+    for node in NODES:
+        ready.rig.control.fault(DropFrames(node=node, probability=0.3))
+    ready.run(1000)
+    asked = math.radians(60.0) * math.sin(2.0 * math.pi * 0.2 * 1.0)
+    assert ready.rig.control.read_state()["x"]["q"] == pytest.approx(asked, abs=0.05)
+    ready.plant.emergency_stop(ready.now(), "a test")
+    ready.tick(2)
+    ready.recover()
+
+
+@pytest.mark.parametrize("node", DRIVES)
+def test_a_drive_without_its_cable_holds_its_current_and_the_other_is_stopped(
+    ready: Bench, node: DriveName
+) -> None:
+    """What no software can cover, said plainly: the supply must be cut by the button."""
+    ready.run()
+    ready.rig.control.fault(Unplugged(node=node))
+    ready.tick(30)
+    assert ready.plant.fault is not None
+    assert ready.plant.fault.code == "stale_feedback"
+    held = ready.read_currents()
+    assert held[DRIVES.index(node)] != 0
+    assert held[1 - DRIVES.index(node)] == 0
+    ready.recover()
+
+
+def test_a_motor_that_is_too_warm_ends_it_even_at_rest(ready: Bench) -> None:
+    """The drive of the weak motor makes 15 A by itself while nothing is asked of it."""
+    ready.rig.control.fault(CurrentOffset(node="motor2", offset_a=15))
+    ready.tick_until_fault()
+    assert ready.plant.fault is not None
+    assert ready.plant.fault.code == "overload"
+    assert ready.plant.fault.values["motor2_heat"] > OVERLOAD
+    ready.tick(2)
+    assert ready.read_currents() == [0, 0]
+    ready.recover()
+
+
+def test_a_drive_that_does_not_answer_is_named_while_arming(ready: Bench) -> None:
+    ready.rig.control.fault(Silence(node="motor2"))
+    begin = ready.now()
+    ready.plant.arm(begin)
+    ready.tick(round(FAULTS["drive_silent"].within_s / ready.bench.timing.period_s))
+    assert ready.plant.fault is not None
+    assert ready.plant.fault.code == "drive_silent"
+    assert "supply" in ready.plant.fault.message
+    assert ready.read_currents() == [0, 0]
+    ready.recover()
+
+
+@pytest.mark.parametrize(
+    ("safety", "code"),
+    [
+        ({"link_speed_max_rad_per_s": 0.7}, "overspeed"),
+        ({"link_position_max_rad": 0.15}, "position_limit"),
+    ],
+)
+def test_a_limit_of_the_bench_file_ends_the_run(
+    place: Place, rig: RunningRig, safety: dict[str, float], code: str
+) -> None:
+    """The figure itself goes beyond a limit this low: no fault has to be injected."""
+    place.close()
+    bench = make_ready(rig, **safety)
+    try:
+        bench.start()
+        begin = bench.begin_watch()
+        check_stopped(bench, Case(stop_at_once, {code}), begin)
+        bench.recover()
+    finally:
+        bench.close()
+
+
+def test_the_operators_silence_ramps_to_zero_without_a_fault(place: Place, rig: RunningRig) -> None:
+    place.close()
+    bench = make_ready(rig, dead_man=True)
+    try:
+        bench.beats.stopped["operator"] = -1.0
+        with pytest.raises(StateError, match="switch"):
+            bench.start()
+        bench.beats.stopped.clear()
+        bench.run()
+        bench.beats.stopped["operator"] = bench.now()
+        bench.tick(99)
+        assert bench.plant.status is BenchStatus.RUN
+        bench.tick(3)
+        assert bench.plant.status is BenchStatus.RAMP
+        bench.tick(round(bench.bench.safety.ramp_s / 0.001))
+        assert bench.plant.status is BenchStatus.READY
+        assert bench.plant.fault is None
+        assert bench.read_currents() == [0, 0]
+    finally:
+        bench.close()
+
+
+def test_it_neither_starts_before_home_nor_arms_uncalibrated(
+    place: Place, rig: RunningRig, tmp_path: Any
+) -> None:
+    place.close()
+    bench = Bench(rig)
+    rig.control.home()
+    try:
+        bench.plant.arm(bench.now())
+        bench.tick_until(BenchStatus.READY)
+        for step in NODES[:0:-1]:
+            with pytest.raises(StateError, match="not confirmed"):
+                bench.start()
+            assert bench.plant.homing_step is not None, step
+            bench.plant.confirm_home(bench.plant.homing_step, "a test")
+        with pytest.raises(StateError, match="motor2"):
+            bench.start()
+    finally:
+        bench.close()
+    elsewhere = connect_bench(rig).changed(path=str(tmp_path / "bench.toml"))
+    bare = LockstepBench(rig, FIGURE, 1, elsewhere)
+    try:
+        with pytest.raises(StateError, match="no calibration record"):
+            bare.plant.arm(bare.now())
+        bare.tick(5)
+        assert bare.plant.status is BenchStatus.OFF
+        drives = rig.control.read_state()["drives"].values()
+        assert [drive["mode"] for drive in drives] == [None, None]
+    finally:
+        bare.close()
+
+
+def test_every_fault_but_these_was_caused_on_the_rig() -> None:
+    """The rest cannot happen on the emulated rig; `test_can_plant` brings them about."""
+    elsewhere = {"encoder_lost", "singular_decoupling"}
+    others = {"not_finite", "overload", "drive_silent", "overspeed", "position_limit"}
+    caused = set().union(*(case.codes for case in CASES.values()))
+    assert caused | others | elsewhere >= FAULTS.keys()

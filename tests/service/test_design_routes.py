@@ -1,0 +1,64 @@
+"""What gains and observer would do, asked over REST before they are applied."""
+
+import pytest
+
+from tests.lab import Lab
+
+
+def predict(lab: Lab, **request: dict) -> dict:
+    return lab.client.post(lab.session + "/predict", json=request).raise_for_status().json()
+
+
+def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> None:
+    lab.load_figure(controller="fl")
+    before = lab.read()["configuration"]
+    found = predict(lab)
+    assert found["verdict"] == "ok"
+    assert found["stiffness_nm_per_rad"] == pytest.approx(15.0)
+    assert found["fl"]["position_error_rad"] == pytest.approx(-0.2107, abs=1e-3)
+    assert found["noise"]["encoders"] == "rig"
+    assert found["noise"]["largest_pole"] < 1.0
+    assert found["demand"]["peak_torque1_nm"] == pytest.approx(10.45, rel=0.1)
+    assert [root["re"] for root in found["stiffness_roots_rad_per_s"]] == [-40, -40]
+    assert lab.read()["configuration"] == before
+
+
+@pytest.mark.parametrize(
+    ("request_", "verdict", "code"),
+    [
+        ({"gains": {"position_poles_rad_per_s": [-90] * 4}}, "refuse", "fault"),
+        ({"gains": {"position_poles_rad_per_s": [-60, -60, [5, 30], [5, -30]]}}, "refuse", "gains"),
+        ({"observer": {"bandwidth_rad_per_s": [900, 900, 900]}}, "warn", "unstable_loop"),
+    ],
+)
+def test_a_bad_choice_is_told_with_its_reason(
+    lab: Lab, request_: dict, verdict: str, code: str
+) -> None:
+    lab.load_figure(controller="ndobc")
+    found = predict(lab, **request_)
+    reasons = {reason["code"]: reason for reason in found["reasons"]}
+    assert code in reasons, found
+    assert len(reasons[code]["message"]) > 30
+    assert found["verdict"] in {verdict, "refuse"}
+
+
+def test_unstable_gains_come_with_their_roots_and_the_page_can_show_them(lab: Lab) -> None:
+    poles = [-60, -60, [5, 30], [5, -30]]
+    found = predict(lab, gains={"position_poles_rad_per_s": poles})
+    assert max(root["re"] for root in found["position_roots_rad_per_s"]) == pytest.approx(5)
+    assert "Hurwitz" in found["reasons"][0]["message"]
+    assert found["fl"] is found["noise"] is found["demand"] is None
+
+
+def test_poles_that_make_no_real_polynomial_are_refused_by_name(lab: Lab) -> None:
+    request = {"gains": {"position_poles_rad_per_s": [-60, -60, -60, [-30, 5]]}}
+    answer = lab.client.post(lab.session + "/predict", json=request)
+    assert answer.status_code == 422
+    assert answer.json()["violations"][0]["name"] == "position_poles_rad_per_s"
+
+
+def test_the_encoders_of_the_session_are_used_where_it_has_them(lab: Lab) -> None:
+    lab.load_figure()
+    effects = {"encoders": {}, "estimation": {}, "delay_samples": 1}
+    lab.client.put(lab.session + "/effects", json=effects).raise_for_status()
+    assert predict(lab)["noise"]["encoders"] == "session"
