@@ -20,7 +20,13 @@ from svsa_server.config import is_loopback
 COOKIE = "svsa_access"
 LONGEST_BODY_BYTES = 4 * 1024 * 1024
 _REFUSAL_DELAY_S = 0.5
-_OPEN_PATHS = ("/", "/api/v1/login", "/api/v1/health", "/icon.svg")
+_OPEN_PATHS = (
+    "/",
+    "/api/v1/login",
+    "/api/v1/health",
+    "/api/v1/emergency-stop",  # whoever sees something go wrong may stop it
+    "/icon.svg",
+)
 _OPEN_FOLDER = "/assets/"
 
 

@@ -14,7 +14,7 @@ from svsa_server.errors import install_error_handlers
 from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
-from svsa_server.routes import bench, lab, loads, recordings, runs, sessions, settings
+from svsa_server.routes import bench, design, lab, loads, recordings, runs, sessions, settings
 from svsa_server.scene_bridge import SceneBridge
 from svsa_server.viser_proxy import ViserProxy
 
@@ -44,7 +44,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
     app.add_middleware(AccessGuard, secret=secret)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
-    for part in (lab, sessions, bench, settings, loads, recordings, runs):
+    for part in (lab, sessions, bench, settings, design, loads, recordings, runs):
         api.include_router(part.router)
     app.include_router(api)
     app.router.routes.extend(build_page_routes())

@@ -5,6 +5,7 @@ import logging
 import math
 import secrets
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from svsa.plant.disturbances import Load, get_hung_mass
 from svsa.rig.control import RigControl, RigError
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
-from svsa.runtime.realtime.session import BenchSession, Hang
+from svsa.runtime.realtime.session import BenchSession, Hands
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose
@@ -168,26 +169,38 @@ def build_shared_session(bench: Path | None) -> Session:
     """
     configuration = get_figure("4a").build_configuration(load=False)
     if bench is not None:
-        return BenchSession(SHARED_SESSION, bench, configuration, find_rig(bench))
+        return BenchSession(SHARED_SESSION, bench, configuration, find_hands(bench))
     session = Session(SHARED_SESSION, configuration)
     session.start()
     return session
 
 
-def find_rig(bench: Path) -> Hang:
-    """What hangs loads on the bench: its emulated rig, or a person who needs no telling."""
-    emulator = read_bench(bench).emulator
-    if emulator is None:
-        return lambda _: None
+class RigHands(Hands):
+    """Does to an emulated rig what a person does to a bench."""
 
-    def hang(loads: tuple[Load, ...]) -> None:
+    def __init__(self, control_port: int) -> None:
+        self._port = control_port
+
+    def hang(self, loads: tuple[Load, ...]) -> None:
+        """These loads and no others are on."""
+        self._tell(lambda control: control.set_loads(loads))
+
+    def set_to_marks(self) -> None:
+        """Set the mechanism to its zero marks."""
+        self._tell(RigControl.home)
+
+    def _tell(self, say: Callable[[RigControl], object]) -> None:
         try:
-            with RigControl(emulator.control_port, timeout_s=0.2) as control:
-                control.set_loads(loads)
+            with RigControl(self._port, timeout_s=0.2) as control:
+                say(control)
         except RigError as error:
-            _log.warning("The load is not on the emulated rig. %s", error)
+            _log.warning("The emulated rig was not told. %s", error)
 
-    return hang
+
+def find_hands(bench: Path) -> Hands:
+    """Who stands at the bench: a person, or the stand-in of its emulated rig."""
+    emulator = read_bench(bench).emulator
+    return RigHands(emulator.control_port) if emulator else Hands()
 
 
 def build_name() -> str:

@@ -8,7 +8,13 @@ from svsa.checked import Checked, quantity
 from svsa.errors import ParameterError, Violation
 from svsa.runtime.catalogue.entry import RunState
 from svsa.runtime.metrics import Metrics
-from svsa.runtime.recording.header import LONGEST_NAME, LONGEST_NOTES, LONGEST_TAG, MOST_TAGS
+from svsa.runtime.recording.header import (
+    LONGEST_NAME,
+    LONGEST_NOTES,
+    LONGEST_TAG,
+    MOST_TAGS,
+    PlantKind,
+)
 from svsa.signals import Channel
 
 ExportName = Literal["csv", "parquet", "mat", "mcap"]
@@ -74,11 +80,31 @@ class RunCommand(BaseModel):
 class RunDetails(RunSummary):
     """A run with everything that decided its samples."""
 
+    plant: PlantKind = Field(description="What lane 1 was; only a simulated run can be branched")
     seed: int
     configuration: dict[str, Any] = Field(description="At tick 0")
     channels: list[Channel]
     commands: list[RunCommand] = Field(description="The first 1000")
     command_count: int
+
+
+class RunOrigin(BaseModel):
+    """What decides the samples of a run: simulated again, they are the same bits."""
+
+    configuration: dict[str, Any] = Field(description="At tick 0")
+    commands: list[RunCommand] = Field(description="In the order in which they were given")
+    tick: int = Field(description="How far the run is, or where its record ends")
+    period_s: float
+    plant: PlantKind
+    defaults: dict[str, Any] = Field(description="The configuration of a new private session")
+
+
+class RunMetrics(BaseModel):
+    """How good a stretch of a run is, from every sample in it."""
+
+    start_s: float
+    end_s: float
+    lanes: dict[str, Metrics | None] = Field(description="null where samples are no numbers")
 
 
 class RunSamples(BaseModel):

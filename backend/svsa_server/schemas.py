@@ -57,16 +57,23 @@ class GainsRequest(Checked):
 
     def apply_to(self, gains: Gains) -> Gains:
         """The gains with these changes; raises `ParameterError` with the roots if unstable."""
-        changes: dict[str, Any] = {}
+        position, stiffness = self.choose_coefficients(gains)
+        return Gains(position_coefficients=position, stiffness_coefficients=stiffness)
+
+    def choose_coefficients(
+        self, gains: Gains
+    ) -> tuple[tuple[float, float, float, float], tuple[float, float]]:
+        """The coefficients asked for, or else those of `gains`, stable or not."""
+        chosen: list[Any] = []
         for part, order in (("position", 4), ("stiffness", 2)):
             poles = getattr(self, f"{part}_poles_rad_per_s")
             coefficients = getattr(self, f"{part}_coefficients")
             if poles is not None:
                 name = f"{part}_poles_rad_per_s"
                 coefficients = compute_coefficients(name, [_read_pole(p) for p in poles], order)
-            if coefficients is not None:
-                changes[f"{part}_coefficients"] = coefficients
-        return gains.changed(**changes)
+            chosen.append(coefficients or getattr(gains, f"{part}_coefficients"))
+        position, stiffness = chosen
+        return position, stiffness
 
 
 def _read_pole(pole: float | tuple[float, float]) -> complex:

@@ -133,6 +133,9 @@ class BenchFile(Checked):
 
     name: str = quantity("", "What people call it")
     bus: BusSettings
+    supervisor_bus: BusSettings | None = quantity(
+        "", "The supervisor's own way to the bus, where an adapter serves one program", default=None
+    )
     motor1: MotorSettings
     motor2: MotorSettings
     deflection: DeflectionSettings

@@ -33,7 +33,8 @@ class Supervisor:
     """Watches the loop's heartbeat. silenced: whether it has taken over."""
 
     def __init__(self, bench: BenchFile, bus: can.BusABC, beats: Heartbeats) -> None:
-        self._bus, self._settings, self._beats = bus, bench.bus, beats
+        self._bus, self._beats = bus, beats
+        self._settings = bench.supervisor_bus or bench.bus
         self._frames = [*build_zero_currents(bench), *build_broadcast_resets(bench)]
         self._heard_s = -math.inf
         self.silenced = False
@@ -77,7 +78,7 @@ def main(arguments: list[str]) -> int:
     signal.signal(signal.SIGTERM, lambda number, _: ended.append(number))
     try:
         bench, beats = read_bench(path), Heartbeats.attach(name)
-        bus = open_bus(bench.bus)
+        bus = open_bus(bench.supervisor_bus or bench.bus)
     except (SvsaError, OSError) as error:
         print(f"Supervisor: {error}", file=sys.stderr)
         return 1

@@ -105,7 +105,8 @@ class Stand:
     """A plant, time that goes on, and the truth about it.
 
     wait: lets time go on to a time, s. Ticks are at `PHASE_S` of each ms, so that frames are of
-    the same age in every test. describe: x, the torques that the motors aim at, the modes of the drives.
+    the same age in every test. describe: x, the torques that the motors aim at, and the modes
+    of the drives.
     """
 
     def __init__(

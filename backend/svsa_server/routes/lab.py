@@ -9,6 +9,7 @@ import svsa
 from svsa.experiment.paper import FIGURES
 from svsa_server.access import COOKIE, SharedSecret
 from svsa_server.errors import ErrorModel
+from svsa_server.laboratory import SHARED_SESSION
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.schemas import FigureState, Health, LoginRequest
 
@@ -20,6 +21,13 @@ _COOKIE_AGE_S = 30 * 24 * 3600
 async def read_health() -> Health:
     """That the server lives, and its version."""
     return Health(version=svsa.__version__)
+
+
+@router.post("/emergency-stop", status_code=204)
+async def stop_at_once(request: Request) -> None:
+    """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
+    laboratory = request.app.state.laboratory
+    laboratory.get(SHARED_SESSION).stop_at_once()
 
 
 @router.get("/figures")

@@ -1,15 +1,13 @@
-"""Recorded runs: list, read, rename, delete, take back, export, look at the samples."""
+"""Recorded runs: list, read, rename, delete, take back, export."""
 
 import dataclasses
 import tempfile
 from collections.abc import Iterator
 from typing import IO, Annotated, Any
 
-import msgspec
-from fastapi import APIRouter, Body, Depends, Path, Query, Request
-from fastapi.responses import Response, StreamingResponse
+from fastapi import APIRouter, Body, Query
+from fastapi.responses import StreamingResponse
 
-from svsa.errors import ParameterError, Violation
 from svsa.experiment.export import build_file_name, export, get_kind
 from svsa.runtime.catalogue.entry import (
     LONGEST_SEARCH,
@@ -17,37 +15,26 @@ from svsa.runtime.catalogue.entry import (
     MOST_PAGES,
     RunEntry,
 )
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.recording.decimation import decimate
-from svsa.runtime.recording.reader import Record
+from svsa_server.routes import run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS
+from svsa_server.routes.run_samples import RunId, Runs
 from svsa_server.run_schemas import (
     ExportName,
     RunCommand,
     RunDetails,
     RunList,
     RunPatch,
-    RunSamples,
     RunSummary,
 )
-from svsa_server.stream import DEFAULT_CHANNELS
 
-MOST_POINTS = 20_000
 MOST_COMMANDS = 1000
 CHUNK_BYTES = 1 << 18
-router = APIRouter(prefix="/runs", tags=["runs"], responses=REFUSALS)
+router = APIRouter(tags=["runs"], responses=REFUSALS)
+router.include_router(run_samples.router)
+router.include_router(run_origins.router)
 
 
-def find_catalogue(request: Request) -> Catalogue:
-    """The runs of this server."""
-    return request.app.state.catalogue
-
-
-Runs = Annotated[Catalogue, Depends(find_catalogue)]
-RunId = Annotated[str, Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])]
-
-
-@router.get("")
+@router.get("/runs")
 def list_runs(
     runs: Runs,
     search: Annotated[
@@ -76,12 +63,13 @@ def list_runs(
     )
 
 
-@router.get("/{run}")
+@router.get("/runs/{run}")
 def read_run(runs: Runs, run: RunId) -> RunDetails:
     """A run with its configuration, its channels and the commands given while it went on."""
     entry, record = runs.get(run), runs.open(run)
     return RunDetails(
         **_list_values(entry),
+        plant=record.header.plant,
         seed=record.header.seed,
         configuration=record.header.configuration,
         channels=list(record.header.channels),
@@ -90,7 +78,7 @@ def read_run(runs: Runs, run: RunId) -> RunDetails:
     )
 
 
-@router.patch("/{run}")
+@router.patch("/runs/{run}")
 def change_run(
     runs: Runs,
     run: RunId,
@@ -101,20 +89,20 @@ def change_run(
     return RunSummary(**_list_values(entry))
 
 
-@router.delete("/{run}")
+@router.delete("/runs/{run}")
 def delete_run(runs: Runs, run: RunId) -> RunSummary:
     """Put a run into the trash, from which `restore` takes it back."""
     return RunSummary(**_list_values(runs.delete(run)))
 
 
-@router.post("/{run}/restore")
+@router.post("/runs/{run}/restore")
 def restore_run(runs: Runs, run: RunId) -> RunSummary:
     """Take a run out of the trash."""
     return RunSummary(**_list_values(runs.restore(run)))
 
 
 @router.get(
-    "/{run}/export",
+    "/runs/{run}/export",
     response_class=StreamingResponse,
     responses={200: {"content": {"application/octet-stream": {}}, "description": "The file"}},
 )
@@ -138,69 +126,6 @@ def export_run(
     return StreamingResponse(
         _read_chunks(file), headers=headers, media_type=get_kind(kind).media_type
     )
-
-
-@router.get("/{run}/samples", response_model=RunSamples)
-def read_samples(
-    runs: Runs,
-    run: RunId,
-    channels: Annotated[
-        str | None,
-        Query(
-            max_length=4000,
-            description="Names with commas between them; left out, those of the plots",
-            examples=["position_rad,torque1_nm"],
-        ),
-    ] = None,
-    start_s: Annotated[
-        float | None, Query(ge=0, allow_inf_nan=False, description="Time of the run, s")
-    ] = None,
-    end_s: Annotated[
-        float | None, Query(ge=0, allow_inf_nan=False, description="Time of the run, s")
-    ] = None,
-    points: Annotated[int, Query(ge=2, le=MOST_POINTS, description="At most so many")] = 2000,
-) -> Response:
-    """A stretch of the run for a plot; least and greatest values are kept."""
-    record = runs.open(run)
-    names = _choose_channels(record, channels)
-    start, stop = _choose_rows(record, start_s, end_s)
-    thinned = decimate(record.read_channels(names, start, stop), points)
-    ticks = record.first_tick + start + thinned.rows
-    answer = {
-        "stride": thinned.stride,
-        "first_tick": record.first_tick + start,
-        "time_s": (ticks * record.header.period_s).tolist(),
-        "lanes": {
-            lane: {
-                channel: thinned.values[:, number, index].tolist()
-                for index, channel in enumerate(names)
-            }
-            for number, lane in enumerate(record.header.lanes)
-        },
-    }
-    return Response(msgspec.json.encode(answer), media_type="application/json")
-
-
-def _choose_channels(record: Record, channels: str | None) -> list[str]:
-    there = record.header.channel_names
-    if channels is None:
-        return [name for name in DEFAULT_CHANNELS if name in there] or list(there)
-    names = list(dict.fromkeys(name.strip() for name in channels.split(",")))
-    for name in names:
-        if name not in there:
-            raise ParameterError(Violation("channels", name, "", f"one of {', '.join(there)}"))
-    return names
-
-
-def _choose_rows(record: Record, start_s: float | None, end_s: float | None) -> tuple[int, int]:
-    """Rows of the samples from start_s to end_s, which may reach beyond the record."""
-    period, first = record.header.period_s, record.first_tick
-    if start_s is not None and end_s is not None and end_s <= start_s:
-        raise ParameterError(Violation("end_s", end_s, "s", f"greater than start_s, {start_s:g} s"))
-    longest = (first + record.tick_count) * period
-    start = 0 if start_s is None else round(min(start_s, longest) / period) - first
-    stop = record.tick_count if end_s is None else round(min(end_s, longest) / period) - first
-    return max(0, start), max(0, start, stop)
 
 
 def _read_chunks(file: IO[bytes]) -> Iterator[bytes]:

@@ -1,6 +1,5 @@
 """A session whose first lane is a bench, seen from the server."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 from svsa.errors import Fault, StateError
@@ -24,21 +23,29 @@ from svsa.signals import State
 LOOP_SILENT_S = 0.5
 UNWATCHED_S = 1.0
 
-Hang = Callable[[tuple[Load, ...]], None]
+
+class Hands:
+    """Whoever stands at the bench: a person, who needs no telling, or a stand-in."""
+
+    def hang(self, loads: tuple[Load, ...]) -> None:
+        """These loads and no others are on."""
+
+    def set_to_marks(self) -> None:
+        """Set the mechanism to its zero marks, before it is armed."""
 
 
 class BenchSession(Session):
     """A bench as a session: `start` begins a run at t = 0, `pause` ramps to zero torque.
 
-    Every start begins a new run, from where the bench stands. hang: given the loads that are
-    on whenever they change, where something can hang them (an emulated rig). `bench`: the
-    bench file. Raises `BenchError` where the bench cannot be opened.
+    Every start begins a new run, from where the bench stands. hands: told of the loads that
+    are on whenever they change, and of the marks. `bench`: the bench file. Raises
+    `BenchError` where the bench cannot be opened.
     """
 
     def __init__(
-        self, name: str, path: Path, wanted: Configuration, hang: Hang = lambda _: None
+        self, name: str, path: Path, wanted: Configuration, hands: Hands | None = None
     ) -> None:
-        self.bench, self._path, self._hang = read_bench(path), path, hang
+        self.bench, self._path, self._hands = read_bench(path), path, hands or Hands()
         self.calibration = find_calibration(self.bench)
         self.bench_status = BenchStatus.OFF
         self.problems: list[str] = []
@@ -88,6 +95,8 @@ class BenchSession(Session):
 
     def arm(self) -> None:
         """Bring the drives to READY: reset, configuration, mode."""
+        if self.bench_status is BenchStatus.OFF:
+            self._hands.set_to_marks()
         self._ask("arm")
 
     def confirm_home(self, step: str, by: str) -> None:
@@ -179,7 +188,7 @@ class BenchSession(Session):
         """Tell the emulated rig what hangs on it at this tick."""
         tick = self.run.tick
         on = (load for load in self.run.loads if load.start_tick <= tick < load.end_tick)
-        self._hang(tuple(load.load for load in on))
+        self._hands.hang(tuple(load.load for load in on))
 
     def _take_state(self, event: dict) -> None:
         self.bench_status = BenchStatus(event["status"])

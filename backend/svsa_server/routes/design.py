@@ -1,0 +1,123 @@
+"""Ask what gains and observer would do, before they are applied."""
+
+import asyncio
+import math
+from typing import Annotated
+
+from fastapi import APIRouter, Body
+
+from svsa.control.gains import Gains, compute_roots
+from svsa.errors import ParameterError
+from svsa.experiment import prediction
+from svsa.reference.trajectories import compute_start_value
+from svsa.runtime.configuration import Configuration
+from svsa.runtime.session import Session
+from svsa.signals import CHANNEL_INDEX
+from svsa_server.design_schemas import (
+    LoopNoiseState,
+    Prediction,
+    PredictRequest,
+    ReasonState,
+    SteadyErrorState,
+    TorqueDemandState,
+)
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.schemas import Root
+
+router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
+
+
+@router.post("/predict")
+async def predict_design(
+    session: NamedSession,
+    request: Annotated[
+        PredictRequest,
+        Body(
+            examples=[
+                {"gains": {"position_poles_rad_per_s": [-60, -60, [-40, 30], [-40, -30]]}},
+                {"observer": {"bandwidth_rad_per_s": [60.0, 60.0, 60.0]}},
+            ]
+        ),
+    ],
+) -> Prediction:
+    """What these gains and this observer would do; nothing is changed.
+
+    The roots, FL's steady error under the 3 kg, the encoders' noise in the torques, the peak
+    torque under the load, and a verdict with its reasons. Gains that PUT …/gains would refuse
+    get the verdict refuse.
+    """
+    configuration, sigma = session.run.configuration, _read_stiffness(session)
+    if request.observer is not None:
+        configuration = configuration.changed(observer=request.observer)
+    if request.gains is not None:
+        position, stiffness = request.gains.choose_coefficients(configuration.gains)
+        try:
+            gains = Gains(position_coefficients=position, stiffness_coefficients=stiffness)
+        except ParameterError as error:
+            return _refuse(str(error), position, stiffness, sigma)
+        configuration = configuration.changed(gains=gains)
+    found = await asyncio.to_thread(prediction.predict, configuration, sigma)
+    return _build_prediction(configuration, found, sigma)
+
+
+def _read_stiffness(session: Session) -> float:
+    """σ_d now, N·m/rad, kept inside the range of the limits."""
+    newest = session.history.read_newest()
+    configuration = session.run.configuration
+    if newest is None:
+        return compute_start_value(configuration.stiffness)
+    return float(newest[CHANNEL_INDEX["stiffness_reference_nm_per_rad"]])
+
+
+def _refuse(
+    message: str, position: tuple[float, ...], stiffness: tuple[float, ...], sigma: float
+) -> Prediction:
+    return Prediction(
+        verdict="refuse",
+        reasons=[ReasonState(kind="refuse", code="gains", message=message)],
+        stiffness_nm_per_rad=sigma,
+        position_roots_rad_per_s=_build_roots(compute_roots(position)),
+        stiffness_roots_rad_per_s=_build_roots(compute_roots(stiffness)),
+        fl=None,
+        noise=None,
+        demand=None,
+    )
+
+
+def _build_prediction(
+    configuration: Configuration, found: prediction.Prediction, sigma: float
+) -> Prediction:
+    fl, noise, demand = found.fl, found.noise, found.demand
+    is_own = configuration.effects.encoders is not None
+    return Prediction(
+        verdict=found.verdict,
+        reasons=[
+            ReasonState(kind=reason.kind, code=reason.code, message=reason.message)
+            for reason in found.reasons
+        ],
+        stiffness_nm_per_rad=sigma,
+        position_roots_rad_per_s=_build_roots(configuration.gains.position_roots),
+        stiffness_roots_rad_per_s=_build_roots(configuration.gains.stiffness_roots),
+        fl=fl
+        and SteadyErrorState(
+            position_error_rad=fl.position,
+            stiffness_error_nm_per_rad=fl.stiffness,
+            deflection_rad=fl.deflection,
+        ),
+        noise=LoopNoiseState(
+            torque1_rms_nm=noise.u1 if math.isfinite(noise.u1) else None,
+            torque2_rms_nm=noise.u2 if math.isfinite(noise.u2) else None,
+            largest_pole=noise.radius,
+            encoders="session" if is_own else "rig",
+        ),
+        demand=TorqueDemandState(
+            peak_torque1_nm=demand.peak1_nm,
+            peak_torque2_nm=demand.peak2_nm,
+            limited_s=demand.limited_s,
+            fault=demand.fault or None,
+        ),
+    )
+
+
+def _build_roots(roots: list[complex]) -> list[Root]:
+    return [Root(re=root.real, im=root.imag) for root in roots]

@@ -1,0 +1,66 @@
+"""What decides the samples of a run, live or recorded: enough to do it again in a script."""
+
+from collections.abc import Iterable
+from functools import cache
+from typing import Any
+
+from fastapi import APIRouter
+
+from svsa.experiment.paper import get_figure
+from svsa.runtime.recording.header import PlantKind
+from svsa_server.routes.depends import NamedSession
+from svsa_server.routes.run_samples import RunId, Runs
+from svsa_server.run_schemas import RunCommand, RunOrigin
+from svsa_server.schemas import SessionRequest
+
+router = APIRouter()
+
+
+@router.get("/sessions/{session}/origin")
+async def read_origin(session: NamedSession) -> RunOrigin:
+    """The run that a session is on: how it stood at t = 0 and what was changed since."""
+    return _tell(
+        session.initial.model_dump(mode="json"),
+        ((command.tick, command.to_json()) for command in session.commands),
+        session.run.tick,
+        session.run.period_s,
+        session.plant,
+    )
+
+
+@router.get("/runs/{run}/origin")
+def read_run_origin(runs: Runs, run: RunId) -> RunOrigin:
+    """A recorded run: how it stood at its t = 0 and what was changed, to its last sample."""
+    record = runs.open(run)
+    header = record.header
+    return _tell(
+        header.configuration,
+        record.commands,
+        record.first_tick + record.tick_count,
+        header.period_s,
+        header.plant,
+    )
+
+
+def _tell(
+    configuration: dict[str, Any],
+    commands: Iterable[tuple[int, dict[str, Any]]],
+    tick: int,
+    period_s: float,
+    plant: PlantKind,
+) -> RunOrigin:
+    return RunOrigin(
+        configuration=configuration,
+        commands=[RunCommand(tick=at, command=command) for at, command in commands],
+        tick=tick,
+        period_s=period_s,
+        plant=plant,
+        defaults=_build_defaults(),
+    )
+
+
+@cache
+def _build_defaults() -> dict[str, Any]:
+    wanted = SessionRequest()
+    figure = get_figure(wanted.figure)
+    return figure.build_configuration(wanted.controller, wanted.load).model_dump(mode="json")

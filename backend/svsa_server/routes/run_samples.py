@@ -1,0 +1,131 @@
+"""Recorded runs looked at: samples for a plot, metrics of a stretch, the replay page."""
+
+import dataclasses
+import math
+from typing import Annotated
+
+import msgspec
+import numpy as np
+from fastapi import APIRouter, Depends, Path, Query, Request
+from fastapi.responses import HTMLResponse, Response
+
+from svsa.errors import ParameterError, Violation
+from svsa.runtime.catalogue.runs import Catalogue
+from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
+from svsa.runtime.recording.decimation import decimate
+from svsa.runtime.recording.reader import Record
+from svsa_server.replay_export import build_replay
+from svsa_server.run_schemas import RunMetrics, RunSamples
+from svsa_server.stream import DEFAULT_CHANNELS
+
+MOST_POINTS = 20_000
+REPLAY_AGE_S = 600
+router = APIRouter()
+
+
+def find_catalogue(request: Request) -> Catalogue:
+    """The runs of this server."""
+    return request.app.state.catalogue
+
+
+Runs = Annotated[Catalogue, Depends(find_catalogue)]
+RunId = Annotated[str, Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])]
+RunTime = Annotated[
+    float | None, Query(ge=0, allow_inf_nan=False, description="Time of the run, s")
+]
+
+
+@router.get("/runs/{run}/samples", response_model=RunSamples)
+def read_samples(
+    runs: Runs,
+    run: RunId,
+    channels: Annotated[
+        str | None,
+        Query(
+            max_length=4000,
+            description="Names with commas between them; left out, those of the plots",
+            examples=["position_rad,torque1_nm"],
+        ),
+    ] = None,
+    start_s: RunTime = None,
+    end_s: RunTime = None,
+    points: Annotated[int, Query(ge=2, le=MOST_POINTS, description="At most so many")] = 2000,
+) -> Response:
+    """A stretch of the run for a plot; least and greatest values are kept."""
+    record = runs.open(run)
+    names = _choose_channels(record, channels)
+    start, stop = _choose_rows(record, start_s, end_s)
+    thinned = decimate(record.read_channels(names, start, stop), points)
+    ticks = record.first_tick + start + thinned.rows
+    answer = {
+        "stride": thinned.stride,
+        "first_tick": record.first_tick + start,
+        "time_s": (ticks * record.header.period_s).tolist(),
+        "lanes": {
+            lane: {
+                channel: thinned.values[:, number, index].tolist()
+                for index, channel in enumerate(names)
+            }
+            for number, lane in enumerate(record.header.lanes)
+        },
+    }
+    return Response(msgspec.json.encode(answer), media_type="application/json")
+
+
+@router.get("/runs/{run}/metrics")
+def read_metrics(
+    runs: Runs, run: RunId, start_s: RunTime = None, end_s: RunTime = None
+) -> RunMetrics:
+    """How good every lane is over a stretch of the run, such as from its load on."""
+    record = runs.open(run)
+    start, stop = _choose_rows(record, start_s, end_s)
+    measured = record.read_channels(MEASURED, start, stop)
+    period = record.header.period_s
+    return RunMetrics(
+        start_s=(record.first_tick + start) * period,
+        end_s=(record.first_tick + start + len(measured)) * period,
+        lanes={
+            lane: _measure(measured[:, number], period)
+            for number, lane in enumerate(record.header.lanes)
+        },
+    )
+
+
+@router.get("/runs/{run}/replay", response_class=HTMLResponse)
+def show_replay(runs: Runs, run: RunId) -> HTMLResponse:
+    """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
+    page = build_replay(runs.open(run))
+    return HTMLResponse(page, headers={"Cache-Control": f"private, max-age={REPLAY_AGE_S}"})
+
+
+def _measure(values: np.ndarray, period_s: float) -> Metrics | None:
+    running = RunningMetrics(period_s)
+    running.update_measured(values)
+    metrics = running.summarize()
+    if metrics is None or not all(
+        value is None or math.isfinite(value) for value in dataclasses.astuple(metrics)
+    ):
+        return None
+    return metrics
+
+
+def _choose_channels(record: Record, channels: str | None) -> list[str]:
+    there = record.header.channel_names
+    if channels is None:
+        return [name for name in DEFAULT_CHANNELS if name in there] or list(there)
+    names = list(dict.fromkeys(name.strip() for name in channels.split(",")))
+    for name in names:
+        if name not in there:
+            raise ParameterError(Violation("channels", name, "", f"one of {', '.join(there)}"))
+    return names
+
+
+def _choose_rows(record: Record, start_s: float | None, end_s: float | None) -> tuple[int, int]:
+    """Rows of the samples from start_s to end_s, which may reach beyond the record."""
+    period, first = record.header.period_s, record.first_tick
+    if start_s is not None and end_s is not None and end_s <= start_s:
+        raise ParameterError(Violation("end_s", end_s, "s", f"greater than start_s, {start_s:g} s"))
+    longest = (first + record.tick_count) * period
+    start = 0 if start_s is None else round(min(start_s, longest) / period) - first
+    stop = record.tick_count if end_s is None else round(min(end_s, longest) / period) - first
+    return max(0, start), max(0, start, stop)
