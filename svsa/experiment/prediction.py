@@ -24,6 +24,7 @@ MOST_FL_ERROR_RAD = math.radians(20.0)
 
 Verdict = Literal["ok", "warn", "refuse"]
 Kind = Literal["note", "warn", "refuse"]
+_KINDS: tuple[Kind, ...] = ("refuse", "warn", "note")
 
 
 @dataclass(frozen=True)
@@ -61,13 +62,8 @@ class Prediction:
     @property
     def verdict(self) -> Verdict:
         """The gravest kind of all reasons; notes are ok."""
-        return judge(self.reasons)
-
-
-def judge(reasons: tuple[Reason, ...]) -> Verdict:
-    """Refuse before warn before ok."""
-    kinds = {reason.kind for reason in reasons}
-    return "refuse" if "refuse" in kinds else "warn" if "warn" in kinds else "ok"
+        kinds = {reason.kind for reason in self.reasons}
+        return "refuse" if "refuse" in kinds else "warn" if "warn" in kinds else "ok"
 
 
 def predict(configuration: Configuration, sigma: float) -> Prediction:
@@ -86,7 +82,8 @@ def predict(configuration: Configuration, sigma: float) -> Prediction:
         *_judge_noise(configuration, noise),
         *_judge_demand(configuration, demand),
     )
-    return Prediction(fl, noise, demand, reasons)
+    gravest_first = sorted(reasons, key=lambda reason: _KINDS.index(reason.kind))
+    return Prediction(fl, noise, demand, tuple(gravest_first))
 
 
 def measure_demand(configuration: Configuration) -> TorqueDemand:
@@ -196,7 +193,7 @@ def _judge_demand(configuration: Configuration, demand: TorqueDemand) -> list[Re
             " controlled. Choose slower poles."
         )
         return [Reason("warn", "saturation", message)]
-    message = f"The load brings a motor to its limit {lasts} ({asked})."
+    message = f"The load brings a motor to its limit {lasts} ({asked}), too short to do harm."
     return [Reason("note", "saturation", message)]
 
 

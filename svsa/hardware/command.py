@@ -3,6 +3,7 @@
 import contextlib
 import getpass
 import signal
+from collections.abc import Iterator
 from pathlib import Path
 from types import FrameType
 from typing import Annotated, NoReturn
@@ -10,6 +11,7 @@ from typing import Annotated, NoReturn
 import typer
 from rich.console import Console
 from rich.padding import Padding
+from rich.text import Text
 
 _COLOURS = {"ok": "green", "warn": "yellow", "fail": "bold red"}
 _INTERRUPTED = 130
@@ -40,18 +42,21 @@ def bench_check(
     if move and not yes:
         console.print(_MOVE_WARNING, style="bold")
         typer.confirm("May the motors move?", abort=True)
-    signal.signal(signal.SIGTERM, _interrupt)
     watch = None if yes else typer.confirm
     failed = False
     try:
-        with contextlib.closing(check_bench(file, move, watch)) as steps:
+        with (
+            _interrupted_once(),
+            contextlib.closing(check_bench(file, move, watch)) as steps,
+        ):
             for step in steps:
                 failed = failed or step.result is Result.FAIL
                 colour = _COLOURS[step.result]
                 console.print(f"[{colour}]{step.result:>4}[/]  [bold]{step.name}[/]")
-                console.print(Padding(step.measured, (0, 0, 0, 6)), markup=False)
+                console.print(Padding(Text(step.measured), (0, 0, 0, 6)))
                 if step.advice:
-                    console.print(Padding(f"→ {step.advice}", (0, 0, 0, 6)), style=colour)
+                    advice = Text(f"→ {step.advice}", colour)
+                    console.print(Padding(advice, (0, 0, 0, 6)))
     except (KeyboardInterrupt, typer.Abort):
         console.print("Interrupted: the drives that were used are at zero current and reset.")
         raise typer.Exit(_INTERRUPTED) from None
@@ -89,6 +94,22 @@ def bench_home(
         console.print(f"Still missing: {problem}.", markup=False)
 
 
-def _interrupt(number: int, frame: FrameType | None) -> NoReturn:
-    """A terminated check leaves the bench as an interrupted one does."""
-    raise KeyboardInterrupt
+@contextlib.contextmanager
+def _interrupted_once() -> Iterator[None]:
+    """A terminated check leaves the bench as one ended by Ctrl-C does.
+
+    Whoever asks again while the currents are taken off does not stop that.
+    """
+
+    def interrupt(number: int, frame: FrameType | None) -> NoReturn:
+        for each in numbers:
+            signal.signal(each, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(number, interrupt) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)

@@ -66,8 +66,8 @@ class NidaqmxCounter:
         except Error as error:
             self.close()
             raise EncoderError(
-                f"The counter {s.counter} cannot be used: {error}. Check that NI's driver is"
-                " installed, the card is seen by it, and the counter's name."
+                f"The counter {s.counter} cannot be used: {str(error).strip('. ')}. Check that NI's"
+                " driver is installed, the card is seen by it, and the counter's name."
             ) from None
 
     def feed(self, message: can.Message, time_s: float) -> bool:

@@ -24,6 +24,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/emergency-stop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Stop At Once
+         * @description Stop the shared session at once, whoever asks: no secret is needed to stop a machine.
+         */
+        post: operations["stop_at_once_api_v1_emergency_stop_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/figures": {
         parameters: {
             query?: never;
@@ -492,6 +512,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/predict": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Predict Design
+         * @description What these gains and this observer would do; nothing is changed.
+         *
+         *     The roots, FL's steady error under the 3 kg, the encoders' noise in the torques, the peak
+         *     torque under the load, and a verdict with its reasons. Gains that PUT …/gains would refuse
+         *     get the verdict refuse.
+         */
+        post: operations["predict_design_api_v1_sessions__session__predict_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/loads": {
         parameters: {
             query?: never;
@@ -620,6 +664,106 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Samples
+         * @description A stretch of the run for a plot; least and greatest values are kept.
+         */
+        get: operations["read_samples_api_v1_runs__run__samples_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Metrics
+         * @description How good every lane is over a stretch of the run, such as from its load on.
+         */
+        get: operations["read_metrics_api_v1_runs__run__metrics_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/replay": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Replay
+         * @description The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s.
+         */
+        get: operations["show_replay_api_v1_runs__run__replay_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/origin": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Origin
+         * @description The run that a session is on: how it stood at t = 0 and what was changed since.
+         */
+        get: operations["read_origin_api_v1_sessions__session__origin_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/origin": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Run Origin
+         * @description A recorded run: how it stood at its t = 0 and what was changed, to its last sample.
+         */
+        get: operations["read_run_origin_api_v1_runs__run__origin_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs": {
         parameters: {
             query?: never;
@@ -700,26 +844,6 @@ export interface paths {
          * @description The run as a file of another program.
          */
         get: operations["export_run_api_v1_runs__run__export_get"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/runs/{run}/samples": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Read Samples
-         * @description A stretch of the run for a plot; least and greatest values are kept.
-         */
-        get: operations["read_samples_api_v1_runs__run__samples_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1517,6 +1641,27 @@ export interface components {
             secret: string;
         };
         /**
+         * LoopNoiseState
+         * @description What the counts of the encoders become in the discrete loop; null where it is unstable.
+         */
+        LoopNoiseState: {
+            /** Torque1 Rms Nm */
+            torque1_rms_nm: number | null;
+            /** Torque2 Rms Nm */
+            torque2_rms_nm: number | null;
+            /**
+             * Largest Pole
+             * @description Largest |z| of the loop's poles; stable below 1
+             */
+            largest_pole: number;
+            /**
+             * Encoders
+             * @description Whose encoders: the session's, or the paper's rig's where it has none
+             * @enum {string}
+             */
+            encoders: "session" | "rig";
+        };
+        /**
          * LoopState
          * @description The loop's process: how punctual it is, since it started.
          */
@@ -1645,6 +1790,42 @@ export interface components {
             kind: "paper";
         };
         /**
+         * PredictRequest
+         * @description Gains and observer to try; what is left out is as it is set now.
+         */
+        PredictRequest: {
+            /** @description New gains, as for PUT …/gains */
+            gains?: components["schemas"]["GainsRequest"] | null;
+            /** @description New observer, as for PUT …/observer */
+            observer?: components["schemas"]["ObserverBandwidth"] | null;
+        };
+        /**
+         * Prediction
+         * @description The judgement; numbers are null for gains that are refused as such.
+         */
+        Prediction: {
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "ok" | "warn" | "refuse";
+            /** Reasons */
+            reasons: components["schemas"]["ReasonState"][];
+            /**
+             * Stiffness Nm Per Rad
+             * @description The σ at which all this holds
+             */
+            stiffness_nm_per_rad: number;
+            /** Position Roots Rad Per S */
+            position_roots_rad_per_s: components["schemas"]["Root"][];
+            /** Stiffness Roots Rad Per S */
+            stiffness_roots_rad_per_s: components["schemas"]["Root"][];
+            /** @description Null where FL finds no rest */
+            fl: components["schemas"]["SteadyErrorState"] | null;
+            noise: components["schemas"]["LoopNoiseState"] | null;
+            demand: components["schemas"]["TorqueDemandState"] | null;
+        };
+        /**
          * PulseLoad
          * @description A torque for a while.
          */
@@ -1673,6 +1854,21 @@ export interface components {
              * @description Duration, s
              */
             duration_s: number;
+        };
+        /**
+         * ReasonState
+         * @description One thing to know about the design.
+         */
+        ReasonState: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "note" | "warn" | "refuse";
+            /** Code */
+            code: string;
+            /** Message */
+            message: string;
         };
         /**
          * RecordingRequest
@@ -1796,6 +1992,12 @@ export interface components {
              * @description When it went into the trash, UTC
              */
             deleted: string | null;
+            /**
+             * Plant
+             * @description What lane 1 was; only a simulated run can be branched
+             * @enum {string}
+             */
+            plant: "simulated" | "emulated" | "bench";
             /** Seed */
             seed: number;
             /**
@@ -1837,6 +2039,60 @@ export interface components {
              */
             tags: {
                 [key: string]: number;
+            };
+        };
+        /**
+         * RunMetrics
+         * @description How good a stretch of a run is, from every sample in it.
+         */
+        RunMetrics: {
+            /** Start S */
+            start_s: number;
+            /** End S */
+            end_s: number;
+            /**
+             * Lanes
+             * @description null where samples are no numbers
+             */
+            lanes: {
+                [key: string]: components["schemas"]["Metrics"] | null;
+            };
+        };
+        /**
+         * RunOrigin
+         * @description What decides the samples of a run: simulated again, they are the same bits.
+         */
+        RunOrigin: {
+            /**
+             * Configuration
+             * @description At tick 0
+             */
+            configuration: {
+                [key: string]: unknown;
+            };
+            /**
+             * Commands
+             * @description In the order in which they were given
+             */
+            commands: components["schemas"]["RunCommand"][];
+            /**
+             * Tick
+             * @description How far the run is, or where its record ends
+             */
+            tick: number;
+            /** Period S */
+            period_s: number;
+            /**
+             * Plant
+             * @enum {string}
+             */
+            plant: "simulated" | "emulated" | "bench";
+            /**
+             * Defaults
+             * @description The configuration of a new private session
+             */
+            defaults: {
+                [key: string]: unknown;
             };
         };
         /**
@@ -2235,6 +2491,18 @@ export interface components {
             corner_rad_per_s: number;
         };
         /**
+         * SteadyErrorState
+         * @description What the 3 kg (2 N·m on link and motors) leave of FL's errors, at rest.
+         */
+        SteadyErrorState: {
+            /** Position Error Rad */
+            position_error_rad: number;
+            /** Stiffness Error Nm Per Rad */
+            stiffness_error_nm_per_rad: number;
+            /** Deflection Rad */
+            deflection_rad: number;
+        };
+        /**
          * StepRequest
          * @description How far to go by hand.
          */
@@ -2245,6 +2513,32 @@ export interface components {
              * @default 1
              */
             ticks: number;
+        };
+        /**
+         * TorqueDemandState
+         * @description What the load asks of the motors, from a simulation of the session's motion.
+         */
+        TorqueDemandState: {
+            /**
+             * Peak Torque1 Nm
+             * @description Asked for where nothing limits it
+             */
+            peak_torque1_nm: number;
+            /**
+             * Peak Torque2 Nm
+             * @description Asked for where nothing limits it
+             */
+            peak_torque2_nm: number;
+            /**
+             * Limited S
+             * @description How long a torque is at its limit
+             */
+            limited_s: number;
+            /**
+             * Fault
+             * @description Why the run with the load would end
+             */
+            fault: string | null;
         };
         /**
          * ViolationModel
@@ -2304,6 +2598,24 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["Health"];
                 };
+            };
+        };
+    };
+    stop_at_once_api_v1_emergency_stop_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };
@@ -3565,6 +3877,60 @@ export interface operations {
             };
         };
     };
+    predict_design_api_v1_sessions__session__predict_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PredictRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Prediction"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
     apply_load_api_v1_sessions__session__loads_post: {
         parameters: {
             query?: never;
@@ -3975,6 +4341,270 @@ export interface operations {
             };
         };
     };
+    read_samples_api_v1_runs__run__samples_get: {
+        parameters: {
+            query?: {
+                /** @description Names with commas between them; left out, those of the plots */
+                channels?: string | null;
+                /** @description Time of the run, s */
+                start_s?: number | null;
+                /** @description Time of the run, s */
+                end_s?: number | null;
+                /** @description At most so many */
+                points?: number;
+            };
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunSamples"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_metrics_api_v1_runs__run__metrics_get: {
+        parameters: {
+            query?: {
+                /** @description Time of the run, s */
+                start_s?: number | null;
+                /** @description Time of the run, s */
+                end_s?: number | null;
+            };
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunMetrics"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    show_replay_api_v1_runs__run__replay_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": string;
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_origin_api_v1_sessions__session__origin_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunOrigin"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_run_origin_api_v1_runs__run__origin_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunOrigin"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
     list_runs_api_v1_runs_get: {
         parameters: {
             query?: {
@@ -4259,65 +4889,6 @@ export interface operations {
                 };
                 content: {
                     "application/octet-stream": unknown;
-                };
-            };
-            /** @description No such session, load or run */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-            /** @description Not while the session or run is as it is */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-            /** @description Refused values; nothing was changed */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-        };
-    };
-    read_samples_api_v1_runs__run__samples_get: {
-        parameters: {
-            query?: {
-                /** @description Names with commas between them; left out, those of the plots */
-                channels?: string | null;
-                /** @description Time of the run, s */
-                start_s?: number | null;
-                /** @description Time of the run, s */
-                end_s?: number | null;
-                /** @description At most so many */
-                points?: number;
-            };
-            header?: never;
-            path: {
-                /** @description Id of a run */
-                run: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["RunSamples"];
                 };
             };
             /** @description No such session, load or run */

@@ -1,8 +1,7 @@
 /** The emergency stop: sent at once, asked again until the server confirms it. */
 import { signal } from "@preact/signals";
-import { stopAtOnce } from "../api/client";
-import { RefusedError } from "../api/errors";
-import type { SessionState } from "../api/types";
+import { stopAtOnce, stopWithoutLogin } from "../api/client";
+import { LockedError, RefusedError } from "../api/errors";
 import { acceptState } from "../state/session";
 
 export type StopStage = "idle" | "sending" | "confirmed" | "unconfirmed" | "refused";
@@ -29,7 +28,8 @@ export async function pressStop(): Promise<void> {
   tell("sending");
   for (let attempt = 0; attempt < ATTEMPTS && mine === latest; attempt++) {
     try {
-      confirm(await stopAtOnce(), tell);
+      await send();
+      tell("confirmed");
       await wait(CONFIRMED_MS);
       return tell("idle");
     } catch (error) {
@@ -40,7 +40,11 @@ export async function pressStop(): Promise<void> {
   }
 }
 
-function confirm(state: SessionState, tell: (stage: StopStage) => void): void {
-  acceptState(state);
-  tell("confirmed");
+async function send(): Promise<void> {
+  try {
+    acceptState(await stopAtOnce());
+  } catch (error) {
+    if (!(error instanceof LockedError)) throw error;
+    await stopWithoutLogin();
+  }
 }

@@ -1,0 +1,115 @@
+"""The predictions of a design against simulations of it."""
+
+import math
+
+import numpy as np
+import pytest
+
+import svsa
+from svsa.experiment.loop_noise import choose_sensing, compute_loop_noise, linearize_tick
+from svsa.experiment.prediction import LOAD, measure_demand, predict
+from svsa.experiment.steady_error import compute_fl_steady_error
+from svsa.plant.effects import Effects, SensorNoise, StateEstimation
+from svsa.runtime.configuration import Configuration, Law
+
+
+def build(law: Law, sigma: float, **changes: object) -> Configuration:
+    figure = svsa.paper.get_figure("4a").build_configuration(law, load=False)
+    stiffness = svsa.ConstantStiffness(stiffness_nm_per_rad=sigma)
+    return figure.changed(stiffness=stiffness, **changes)
+
+
+@pytest.mark.parametrize("sigma", [15.0, 35.0, 60.0, 100.0])
+@pytest.mark.parametrize("poles", [([-60.0] * 4, [-40.0] * 2), ([-40.0, -80.0] * 2, [-30.0] * 2)])
+def test_fl_comes_to_rest_where_its_error_dynamics_say(sigma, poles):
+    """Position and stiffness error of a simulated rest, to a part in 10⁶."""
+    c = build("fl", sigma, gains=svsa.Gains.from_poles(*poles))
+    predicted = compute_fl_steady_error(c, sigma, LOAD)
+    assert predicted is not None
+    loads = [svsa.PaperLoad(start_s=0.5)]
+    run = svsa.simulate(c, position=svsa.ConstantPosition(), loads=loads, duration_s=5.0)
+    assert run.fault is None
+    assert run.position_error_rad[-1] == pytest.approx(predicted.position, rel=1e-6)
+    assert run.stiffness_error_nm_per_rad[-1] == pytest.approx(predicted.stiffness, rel=1e-6)
+    assert run.deflection_rad[-1] == pytest.approx(predicted.deflection, rel=1e-6)
+
+
+def test_where_there_is_no_rest_the_simulated_run_ends_in_a_fault():
+    """Slow poles of stiffness let the load push σ out of its range."""
+    c = build("fl", 140.0, gains=svsa.Gains.from_poles([-60.0] * 4, [-30.0] * 2))
+    assert compute_fl_steady_error(c, 140.0, LOAD) is None
+    loads = [svsa.PaperLoad(start_s=0.5)]
+    run = svsa.simulate(c, position=svsa.ConstantPosition(), loads=loads, duration_s=5.0)
+    assert run.fault is not None
+
+
+@pytest.mark.parametrize("law", ["fl", "ndobc"])
+@pytest.mark.parametrize("sigma", [15.0, 60.0])
+def test_noise_goes_through_the_loop_as_predicted(law, sigma):
+    """White noise on the three angles, small enough to be linear: rms of u1 and u2 within 5 %."""
+    effects = Effects(
+        estimation=StateEstimation(),
+        delay_samples=1,
+        noise=SensorNoise(motor_std_rad=1e-6, deflection_std_rad=1e-5),
+    )
+    c = build(law, sigma, effects=effects, position=svsa.ConstantPosition())
+    predicted = compute_loop_noise(c, sigma)
+    run = svsa.simulate(c, duration_s=30.0)
+    assert np.std(run.torque1_nm[2000:]) == pytest.approx(predicted.u1, rel=0.05)
+    assert np.std(run.torque2_nm[2000:]) == pytest.approx(predicted.u2, rel=0.05)
+
+
+def test_counts_are_heard_in_the_order_predicted():
+    """Counts are no white noise: the rms of u1 on the rig is met within a factor of two."""
+    c = build("ndobc", 15.0, effects=svsa.RIG)
+    predicted = compute_loop_noise(c, 15.0)
+    smooth = svsa.RIG.changed(encoders=None)
+    counted, exact = (svsa.simulate(c, effects=e, duration_s=9.0) for e in (svsa.RIG, smooth))
+    rms = np.std((counted.torque1_nm - exact.torque1_nm)[2000:])
+    assert 0.5 < rms / predicted.u1 < 2.0
+
+
+def test_the_discrete_loop_is_stable_where_the_simulation_is():
+    """A pole pattern that the delay makes unstable has |z| ≥ 1, and the rig's run ends."""
+    fast = svsa.Gains.from_poles([-500.0] * 4, [-200.0] * 2)
+    c = build("ndobc", 60.0, effects=svsa.RIG, gains=fast)
+    assert compute_loop_noise(c, 60.0).radius >= 1.0
+    assert svsa.simulate(c, duration_s=3.0).fault is not None
+    A, B = linearize_tick(build("ndobc", 60.0, effects=svsa.RIG), 60.0)
+    assert A.shape == (len(B), len(B))
+    assert np.max(np.abs(np.linalg.eigvals(A))) < 1.0
+
+
+def test_the_demand_is_that_of_the_run_with_the_load():
+    demand = measure_demand(build("ndobc", 60.0))
+    assert demand.fault == ""
+    assert demand.limited_s == 0.0
+    run = svsa.simulate(
+        build("ndobc", 60.0), position=svsa.ConstantPosition(), loads=[svsa.PaperLoad(start_s=1.0)]
+    )
+    assert demand.peak2_nm == pytest.approx(np.max(np.abs(run.torque2_nm)), rel=0.3)
+
+
+@pytest.mark.parametrize(
+    ("law", "pole", "verdict", "codes"),
+    [
+        ("ndobc", 30.0, "ok", {"saturation"}),
+        ("ndobc", 60.0, "ok", {"saturation"}),
+        ("ndobc", 90.0, "refuse", {"fault"}),
+        ("fl", 30.0, "warn", {"large_error"}),
+        ("fl", 15.0, "warn", {"no_rest", "large_error"}),
+    ],
+)
+def test_the_verdict_says_what_would_happen(law, pole, verdict, codes):
+    c = build(law, 15.0, gains=svsa.Gains.from_poles([-pole] * 4, [-40.0] * 2))
+    prediction = predict(c, 15.0)
+    assert prediction.verdict == verdict, prediction
+    assert codes & {reason.code for reason in prediction.reasons}
+    assert all(reason.message for reason in prediction.reasons)
+
+
+def test_sensing_is_the_sessions_own_or_the_rigs():
+    assert choose_sensing(svsa.IDEAL) == svsa.RIG
+    own = svsa.RIG.changed(delay_samples=2)
+    assert choose_sensing(own) is own
+    assert math.isfinite(compute_loop_noise(build("fl", 15.0, effects=own), 15.0).u1)

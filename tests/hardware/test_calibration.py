@@ -1,0 +1,190 @@
+"""The calibration record: it holds for the bench that it was made for, and for no other."""
+
+from datetime import datetime
+
+import pytest
+
+from svsa.errors import ParameterError, StateError
+from svsa.hardware.bench import read_bench
+from svsa.hardware.bus import BusError
+from svsa.hardware.calibration import (
+    Calibration,
+    compute_fingerprint,
+    find_calibration,
+    get_calibration_path,
+    list_problems,
+    note_signs,
+    write_calibration,
+)
+from svsa.hardware.encoders.source import EncoderError
+from svsa.hardware.homing import STEPS, Homing
+from svsa.hardware.zero import calibrate, read_deflection_zero
+from svsa.plant.disturbances import ConstantLoad
+from svsa.rig.faults import DropFrames
+from svsa.rig.parameters import RigDeflection, RigParameters
+from svsa.rig.rig import Rig
+from tests.hardware.bus_in_time import RIG_BENCH, RigBus, copy_bench
+
+MOTOR_CHANGES = [
+    ("gear_ratio = 50.0", "gear_ratio = 51.0"),
+    ("sign = 1", "sign = -1"),
+    ("counts_per_rev = 8000", "counts_per_rev = 4000"),
+    ("lever_ratio = 0.6", "lever_ratio = 0.5"),
+    ("id = 0x700", "id = 0x701"),
+]
+
+
+@pytest.fixture
+def bench(tmp_path):
+    """The rig's bench without its record."""
+    path = copy_bench(tmp_path)
+    path.with_name("bench.calibration.toml").unlink()
+    return read_bench(path)
+
+
+def build(bench, **changes):
+    made = {
+        "date": "2026-01-02T03:04:05+01:00",
+        "by": "Ada",
+        "fingerprint": compute_fingerprint(bench),
+        "deflection_zero_counts": -17,
+        "signs_confirmed": True,
+    }
+    return Calibration(**(made | changes))
+
+
+def confirm_all(by="Ada"):
+    homing = Homing()
+    for step in STEPS:
+        homing.confirm(step.name, by)
+    return homing
+
+
+def test_a_record_is_read_as_it_was_written(bench):
+    path = write_calibration(bench, build(bench))
+    assert path == get_calibration_path(bench)
+    assert path.name == "bench.calibration.toml"
+    assert find_calibration(bench) == build(bench)
+    assert list_problems(bench, build(bench)) == []
+    assert [each.name for each in path.parent.iterdir() if each.suffix == ".tmp"] == []
+
+
+def test_without_a_record_it_says_what_to_run(bench):
+    assert find_calibration(bench) is None
+    (problem,) = list_problems(bench, None)
+    assert "bench-home" in problem
+
+
+@pytest.mark.parametrize(("old", "new"), MOTOR_CHANGES)
+def test_a_change_of_motor_encoder_or_mark_makes_it_void(tmp_path, bench, old, new):
+    calibration = build(bench)
+    changed = read_bench(copy_bench(tmp_path, lambda text: text.replace(old, new, 1)))
+    (problem,) = list_problems(changed, calibration)
+    assert "changed after the calibration of 2026-01-02" in problem
+
+
+def test_what_does_not_touch_the_marks_leaves_it_valid(tmp_path, bench):
+    """Another adapter or a narrower limit needs no new zero."""
+    changed = read_bench(
+        copy_bench(
+            tmp_path,
+            lambda text: text.replace("29536", "1").replace("max_nm = 12.0", "max_nm = 9.0"),
+        )
+    )
+    assert list_problems(changed, build(bench)) == []
+
+
+def test_unconfirmed_signs_and_missing_values_keep_it_from_arming(tmp_path, bench):
+    (problem,) = list_problems(bench, build(bench, signs_confirmed=False))
+    assert "bench-check --move" in problem
+    unknown = read_bench(copy_bench(tmp_path, lambda text: text.replace("efficiency = 0.9", "", 1)))
+    assert "[motor1] efficiency is not given" in list_problems(unknown, build(unknown))[0]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "by = ",
+        "by = 'Ada'\n",
+        "\xff",
+        "date = '2026-01-02T03:04:05'\nby = 'A'\nfingerprint = ''\n"
+        "deflection_zero_counts = 0\nsigns_confirmed = true\n",
+        "date = 'yesterday'\nby = 'A'\nfingerprint = ''\n"
+        "deflection_zero_counts = 0\nsigns_confirmed = true\n",
+        "date = '2026-01-02T03:04:05Z'\nby = ''\nfingerprint = ''\n"
+        "deflection_zero_counts = 0.5\nsigns_confirmed = true\n",
+    ],
+    ids=["no TOML", "fields missing", "no UTF-8", "no zone", "no date", "wrong values"],
+)
+def test_a_damaged_record_is_refused_and_not_passed_over(bench, text):
+    get_calibration_path(bench).write_bytes(text.encode("latin-1"))
+    with pytest.raises(ParameterError):
+        find_calibration(bench)
+
+
+def test_signs_are_noted_in_a_record_of_this_bench_only(bench):
+    note_signs(bench, True)
+    assert find_calibration(bench) is None
+    write_calibration(bench, build(bench, signs_confirmed=False))
+    note_signs(bench, True)
+    assert find_calibration(bench) == build(bench)
+    stranger = build(bench, fingerprint="another", signs_confirmed=False)
+    write_calibration(bench, stranger)
+    note_signs(bench, True)
+    assert find_calibration(bench) == stranger
+
+
+def test_the_rigs_own_record_fits_its_bench_file():
+    """Else `svsa rig` and the figures through CAN would not arm."""
+    bench = read_bench(RIG_BENCH)
+    assert list_problems(bench, find_calibration(bench)) == []
+
+
+def test_calibrating_reads_the_zero_and_says_who_and_when(bench):
+    bus = RigBus(Rig(RigParameters(deflection=RigDeflection(offset_counts=-321, phase_s=0.0008))))
+    path, calibration = calibrate(bench, confirm_all(" Ada "), bus.open, bus.now)
+    assert (calibration.deflection_zero_counts, calibration.by) == (-321, "Ada")
+    assert datetime.fromisoformat(calibration.date).tzinfo is not None
+    assert not calibration.signs_confirmed
+    assert find_calibration(bench) == calibration
+    assert path.exists()
+    assert bus.sent == []
+    assert not bus.is_open
+
+
+def test_calibrating_again_keeps_signs_that_were_confirmed_for_these_settings(bench):
+    write_calibration(bench, build(bench))
+    bus = RigBus()
+    assert calibrate(bench, confirm_all(), bus.open, bus.now)[1].signs_confirmed
+    write_calibration(bench, build(bench, fingerprint="another"))
+    assert not calibrate(bench, confirm_all(), bus.open, bus.now)[1].signs_confirmed
+
+
+def test_nothing_is_written_before_every_mark_is_confirmed(bench):
+    homing, bus = Homing(), RigBus()
+    homing.confirm("link", "Ada")
+    with pytest.raises(StateError, match="motor1"):
+        calibrate(bench, homing, bus.open, bus.now)
+    assert find_calibration(bench) is None
+
+
+def test_a_link_that_still_swings_is_not_taken_for_a_zero(bench):
+    bus = RigBus()
+    bus.rig.add_load(ConstantLoad(torque_nm=(0.5, 0.0, 0.0)))
+    with pytest.raises(StateError, match="let go of the link"):
+        calibrate(bench, confirm_all(), bus.open, bus.now)
+    assert find_calibration(bench) is None
+
+
+def test_a_silent_encoder_and_a_missing_bus_have_no_zero(bench):
+    bus = RigBus()
+    bus.rig.inject(DropFrames(node="deflection"))
+    with pytest.raises(EncoderError, match="bench-check"):
+        read_deflection_zero(bench, bus.open, bus.now)
+    assert not bus.is_open
+
+    def refuse(settings):
+        raise BusError("no adapter")
+
+    with pytest.raises(BusError):
+        read_deflection_zero(bench, refuse, bus.now)

@@ -1,0 +1,54 @@
+"""The guided zero: one mark after the other, each confirmed by somebody."""
+
+import pytest
+
+from svsa.errors import ParameterError, StateError
+from svsa.hardware.homing import DONE, STEPS, Homing, get_instruction
+
+
+def test_the_marks_are_confirmed_in_turn_and_by_whom_is_kept():
+    homing, seen = Homing(), []
+    while (step := homing.next_step) is not None:
+        seen.append(step)
+        assert get_instruction(step) == next(s.instruction for s in STEPS if s.name == step)
+        homing.confirm(step, "Ada")
+    assert seen == ["link", "motor1", "motor2"]
+    assert homing.confirmed == dict.fromkeys(seen, "Ada")
+    assert get_instruction(homing.next_step) == DONE
+
+
+@pytest.mark.parametrize("step", ["motor1", "motor2"])
+def test_no_mark_is_confirmed_out_of_turn(step):
+    """The spring is relaxed by the link's mark: the motors' zeros mean nothing before."""
+    homing = Homing()
+    with pytest.raises(StateError, match="link"):
+        homing.confirm(step, "Ada")
+    assert homing.next_step == "link"
+
+
+def test_a_mark_is_not_confirmed_twice_nor_after_the_last():
+    homing = Homing()
+    homing.confirm("link", "Ada")
+    with pytest.raises(StateError, match="motor1"):
+        homing.confirm("link", "Bob")
+    homing.confirm("motor1", "Ada")
+    homing.confirm("motor2", "Ada")
+    with pytest.raises(StateError, match="nothing is left"):
+        homing.confirm("motor2", "Bob")
+    assert homing.confirmed["link"] == "Ada"
+
+
+def test_an_unknown_mark_or_nobody_is_refused():
+    homing = Homing()
+    with pytest.raises(ParameterError, match="one of link, motor1, motor2"):
+        homing.confirm("elbow", "Ada")
+    with pytest.raises(ParameterError, match="who looked"):
+        homing.confirm("link", "  ")
+    assert homing.confirmed == {}
+
+
+def test_a_reset_of_the_drives_forgets_all_marks():
+    homing = Homing()
+    homing.confirm("link", "Ada")
+    homing.reset()
+    assert homing.next_step == "link"
