@@ -92,7 +92,7 @@ def test_an_empty_stretch_cannot_be_measured(result, stretch):
         result.measure(*stretch)
 
 
-@pytest.mark.parametrize("figure", ["4c", "", None, 7])
+@pytest.mark.parametrize("figure", ["4c", "", None, 8])
 def test_an_unknown_figure_is_refused_with_the_known_ones(figure):
     with pytest.raises(svsa.ParameterError, match=r"figure .* one of 4a, 4b, 5"):
         svsa.simulate(figure)
