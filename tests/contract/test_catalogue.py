@@ -16,7 +16,8 @@ from svsa.errors import ParameterError, StateError
 from svsa.runtime.catalogue.entry import CatalogueError, UnknownRunError
 from svsa.runtime.catalogue.runs import Catalogue, build_run_id, find_data_folder
 from svsa.runtime.metrics import compute_metrics
-from svsa.runtime.recording.header import RecordError, is_run_id
+from svsa.runtime.recording.header import RecordError, is_run_id, write_header
+from svsa.runtime.recording.parquet import measure_bytes
 from svsa.runtime.recording.writer import write_record
 
 from .records import PERIOD_S, build_header, build_samples
@@ -310,6 +311,20 @@ def test_two_processes_and_many_threads_share_a_folder(catalogue: Catalogue) -> 
     assert page.total == 60
     assert {run.state for run in page.runs} == {"complete"}
     assert all(run.name == "Name " + run.id.removeprefix("run-") for run in page.runs)
+
+
+def test_a_run_is_measured_while_somebody_renames_it(catalogue: Catalogue) -> None:
+    add(catalogue, "run-1")
+    folder = catalogue.folder / "runs" / "run-1"
+
+    def rename() -> None:
+        for number in range(150):
+            write_header(folder, build_header("run-1", name=f"Name {number}"))
+
+    renaming = threading.Thread(target=rename)
+    renaming.start()
+    while renaming.is_alive():
+        assert measure_bytes(folder) > 0
 
 
 def test_where_runs_are_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
