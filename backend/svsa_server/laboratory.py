@@ -20,7 +20,7 @@ from svsa.runtime.configuration import Configuration
 from svsa.runtime.realtime.session import BenchSession, Hands
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
-from svsa_scene import ActuatorPose
+from svsa_scene import ActuatorPose, RivalPose
 from svsa_server.errors import UnknownError
 
 WAKE_PERIOD_S = 1.0 / 60.0
@@ -157,9 +157,24 @@ class Laboratory:
             torque1_nm=read("torque1_nm"),
             torque2_nm=read("torque2_nm"),
             disturbance_link_nm=read("disturbance_link_nm"),
+            disturbance_motor1_nm=read("disturbance_motor1_nm"),
+            disturbance_motor2_nm=read("disturbance_motor2_nm"),
+            rivals=_read_rivals(session),
             load_mass_kg=_find_hung_mass(session),
             deflection_limit_rad=read("deflection_limit_rad"),
         )
+
+
+def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
+    """Where the links of the other lanes are; a bench's twin is called so."""
+    poses = []
+    for number, lane in enumerate(session.run.configuration.lanes[1:], start=1):
+        newest = session.history.read_newest(number)
+        if newest is not None:
+            name = lane.law.upper() if session.plant == "simulated" else "twin"
+            position = float(np.nan_to_num(newest[CHANNEL_INDEX["position_rad"]]))
+            poses.append(RivalPose(name, position))
+    return tuple(poses)
 
 
 def build_shared_session(bench: Path | None) -> Session:

@@ -32,6 +32,12 @@ IRON = Finish((68, 72, 80), 0.0, 0.5)
 GHOST = Finish((24, 168, 156), 0.0, 0.8, 0.32)
 DEFLECTION: Rgb = (214, 62, 14)
 LIMIT = Finish((205, 52, 58), 0.1, 0.6)
+DISTURBANCE: Rgb = (226, 88, 12)
+RIVALS = (
+    Finish((214, 140, 10), 0.0, 0.7, 0.75),
+    Finish((0, 138, 102), 0.0, 0.7, 0.75),
+    Finish((179, 85, 143), 0.0, 0.7, 0.75),
+)
 
 _STIFFNESS_RANGE = (1.7, 150.56)
 _STIFFNESS_STEPS = 32

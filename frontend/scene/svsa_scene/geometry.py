@@ -124,6 +124,19 @@ def make_helix(radius: float, wire: float, turns: int) -> trimesh.Trimesh:
     return make_tube(path, wire, sections=8)
 
 
+def make_arrow_shaft(radius: float) -> trimesh.Trimesh:
+    """A rod of unit length along +y from the origin; scaled along y it changes its length."""
+    path = np.column_stack([np.zeros(2), [0.0, 1.0], np.zeros(2)])
+    return join([make_tube(path, radius)])
+
+
+def make_arrow_head(radius: float, length: float) -> trimesh.Trimesh:
+    """A cone along +y, its base at the origin."""
+    cone = revolve(np.array([(0.0, 0.0), (radius, 0.0), (0.0, length)]), sections=20)
+    cone.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, (1.0, 0.0, 0.0)))
+    return join([cone])
+
+
 def make_spiral(
     pitch: float, turns: tuple[float, float], offset: float, z: float, wire: float
 ) -> trimesh.Trimesh:

@@ -158,6 +158,15 @@ def build_ghost() -> Group:
     return [look.paint(join([ring, arm]), look.GHOST)]
 
 
+def build_rival(finish: look.Finish, number: int) -> Group:
+    """Frame of a link's arm where another lane has it, each a little longer than the last."""
+    tip = 1.5 + 0.22 * number
+    sides = [make_bar((0.98, y, 0.022), (tip, 0.75 * y, 0.022), (0.8, 0.9)) for y in (-0.2, 0.2)]
+    cross = make_bar((tip, -0.15, 0.022), (tip, 0.15, 0.022), (0.8, 0.9))
+    ring = make_ring(0.935, 0.965, (0.8, 0.88), bevel=0.0)
+    return [look.paint(join([*sides, cross, ring]), finish)]
+
+
 def build_load() -> Group:
     """Three discs on a rod, hung from the origin; 3 kg of iron at the scene's scale."""
     rod = np.column_stack([[0.0, 1.45], np.zeros(2), np.full(2, HOOK_Z)])

@@ -1,6 +1,15 @@
 """What the view needs to know about the actuator at one instant."""
 
+import math
 from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class RivalPose:
+    """Where the link of another lane is. name: its law, as it is read; position_rad: its q."""
+
+    name: str
+    position_rad: float
 
 
 @dataclass(frozen=True)
@@ -11,9 +20,11 @@ class ActuatorPose:
     motor1_position_rad: θ1, principal motor. motor2_position_rad: θ2, stiffness motor.
     lever_ratio: μ = a/R (Eq 4). stiffness_nm_per_rad: σ (Eq 3).
     torque1_nm, torque2_nm: u1, u2 as applied, after limits.
-    disturbance_link_nm: w2, the torque on the link that the nominal model does not explain.
+    disturbance_link_nm: w2, the torque on the link that the nominal model does not explain;
+    disturbance_motor1_nm, disturbance_motor2_nm: w4, w6, likewise on the motors.
     load_mass_kg: mass hung on the link, 0 when none is (the paper's load shows as 3 kg).
-    deflection_limit_rad: largest |φ| allowed at this μ, where φ = q − θ1.
+    deflection_limit_rad: largest |φ| allowed at this μ, where φ = q − θ1. rivals: the other
+    lanes.
     """
 
     position_rad: float
@@ -27,3 +38,12 @@ class ActuatorPose:
     disturbance_link_nm: float
     load_mass_kg: float
     deflection_limit_rad: float
+    disturbance_motor1_nm: float = 0.0
+    disturbance_motor2_nm: float = 0.0
+    rivals: tuple[RivalPose, ...] = ()
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether every number of it can be drawn."""
+        numbers = (value for value in vars(self).values() if isinstance(value, float | int))
+        return all(map(math.isfinite, (*numbers, *(r.position_rad for r in self.rivals))))

@@ -1,12 +1,12 @@
 """The actuator in a viser scene: built once, then moved by poses only."""
 
 import math
-from collections.abc import Sequence
 
 import viser
 
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
+from svsa_scene.arrows import TorqueArrows
 from svsa_scene.geometry import join, make_helix, make_sector
 from svsa_scene.linkage import (
     LOAD_ARM,
@@ -15,27 +15,9 @@ from svsa_scene.linkage import (
     Linkage,
     compute_linkage,
 )
+from svsa_scene.moved import Moved
 from svsa_scene.pose import ActuatorPose
-
-_SMALLEST_MOVE = 4e-4
-_PAPER_MASS_KG = 3.0
-
-
-class _Moved:
-    """Remembers what was last sent, so that only a visible change is sent again."""
-
-    def __init__(self) -> None:
-        self._sent: dict[str, tuple[float, ...]] = {}
-
-    def is_due(self, key: str, values: Sequence[float]) -> bool:
-        """True, and remembered, when a value differs from the one sent by a visible amount."""
-        before = self._sent.get(key)
-        if before is not None and all(
-            abs(a - b) < _SMALLEST_MOVE for a, b in zip(before, values, strict=True)
-        ):
-            return False
-        self._sent[key] = tuple(values)
-        return True
+from svsa_scene.rivals import Rivals
 
 
 class ActuatorScene:
@@ -43,7 +25,7 @@ class ActuatorScene:
 
     def __init__(self, server: viser.ViserServer) -> None:
         self._server = server
-        self._moved = _Moved()
+        self._moved = Moved()
         self._stiffness_step = 0
         self._load_mass_kg = 0.0
         look.set_stage(server, ground=-mechanism.AXIS_HEIGHT)
@@ -58,7 +40,7 @@ class ActuatorScene:
         """Move every part to the pose, in one step for the viewer. Non-finite poses are left
         out: the view keeps the last one.
         """
-        if not all(math.isfinite(value) for value in vars(pose).values()):
+        if not pose.is_finite:
             return
         linkage = compute_linkage(pose)
         with self._server.atomic():
@@ -68,6 +50,8 @@ class ActuatorScene:
             self._move_linkage(linkage)
             self._move_deflection(linkage.deflection, pose.deflection_limit_rad)
             self._move_load(pose.position_rad, pose.load_mass_kg)
+            self._arrows.show(pose)
+            self._rivals.show(pose.rivals)
             self._color_springs(look.compute_stiffness_step(pose.stiffness_nm_per_rad))
 
     def _build(self) -> None:
@@ -91,6 +75,8 @@ class ActuatorScene:
         self._add_springs()
         self._add_sector()
         self._add_labels()
+        self._arrows = TorqueArrows(self._server, self._moved)
+        self._rivals = Rivals(self._server, self._moved)
 
     def _add(self, name: str, group: mechanism.Group) -> viser.SceneNodeHandle:
         scene = self._server.scene
@@ -127,8 +113,8 @@ class ActuatorScene:
     def _add_labels(self) -> None:
         scene = self._server.scene
         for name, text, position in (
-            ("/a/t1", "θ₁ principal motor", (-0.8, 0.0, -2.95)),
-            ("/a/t2", "θ₂ stiffness motor", (-1.12, 0.0, -0.8)),
+            ("/a/t1", "θ₁ principal motor", (-1.2, 0.0, -2.75)),
+            ("/a/t2", "θ₂ stiffness motor", (-1.62, 0.0, -0.75)),
             ("/a/c/t", "φ", (-1.34, 0.0, mechanism.SECTOR_Z)),
             ("/a/l/t", "q", (1.4, 0.0, 1.0)),
             ("/a/g/t", "q_d", (1.68, 0.0, 0.84)),

@@ -1,0 +1,51 @@
+"""The other lanes, live: where each of their links is, as an outline with the law's name."""
+
+import math
+
+import viser
+
+from svsa_scene import appearance as look
+from svsa_scene import mechanism
+from svsa_scene.moved import Moved
+from svsa_scene.pose import RivalPose
+
+
+class Rivals:
+    """Outlines for as many other lanes as a session may have; those without one are hidden."""
+
+    def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
+        self._moved = moved
+        self._names = [""] * len(look.RIVALS)
+        scene = server.scene
+        self._frames = [
+            scene.add_frame(f"/a/r{number}", show_axes=False, visible=False)
+            for number in range(len(look.RIVALS))
+        ]
+        self._labels = []
+        for number, finish in enumerate(look.RIVALS):
+            scene.add_glb(
+                f"/a/r{number}/solid", mechanism.export(mechanism.build_rival(finish, number))
+            )
+            self._labels.append(
+                scene.add_label(
+                    f"/a/r{number}/t",
+                    "",
+                    position=(1.78 + 0.22 * number, 0.0, 1.0),
+                    anchor="center-center",
+                    font_screen_scale=1.0,
+                )
+            )
+
+    def show(self, rivals: tuple[RivalPose, ...]) -> None:
+        """Each rival at its position; at most as many as there are outlines."""
+        for number, frame in enumerate(self._frames):
+            rival = rivals[number] if number < len(rivals) else None
+            name = rival.name if rival else ""
+            if name != self._names[number]:
+                self._names[number] = name
+                frame.visible = bool(name)
+                if name:
+                    self._labels[number].text = name
+            if rival and self._moved.is_due(f"rival{number}", (rival.position_rad,)):
+                half = rival.position_rad / 2
+                frame.wxyz = (math.cos(half), 0.0, 0.0, math.sin(half))
