@@ -1,0 +1,73 @@
+"""What decides a run, and how good a stretch of it is, over REST: what the page's scripts need."""
+
+import time
+from pathlib import Path
+
+import pytest
+
+from svsa.runtime.metrics import compute_metrics
+from svsa.runtime.recording.reader import open_record
+from tests.lab import Lab, run_lab
+
+ONSET_S = 2.0
+
+
+def record(lab: Lab) -> tuple[str, dict]:
+    """A run of 4 s from t = 0, FL beside NDOBC, a load at 2 s; its id and the live origin."""
+    lab.load_figure()
+    lab.client.post(lab.session + "/pause").raise_for_status()
+    lab.client.post(lab.session + "/reset").raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]}).raise_for_status()
+    recording = lab.client.post(lab.session + "/recording", json={}).raise_for_status().json()
+    lab.jump(ONSET_S)
+    lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
+    lab.jump(2)
+    origin = lab.client.get(lab.session + "/origin").raise_for_status().json()
+    lab.client.delete(lab.session + "/recording").raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+    run = recording["recording"]["run_id"]
+    for _ in range(100):
+        if lab.client.get(f"/api/v1/runs/{run}").json()["state"] == "complete":
+            return run, origin
+        time.sleep(0.1)
+    raise AssertionError(f"run {run} was not finished")
+
+
+def test_the_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
+    run, live = record(lab)
+    recorded = lab.client.get(f"/api/v1/runs/{run}/origin").raise_for_status().json()
+    assert recorded == live
+    assert [(c["tick"], c["command"]["kind"]) for c in live["commands"]] == [
+        (0, "rivals"),
+        (2000, "load"),
+    ]
+    assert (live["tick"], live["period_s"], live["plant"]) == (4000, 0.001, "simulated")
+    assert live["configuration"] == live["defaults"]
+
+
+def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> None:
+    with run_lab(data=str(tmp_path)) as lab:
+        run, _ = record(lab)
+        query = {"start_s": ONSET_S, "end_s": 3.5}
+        answer = lab.client.get(f"/api/v1/runs/{run}/metrics", params=query).raise_for_status()
+        told = answer.json()
+        whole = lab.client.get(f"/api/v1/runs/{run}/metrics").json()["lanes"]
+        entry = lab.client.get(f"/api/v1/runs/{run}").json()
+        refused = lab.client.get(f"/api/v1/runs/{run}/metrics", params={"start_s": 2, "end_s": 1})
+    assert (told["start_s"], told["end_s"]) == (ONSET_S, 3.5)
+    samples = open_record(tmp_path / "runs" / run).samples[2000:3500]
+    for number, metrics in enumerate(told["lanes"].values()):
+        expected = compute_metrics(samples[:, number], 0.001)
+        assert metrics["rms_position_error_rad"] == pytest.approx(expected.rms_position_error_rad)
+        assert metrics["peak_torque1_nm"] == expected.peak_torque1_nm
+    for metrics, listed in zip(whole.values(), entry["metrics"], strict=True):
+        assert metrics["rms_position_error_rad"] == pytest.approx(listed["rms_position_error_rad"])
+    assert refused.status_code == 422
+
+
+def test_the_replay_is_a_page_to_look_at_in_place(lab: Lab) -> None:
+    run, _ = record(lab)
+    answer = lab.client.get(f"/api/v1/runs/{run}/replay?t=1.5").raise_for_status()
+    assert answer.headers["content-type"].startswith("text/html")
+    assert "content-disposition" not in answer.headers
+    assert lab.client.get("/api/v1/runs/no-such-run/replay").status_code == 404
