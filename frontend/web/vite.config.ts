@@ -28,12 +28,26 @@ function inlineAssets(): Plugin {
   };
 }
 
+/** Leaves out what KaTeX brings for browsers that know no WOFF2. */
+function newFontsOnly(): Plugin {
+  return {
+    name: "svsa-new-fonts-only",
+    generateBundle(_, bundle) {
+      for (const name of Object.keys(bundle)) {
+        if (/\.(woff|ttf)$/.test(name)) delete bundle[name];
+      }
+    },
+  };
+}
+
 /** `vite build` makes the lab's page; `vite build --mode replay` the page of an exported run. */
 export default defineConfig(({ mode }) => ({
   base: "./",
-  plugins: mode === "replay" ? [inlineAssets()] : [],
+  plugins: mode === "replay" ? [inlineAssets()] : [newFontsOnly()],
   build: {
     outDir: "../../backend/svsa_server/page",
+    /** A page may load no font from its own text. */
+    assetsInlineLimit: (file) => (/\.(woff2?|ttf)$/.test(file) ? false : undefined),
     emptyOutDir: mode !== "replay",
     copyPublicDir: mode !== "replay",
     target: "es2022",

@@ -1,5 +1,4 @@
 import { describe, expect, it } from "vitest";
-import { bandwidthOf, isAtOnePlace } from "../src/controls/bandwidth";
 import { positionOf, STEPS, valueAt } from "../src/controls/scale";
 import { backoffMs } from "../src/stream/connection";
 
@@ -22,21 +21,6 @@ describe("slider scale", () => {
   it("holds what lies beyond at the end", () => {
     expect(positionOf(500, byRatio)).toBe(STEPS);
     expect(positionOf(-500, even)).toBe(0);
-  });
-});
-
-describe("bandwidth", () => {
-  const position = [60 ** 4, 4 * 60 ** 3, 6 * 60 ** 2, 4 * 60];
-
-  it("is the place of the poles", () => {
-    expect(bandwidthOf(position)).toBeCloseTo(60, 9);
-    expect(bandwidthOf([1600, 80])).toBeCloseTo(40, 9);
-  });
-
-  it("tells poles at one place from others", () => {
-    expect(isAtOnePlace(position)).toBe(true);
-    expect(isAtOnePlace([1600, 80])).toBe(true);
-    expect(isAtOnePlace([1600, 90])).toBe(false);
   });
 });
 

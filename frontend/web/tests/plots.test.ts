@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { extentOf, includeBounds, niceRange, niceStep } from "../src/plots/range";
+import { includeBounds, niceRange, niceStep } from "../src/plots/range";
 
 describe("niceStep", () => {
   it.each([
@@ -33,18 +33,6 @@ describe("niceRange", () => {
   it("has limits without data", () => {
     expect(niceRange(null, null, 2)).toEqual([-1, 1]);
     expect(niceRange(Number.NaN, 1, 2)).toEqual([-1, 1]);
-  });
-});
-
-describe("extentOf", () => {
-  it("passes over what is no number", () => {
-    const late = new Float32Array([Number.NaN, Number.NaN, -4]);
-    expect(extentOf([late, new Float32Array([1, 2, 3])])).toEqual([-4, 3]);
-  });
-
-  it("is nothing without numbers", () => {
-    expect(extentOf([new Float32Array([Number.NaN])])).toEqual([null, null]);
-    expect(extentOf([])).toEqual([null, null]);
   });
 });
 

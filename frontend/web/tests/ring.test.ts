@@ -119,3 +119,45 @@ describe("the lanes of a SampleRing", () => {
     expect(ring.newest("a", 3)).toBeNaN();
   });
 });
+
+describe("a SampleRing whose channels change", () => {
+  const one = (tick: number, ...values: number[]): Batch => ({
+    ...{ run: 1, firstTick: tick, stride: 1, count: values.length, missed: 0, lanes: 1 },
+    values: new Float32Array(values),
+  });
+  const values = (ring: SampleRing, channel: string) =>
+    Array.from({ length: ring.length }, (_, index) => ring.valueAt(channel, index));
+
+  it("keeps the past of what stays, and takes what is sent again", () => {
+    const ring = new SampleRing(10, ["a"]);
+    ring.append(one(0, 1, 2, 3, 4), 1);
+    const next = ring.reselect(["b", "a"]);
+    next.append({ ...one(2, 30, 3, 40, 4, 50, 5), count: 3 }, 1);
+    expect(values(next, "a")).toEqual([1, 2, 3, 4, 5]);
+    expect(values(next, "b")).toEqual([Number.NaN, Number.NaN, 30, 40, 50]);
+    expect(values(ring, "a")).toEqual([1, 2, 3, 4]);
+  });
+
+  it("gives a copy the channels it lacks, sample by sample of the same time", () => {
+    const ring = new SampleRing(10, ["a"]);
+    ring.append(one(0, 1, 2, 3), 1);
+    const held = ring.copy();
+    const next = ring.reselect(["b"]);
+    next.append(one(1, 20, 30, 40), 1);
+    held.adopt(next);
+    expect(held.channels).toEqual(["a", "b"]);
+    expect(values(held, "a")).toEqual([1, 2, 3]);
+    expect(values(held, "b")).toEqual([Number.NaN, 20, 30]);
+  });
+
+  it("finds the nearest sample, and its number stays while older ones go", () => {
+    const ring = new SampleRing(3, ["a"]);
+    ring.append(one(0, 0, 10, 20), 1);
+    expect([-5, 0.4, 0.6, 9].map((time) => ring.nearestTo(time))).toEqual([0, 0, 1, 2]);
+    expect(ring.stretch("a", 1, 2, 3)?.number).toBe(2);
+    ring.append(one(3, 30), 1);
+    expect(ring.stretch("a", 1, 1, 3)?.number).toBe(2);
+    expect(ring.stretch("b", 1, 0, 3)).toBeNull();
+    expect(new SampleRing(3, []).nearestTo(1)).toBe(-1);
+  });
+});

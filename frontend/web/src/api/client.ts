@@ -1,4 +1,5 @@
 /** The public REST API, one function a call. The page has no other door to the server. */
+import { noteCall } from "../script/calls";
 import { LockedError, RefusedError, UnreachableError } from "./errors";
 import type {
   Axis,
@@ -16,13 +17,17 @@ import type {
   StiffnessReference,
 } from "./types";
 
-const API = new URL("api/v1/", document.baseURI);
-const SESSION = "sessions/lab";
+export const API = new URL("api/v1/", document.baseURI);
+const SHARED = "lab";
+/** The session that this page shows: the shared one, or the private one that its address names. */
+export const sessionName = new URLSearchParams(location.search).get("session") ?? SHARED;
+export const isPrivate = sessionName !== SHARED;
+const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
 const LONGEST_WAIT_MS = 6000;
 const LONGEST_STOP_MS = 1500;
 
-async function request(
-  method: Method,
+export async function request(
+  method: Method | "patch",
   path: string,
   body?: unknown,
   waitMs = LONGEST_WAIT_MS,
@@ -40,9 +45,11 @@ async function request(
   try {
     response = await fetch(new URL(path, API), init);
   } catch (cause) {
+    noteCall(method, path, body, null);
     throw new UnreachableError(cause);
   }
   const answer: unknown = await response.json().catch(() => null);
+  noteCall(method, path, body, response.status, answer);
   if (response.ok) return answer;
   const refusal = answer as Partial<Refusal> | null;
   const message =
@@ -94,11 +101,12 @@ export const removeLoad = (id: number) =>
 export const removeAllLoads = () => call("delete", "/loads");
 export const login = (secret: string) => request("post", "login", { secret });
 
-export function streamAddress(rateHz: number, historyS: number): URL {
+export function streamAddress(rateHz: number, historyS: number, channels: readonly string[]): URL {
   const address = new URL(`${SESSION}/stream`, API);
   address.protocol = address.protocol.replace("http", "ws");
   address.searchParams.set("rate_hz", String(rateHz));
   address.searchParams.set("history_s", String(historyS));
   address.searchParams.set("lanes", "all");
+  address.searchParams.set("channels", channels.join(","));
   return address;
 }

@@ -39,3 +39,12 @@ export type Body<M extends Method, P extends SessionPath> =
   Operation<M, P> extends { requestBody: { content: { "application/json": infer B } } }
     ? [body: Sent<B>]
     : [];
+
+export type RunSummary = Schemas["RunSummary"];
+export type RunDetails = Schemas["RunDetails"];
+export type RunList = Schemas["RunList"];
+export type RunPatch = Schemas["RunPatch"];
+export type RunSamples = Schemas["RunSamples"];
+export type RunMetrics = Schemas["RunMetrics"];
+export type RunOrigin = Schemas["RunOrigin"];
+export type ExportName = paths["/api/v1/runs/{run}/export"]["get"]["parameters"]["query"]["kind"];

@@ -29,6 +29,7 @@ export function Controller({ state }: { state: SessionState }) {
   return (
     <Group
       title={text.controller.title}
+      topic="controller"
       aside={
         <Choice
           label={text.controller.law}

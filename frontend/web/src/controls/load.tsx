@@ -75,13 +75,13 @@ function FormPicker() {
 export function Loads({ state }: { state: SessionState }) {
   if (isRealBench(state.bench)) {
     return (
-      <Group title={text.load.title}>
+      <Group title={text.load.title} topic="load">
         <p class="hint">{text.load.markDoes}</p>
       </Group>
     );
   }
   return (
-    <Group title={text.load.title} aside={<FormPicker />}>
+    <Group title={text.load.title} topic="load" aside={<FormPicker />}>
       <p class="hint">{weightForm.value === "paper" ? text.load.paperDoes : text.load.massDoes}</p>
       <LoadRows state={state} />
       <Problem control="load.rows" />

@@ -65,6 +65,7 @@ export function Motion({ state }: { state: SessionState }) {
   return (
     <Group
       title={text.motion.title}
+      topic="motion"
       aside={
         <Choice label={text.motion.kind} options={KINDS} value={reference.kind} onChoose={choose} />
       }

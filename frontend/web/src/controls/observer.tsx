@@ -18,7 +18,7 @@ export function Observer({ state }: { state: SessionState }) {
   };
   const isSpread = bandwidth.some((beta) => beta !== bandwidth[0]);
   return (
-    <Group title={text.observer.title}>
+    <Group title={text.observer.title} topic="disturbance">
       {law === "fl" && <p class="hint">{text.observer.unused}</p>}
       <Field
         name="observer.all"

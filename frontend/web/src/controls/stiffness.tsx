@@ -75,6 +75,7 @@ export function Stiffness({ state }: { state: SessionState }) {
   return (
     <Group
       title={text.stiffness.title}
+      topic="stiffness"
       aside={
         <Choice
           label={text.stiffness.kind}

@@ -57,6 +57,8 @@ function Sheet() {
         <Row press={["R"]}>{keys.does.record}</Row>
         <Row press={["L"]}>{keys.does.load}</Row>
         <Row press={["C"]}>{keys.does.compare}</Row>
+        <Row press={["O"]}>{keys.does.runs}</Row>
+        <Row press={["P"]}>{keys.does.calls}</Row>
         <Row press={["?"]}>{keys.does.help}</Row>
         <Row press={[names.escape]}>{keys.does.close}</Row>
       </dl>

@@ -2,7 +2,9 @@
 import { signal } from "@preact/signals";
 import { pause } from "../api/client";
 import type { SessionState } from "../api/types";
+import { place, toggleRuns } from "../runs/place";
 import { pressStop } from "../safety/stop";
+import { toggleDrawer } from "../script/drawer";
 import { perform } from "../state/actions";
 import {
   CONTROL,
@@ -17,7 +19,7 @@ import { type Command, findCommand, focusOf } from "./shortcuts";
 
 export const isHelpOpen = signal(false);
 
-type SessionCommand = Exclude<Command, "stop" | "help" | "close">;
+type SessionCommand = Exclude<Command, "stop" | "runs" | "calls" | "help" | "close">;
 
 /** No key starts a motor: on a bench Space only stops. */
 function answerRun(state: SessionState): Promise<boolean> | undefined {
@@ -32,15 +34,13 @@ const answers: Record<SessionCommand, (state: SessionState) => Promise<boolean> 
   compare: (state) => (state.recording === null ? toggleCompare(state) : undefined),
 };
 
-/** A key pressed again before its first press was answered does nothing. */
-const underWay = new Set<SessionCommand>();
+/** A key waits for the answer to the one before, so that two presses of one key are two wishes. */
+let answered: Promise<unknown> = Promise.resolve();
 
 async function answerSession(command: SessionCommand): Promise<void> {
   const state = session.peek();
-  if (state === null || !isLive.peek() || underWay.has(command)) return;
-  underWay.add(command);
+  if (state === null || !isLive.peek() || place.peek().kind !== "lab") return;
   await answers[command](state);
-  underWay.delete(command);
 }
 
 /** Answers a key; also given to the document inside the 3D view. */
@@ -50,9 +50,11 @@ export function answerKey(event: KeyboardEvent): void {
   event.preventDefault();
   event.stopPropagation();
   if (command === "stop") void pressStop();
+  else if (command === "runs") toggleRuns();
+  else if (command === "calls") toggleDrawer();
   else if (command === "help") isHelpOpen.value = !isHelpOpen.peek();
   else if (command === "close") isHelpOpen.value = false;
-  else void answerSession(command);
+  else answered = answered.then(() => answerSession(command));
 }
 
 export function listenToKeys(): void {

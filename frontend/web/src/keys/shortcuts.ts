@@ -1,6 +1,15 @@
 /** Which key means what, and where. */
 
-export type Command = "stop" | "run" | "record" | "load" | "compare" | "help" | "close";
+export type Command =
+  | "stop"
+  | "run"
+  | "record"
+  | "load"
+  | "compare"
+  | "runs"
+  | "calls"
+  | "help"
+  | "close";
 
 /** What has the focus: a place to write, a control that needs Space itself, or neither. */
 export type Focus = "writing" | "control" | "free";
@@ -15,6 +24,8 @@ const COMMANDS: Readonly<Record<string, Command>> = {
   r: "record",
   l: "load",
   c: "compare",
+  o: "runs",
+  p: "calls",
   "?": "help",
 };
 

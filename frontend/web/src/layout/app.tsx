@@ -1,8 +1,15 @@
 import { BenchStrip } from "../bench/strip";
 import { Controls } from "../controls/controls";
 import { LoadButton } from "../controls/loadbutton";
+import { DesignPanel } from "../design/panel";
 import { HelpSheet } from "../keys/help";
+import { LearnPanel } from "../learning/panel";
+import { Tour } from "../learning/tour";
 import { Plots } from "../plots/plots";
+import { place } from "../runs/place";
+import { PrivateBanner } from "../runs/private";
+import { Runs } from "../runs/runs";
+import { CallsDrawer } from "../script/drawer";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
 import { Banners } from "./banners";
@@ -15,14 +22,18 @@ import { View } from "./view";
 
 export function App() {
   const state = session.value;
+  const at = place.value;
   return (
     <>
       <TopBar />
       {state?.bench && <BenchStrip bench={state.bench} />}
+      <PrivateBanner />
       <Banners />
       <HelpSheet />
       {phase.value === "locked" && <Login />}
-      {state === null ? (
+      {at.kind !== "lab" ? (
+        <Runs at={at} />
+      ) : state === null ? (
         <p class="waiting-page">{text.connection.waiting}</p>
       ) : (
         <main class="lab">
@@ -33,6 +44,10 @@ export function App() {
           <Controls state={state} />
         </main>
       )}
+      <DesignPanel />
+      <LearnPanel />
+      {state !== null && at.kind === "lab" && <Tour />}
+      <CallsDrawer />
       <StatusBar />
     </>
   );

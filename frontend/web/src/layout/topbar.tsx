@@ -1,4 +1,7 @@
 import { HelpButton } from "../keys/help";
+import { LearnButton } from "../learning/panel";
+import { RunsButton } from "../runs/runs";
+import { CallsButton } from "../script/drawer";
 import { theme, toggleTheme } from "../state/preferences";
 import { isLive, session } from "../state/session";
 import { text } from "../text/en";
@@ -41,6 +44,9 @@ export function TopBar() {
         </fieldset>
       )}
       <div class="topbar-end">
+        <LearnButton />
+        <RunsButton />
+        <CallsButton />
         <HelpButton />
         <ThemeButton />
       </div>

@@ -1,4 +1,7 @@
+import { isPrivate } from "../api/client";
 import { answerKey } from "../keys/keys";
+import { SceneTools } from "../scene/tools";
+import { enterView, isLow } from "../scene/viewer";
 import { theme } from "../state/preferences";
 import { connectionCount } from "../state/session";
 import { text } from "../text/en";
@@ -7,18 +10,21 @@ import { CornerMark } from "./marks";
 /** The actuator in 3D, served by viser; made anew after each lost connection. */
 export function View() {
   const connection = connectionCount.value;
+  if (isPrivate) return <p class="view is-private">{text.private.view}</p>;
   return (
-    <div class="view">
+    <div class={`view ${isLow.value ? "is-low" : ""}`}>
       {connection > 0 && (
         <iframe
           key={connection}
           title={text.view}
           src={theme.value === "dark" ? "viser/?darkMode" : "viser/"}
-          onLoad={({ currentTarget: { contentWindow } }) =>
-            contentWindow?.addEventListener("keydown", answerKey, true)
-          }
+          onLoad={({ currentTarget }) => {
+            currentTarget.contentWindow?.addEventListener("keydown", answerKey, true);
+            enterView(currentTarget);
+          }}
         />
       )}
+      <SceneTools />
       <CornerMark />
     </div>
   );

@@ -1,92 +1,73 @@
-/** One uPlot: made from a definition and one of its choices, fed from the ring without allocating samples. */
+/** One plot over time: uPlot has the scales, the axes and the grid; the strokes are a layer on it. */
 import uPlot from "uplot";
-import { LONGEST_WINDOW_S, RATE_HZ, samples, session } from "../state/session";
-import { text } from "../text/en";
-import { formatNumber } from "../units";
-import type { Bound, PlotChoice, PlotDefinition, Trace } from "./definitions";
-import type { TimeView } from "./frame";
-import { drawBounds, drawEventLabels, drawEvents } from "./marks";
-import { palette } from "./palette";
-import { extentOf, includeBounds, niceRange } from "./range";
+import { session } from "../state/session";
+import { LEFT_PX, RIGHT_PX, timeGrid, valueAxis } from "./axes";
+import { boundsOf } from "./bounds";
+import { Curve } from "./curves";
+import { extentOf } from "./decimation";
+import type { Bound, Trace } from "./definitions";
+import { StrokeLayer } from "./layer";
+import { drawBounds, drawCursorSamples, drawEvents } from "./marks";
+import { includeBounds, niceRange } from "./range";
+import { shownRing, shownSpan } from "./span";
 
-const Y_AXIS_PX = 50;
-const X_AXIS_PX = 24;
-const LABELS_PX = 17;
-const TIME_STEPS_S = [0.1, 0.2, 0.5, 1, 2, 5, 10];
-const FONT = "11px system-ui, sans-serif";
-
-export interface ChartPlace {
-  isFirst: boolean;
-  isLast: boolean;
-}
+const MARGIN_PX = 6;
 
 export class Chart {
   readonly #plot: uPlot;
-  readonly #columns: Float32Array[];
-  #view: TimeView | null = null;
+  readonly #curves: readonly Curve[];
+  readonly #layer = new StrokeLayer();
+  #shown: readonly Curve[];
+  #bounds: readonly Bound[] = [];
+  #perBucketS = 0;
 
   constructor(
     host: HTMLElement,
-    private readonly definition: PlotDefinition,
-    private readonly choice: PlotChoice,
-    place: ChartPlace,
-    onCursor: () => void,
+    traces: readonly Trace[],
+    private readonly leastSpan: number,
   ) {
-    const capacity = LONGEST_WINDOW_S * RATE_HZ + 1;
-    this.#columns = choice.traces.map(() => new Float32Array(capacity));
+    this.#curves = traces.map((trace) => new Curve(trace));
+    this.#shown = this.#curves;
     this.#plot = new uPlot(
       {
         width: Math.max(1, host.clientWidth),
         height: Math.max(1, host.clientHeight),
-        padding: [place.isFirst ? LABELS_PX : 8, 10, place.isLast ? 0 : 7, 0],
+        padding: [MARGIN_PX, RIGHT_PX, MARGIN_PX, 0],
         legend: { show: false },
-        cursor: {
-          y: false,
-          drag: { x: false, y: false },
-          points: { size: 7 },
-          sync: { key: "svsa", scales: ["x", null] },
-        },
-        scales: { x: { time: false }, y: { range: () => this.#range() } },
-        axes: [this.#timeAxis(place.isLast), this.#valueAxis()],
-        series: [{}, ...choice.traces.map(drawnTrace)],
-        hooks: {
-          drawClear: [drawEvents],
-          draw: [
-            (plot) => drawBounds(plot, this.#bounds()),
-            ...(place.isFirst ? [drawEventLabels] : []),
-          ],
-          setCursor: [onCursor],
-        },
+        cursor: { show: false },
+        scales: { x: { time: false, auto: false }, y: { auto: false } },
+        axes: [timeGrid(), { ...valueAxis(), size: LEFT_PX }],
+        series: [{}],
+        hooks: { drawClear: [drawEvents], draw: [() => this.#drawStrokes()] },
       },
-      [[], ...choice.traces.map(() => [])],
+      [[0, 1]],
       host,
     );
   }
 
-  draw(view: TimeView): void {
-    this.#view = view;
-    const count = view.time.length;
-    const { factor } = this.definition;
-    const columns = this.choice.traces.map((trace, index) => {
-      const column = this.#columns[index] as Float32Array;
-      samples.ring.copyChannel(trace.channel, view.first, column, factor, trace.lane);
-      return column.subarray(0, count);
-    });
+  draw(): void {
+    const ring = shownRing();
+    const span = shownSpan();
+    const pixels = this.#plot.bbox.width / uPlot.pxRatio;
+    for (const curve of this.#curves) {
+      const perBucket = curve.fill(ring, span, pixels);
+      this.#perBucketS = perBucket * (ring.newestTime - ring.timeAt(ring.length - 2));
+    }
+    this.#bounds = boundsOf(
+      this.#shown.map(({ trace }) => trace),
+      session.peek(),
+    );
+    const [min, max] = this.#range();
     this.#plot.batch(() => {
-      this.#plot.setData([view.time, ...columns], false);
-      this.#plot.setScale("x", { min: view.from, max: view.to });
+      this.#plot.setData([[span.from, span.to]], false);
+      this.#plot.setScale("x", { min: span.from, max: span.to });
+      this.#plot.setScale("y", { min, max });
     });
   }
 
-  /** Value of a trace at the cursor, or the newest one. */
-  reading(index: number): number {
-    const count = this.#view?.time.length ?? 0;
-    const at = this.#plot.cursor.idx ?? count - 1;
-    return this.#columns[index]?.[Math.min(at, count - 1)] ?? Number.NaN;
-  }
-
-  show(index: number, isShown: boolean): void {
-    this.#plot.setSeries(index + 1, { show: isShown });
+  /** Hides the curves of these keys, and those that follow them. */
+  hide(hidden: ReadonlySet<string>): void {
+    this.#shown = this.#curves.filter(({ trace: { key, follows } }) => !hidden.has(follows ?? key));
   }
 
   resize(width: number, height: number): void {
@@ -97,71 +78,26 @@ export class Chart {
     this.#plot.destroy();
   }
 
-  #bounds(): Bound[] {
-    const state = session.peek();
-    return state === null ? [] : (this.choice.bounds?.(state) ?? []);
+  #drawStrokes(): void {
+    const { ctx, bbox, scales } = this.#plot;
+    const { min = 0, max = 1 } = scales.y as uPlot.Scale;
+    const { width, height } = bbox;
+    if (this.#perBucketS > 0 && width > 0 && height > 0) {
+      const frame = { ring: shownRing(), span: shownSpan(), min, max, width, height };
+      this.#layer.draw({ ...frame, shown: this.#shown }, this.#perBucketS);
+      ctx.drawImage(this.#layer.canvas, bbox.left, bbox.top);
+    }
+    drawBounds(this.#plot, this.#bounds);
+    drawCursorSamples(this.#plot, this.#shown);
   }
 
-  /** Over the curves shown; uPlot's own limits are no numbers where a lane has no past. */
   #range(): [number, number] {
-    const count = this.#view?.time.length ?? 0;
-    const shown = this.#columns.filter((_, index) => this.#plot?.series[index + 1]?.show);
-    const [low, high] = extentOf(shown.map((column) => column.subarray(0, count)));
-    const [bottom, top] = niceRange(low, high, this.definition.span);
+    const [low, high] = extentOf(this.#shown.map(({ points }) => points));
+    const [bottom, top] = niceRange(low, high, this.leastSpan);
     return includeBounds(
       bottom,
       top,
-      this.#bounds().map((bound) => bound.value),
+      this.#bounds.map((bound) => bound.value),
     );
   }
-
-  #timeAxis(isLast: boolean): uPlot.Axis {
-    return {
-      ...this.#axis(),
-      size: isLast ? X_AXIS_PX : 0,
-      space: 60,
-      incrs: TIME_STEPS_S,
-      values: (_, splits) => splits.map((value) => (isLast ? text.plots.timeTick(value) : "")),
-    };
-  }
-
-  #valueAxis(): uPlot.Axis {
-    return {
-      ...this.#axis(),
-      size: Y_AXIS_PX,
-      space: 22,
-      values: (_, splits) => {
-        const decimals = tickDecimals(splits);
-        return splits.map((value) => formatNumber(Number(value.toFixed(decimals)), 12, decimals));
-      },
-    };
-  }
-
-  #axis(): uPlot.Axis {
-    return {
-      stroke: () => palette.peek().axis,
-      grid: { stroke: () => palette.peek().grid, width: 1 },
-      ticks: { show: false },
-      font: FONT,
-      gap: 4,
-    };
-  }
-}
-
-function tickDecimals(splits: readonly number[]): number {
-  const step = Math.abs((splits[1] ?? 1) - (splits[0] ?? 0));
-  for (let decimals = 0; decimals < 6; decimals++) {
-    if (Math.abs(step - Number(step.toFixed(decimals))) < step * 1e-6) return decimals;
-  }
-  return 6;
-}
-
-function drawnTrace(trace: Trace): uPlot.Series {
-  return {
-    label: trace.label,
-    stroke: () => palette.peek()[trace.colour],
-    width: trace.width,
-    points: { show: false },
-    ...(trace.dash.length > 0 ? { dash: [...trace.dash] } : {}),
-  };
 }

@@ -1,72 +1,104 @@
-/** One clock for all plots: they show the same span of time and are drawn in the same frame. */
+/**
+ * One clock for all plots. Each frame draws those that have waited longest: all of them where that
+ * is quick, else as many as keep each above ten drawings a second.
+ */
 import { effect } from "@preact/signals";
 import { windowS } from "../state/preferences";
-import { LONGEST_WINDOW_S, RATE_HZ, received, samples, session } from "../state/session";
+import { received, selectChannels, session } from "../state/session";
+import { paceViews } from "./pace";
 import { palette } from "./palette";
+import { channelsInUse } from "./setups";
+import { held, isHeld, shownSpan } from "./span";
 
-/** The span of time on screen and the samples in it. */
-export interface TimeView {
-  /** Limits of the axis, s. */
-  from: number;
-  to: number;
-  /** Index in the ring of the first sample on screen. */
-  first: number;
-  time: Float64Array;
+export interface Drawing {
+  draw(): void;
+  /** Nobody sees what is scrolled out of sight. */
+  isSeen(): boolean;
 }
 
-type Drawer = (view: TimeView) => void;
-
 const FASTEST_MS = 1000 / 30;
-const drawers = new Set<Drawer>();
-const time = new Float64Array(LONGEST_WINDOW_S * RATE_HZ + 1);
+const SLOWEST_MS = 75;
+const QUICK_MS = 6;
+/** Weight of the newest frame in the running mean of their distance. */
+const NEWEST = 0.1;
+const LONGEST_FRAME_MS = 250;
 
+/** What is drawn last stands last; the version is that of the content drawn. */
+const drawings = new Map<Drawing, number>();
+const followers = new Set<() => void>();
+let version = 0;
+let versionAt = 0;
 let drawnCount = -1;
-let drawnAt = 0;
-let intervalMs = FASTEST_MS;
 let isStale = true;
+let frameMs = FASTEST_MS;
+let frameAt = 0;
 
+/** Everything is drawn again with the next frames. */
 export function redraw(): void {
   isStale = true;
 }
 
-/** Draws whenever there is something new; returns the function that ends it. */
-export function onFrame(drawer: Drawer): () => void {
-  drawers.add(drawer);
-  redraw();
-  return () => drawers.delete(drawer);
+/** Has it drawn whenever there is something new; returns the function that ends it. */
+export function addDrawing(drawing: Drawing): () => void {
+  drawings.set(drawing, -1);
+  return () => drawings.delete(drawing);
 }
 
-function currentView(): TimeView {
-  const { ring } = samples;
-  const span = windowS.peek();
-  const newest = Number.isNaN(ring.newestTime) ? 0 : ring.newestTime;
-  const to = Math.max(newest, span);
-  const first = Math.max(0, ring.firstAt(to - span) - 1);
-  const count = ring.copyTime(first, time);
-  return { from: to - span, to, first, time: time.subarray(0, count) };
+/** Draws this one again. */
+export function renew(drawing: Drawing): void {
+  if (drawings.has(drawing)) drawings.set(drawing, -1);
+}
+
+/** Calls it in every frame that shows another span or other samples. */
+export function onFrame(follower: () => void): () => void {
+  followers.add(follower);
+  isStale = true;
+  return () => followers.delete(follower);
+}
+
+function noticeNews(now: number): boolean {
+  const hasSamples = !isHeld.peek() && received.count !== drawnCount;
+  if (!isStale && (!hasSamples || now - versionAt < FASTEST_MS - 2)) return false;
+  isStale = false;
+  drawnCount = received.count;
+  versionAt = now;
+  version++;
+  return true;
+}
+
+function drawWaiting(): void {
+  const waiting = [...drawings].filter(([drawing, drawn]) => drawn !== version && drawing.isSeen());
+  const leastMany = Math.ceil((waiting.length * frameMs) / SLOWEST_MS);
+  const begun = performance.now();
+  for (const [index, [drawing]] of waiting.entries()) {
+    if (index >= leastMany && performance.now() - begun > QUICK_MS) return;
+    drawings.delete(drawing);
+    drawings.set(drawing, version);
+    drawing.draw();
+  }
 }
 
 function tick(now: number): void {
   requestAnimationFrame(tick);
-  if (now - drawnAt < intervalMs - 2) return;
-  if (!isStale && received.count === drawnCount) return;
-  drawnAt = now;
-  drawnCount = received.count;
-  isStale = false;
-  const begun = performance.now();
-  const view = currentView();
-  for (const draw of drawers) draw(view);
-  // uPlot draws in microtasks queued before this one. On a slow machine at most half of the time
-  // goes into drawing.
-  queueMicrotask(() => {
-    intervalMs = Math.max(FASTEST_MS, 2 * (performance.now() - begun));
-  });
+  frameMs += NEWEST * (Math.min(LONGEST_FRAME_MS, now - frameAt) - frameMs);
+  frameAt = now;
+  if (noticeNews(now)) for (const follow of followers) follow();
+  drawWaiting();
 }
 
+/** From now on the stream carries what the plots need, and they are drawn. */
 export function startFrames(): void {
+  channelsInUse.subscribe(selectChannels);
+  paceViews();
   effect(() => {
-    void [windowS.value, palette.value, session.value];
+    void [windowS.value, palette.value, session.value, held.value];
     redraw();
   });
   requestAnimationFrame(tick);
+}
+
+/** Where a time is on the axis, 0 to 1 of what is seen. */
+export function shareOf(timeS: number): number {
+  const { from, to } = shownSpan();
+  return (timeS - from) / (to - from);
 }

@@ -1,13 +1,18 @@
-/** What is drawn behind and above the curves: events as vertical lines, bounds as faint ones. */
+/** What is drawn behind and above the curves: events, bounds, and the samples under the cursors. */
 import type uPlot from "uplot";
 import type { SessionEvent } from "../api/types";
 import { session } from "../state/session";
+import { cursorSamples } from "./cursors";
+import { addSign, type Curve, placeOn } from "./curves";
 import type { Bound } from "./definitions";
 import { palette } from "./palette";
+import { shownRing } from "./span";
 
 const LABEL_PX = 11;
+const SAMPLE_PX = 4;
 
-const isLoad = (event: SessionEvent) => event.kind === "load_on" || event.kind === "load_off";
+export const isLoad = (event: SessionEvent) =>
+  event.kind === "load_on" || event.kind === "load_off";
 
 function eventsInView(plot: uPlot): SessionEvent[] {
   const { min, max } = plot.scales.x as uPlot.Scale;
@@ -42,30 +47,6 @@ export function drawEvents(plot: uPlot): void {
   context.restore();
 }
 
-/** The names of the events above the plot; where two want one place, a load wins, then the newer. */
-export function drawEventLabels(plot: uPlot): void {
-  const { ctx: context, bbox } = plot;
-  const gap = 4 * devicePixelRatio;
-  const taken: [number, number][] = [];
-  context.save();
-  context.fillStyle = palette.peek().mark;
-  context.font = `600 ${LABEL_PX * devicePixelRatio}px system-ui, sans-serif`;
-  context.textAlign = "left";
-  context.textBaseline = "bottom";
-  const newestFirst = eventsInView(plot).reverse();
-  const loadsFirst = [...newestFirst.filter(isLoad), ...newestFirst.filter((e) => !isLoad(e))];
-  for (const event of loadsFirst) {
-    const width = context.measureText(event.label).width;
-    const x = plot.valToPos(event.time_s, "x", true) - gap;
-    const left = Math.max(bbox.left, Math.min(x, bbox.left + bbox.width - width));
-    const right = left + width + 2 * gap;
-    if (taken.some(([from, to]) => left < to && from < right)) continue;
-    taken.push([left, right]);
-    context.fillText(event.label, left, bbox.top - 2 * devicePixelRatio);
-  }
-  context.restore();
-}
-
 /** Faint lines at ±value of each bound that is on the axis. */
 export function drawBounds(plot: uPlot, bounds: readonly Bound[]): void {
   const { min, max } = plot.scales.y as uPlot.Scale;
@@ -89,6 +70,34 @@ export function drawBounds(plot: uPlot, bounds: readonly Bound[]): void {
       context.globalAlpha = 1;
       context.fillText(bound.label, bbox.left + bbox.width - gap + 4 * devicePixelRatio, y);
     }
+  }
+  context.restore();
+}
+
+/** The sample of each curve under cursor A as a disk, under B as a square. */
+export function drawCursorSamples(plot: uPlot, curves: readonly Curve[]): void {
+  const indices = cursorSamples.peek();
+  if (indices === null) return;
+  const { ctx: context } = plot;
+  const ring = shownRing();
+  const to = placeOn(plot);
+  context.save();
+  context.setLineDash([]);
+  context.lineWidth = devicePixelRatio;
+  context.strokeStyle = palette.peek().surface;
+  for (const { trace } of curves) {
+    context.fillStyle = palette.peek()[trace.colour];
+    indices.forEach((index, which) => {
+      const value = ring.valueAt(trace.channel, index, trace.lane) * trace.factor;
+      const x = to.x(ring.timeAt(index));
+      const isOutside = x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width;
+      if (Number.isNaN(value) || isOutside) return;
+      const path = new Path2D();
+      const sign = which === 0 ? "circle" : "square";
+      addSign(path, sign, x, to.y(value), SAMPLE_PX * devicePixelRatio);
+      context.fill(path);
+      context.stroke(path);
+    });
   }
   context.restore();
 }

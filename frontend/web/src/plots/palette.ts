@@ -7,6 +7,7 @@ export interface Palette extends Record<PlotColour, string> {
   axis: string;
   grid: string;
   mark: string;
+  surface: string;
 }
 
 export const palette = computed<Palette>(() => {
@@ -23,5 +24,6 @@ export const palette = computed<Palette>(() => {
     axis: read("axis"),
     grid: read("grid"),
     mark: read("mark"),
+    surface: style.getPropertyValue("--surface").trim(),
   };
 });

@@ -1,119 +1,177 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { EquationButton } from "../learning/equation";
+import { laneNames } from "../state/lanes";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
-import { Chart, type ChartPlace } from "./chart";
-import type { PlotChoice, PlotDefinition, Trace } from "./definitions";
-import { onFrame, redraw } from "./frame";
+import { CHANNELS, spanOf, unitOf } from "./channels";
+import { Chart } from "./chart";
+import type { Trace } from "./definitions";
+import { addDrawing, onFrame, renew } from "./frame";
+import { hoverShare, sampleRead } from "./hover";
 import { Legend } from "./legend";
+import { PlotMenu } from "./menu";
+import { PhaseChart } from "./phase";
+import type { PlotSetup } from "./setups";
+import { shownRing } from "./span";
+import { composeContent, tracesOf } from "./traces";
 
 const READING_MS = 120;
 
-function writeReadings(
-  chart: Chart,
-  traces: readonly Trace[],
-  readings: Map<string, HTMLElement>,
-): void {
-  traces.forEach((trace, index) => {
-    const element = readings.get(trace.key);
-    if (element) element.textContent = formatNumber(chart.reading(index), 3, 3);
-  });
+export function titleOf({ preset, channels }: PlotSetup): string {
+  if (preset !== "own") return text.plots.presets[preset];
+  const [first] = channels;
+  return first === undefined ? "" : text.plots.own(text.channelNames[first], channels.length - 1);
 }
 
-function useChart(definition: PlotDefinition, choice: PlotChoice, place: ChartPlace) {
+function makeChart(host: HTMLElement, { preset, channels }: PlotSetup, traces: readonly Trace[]) {
+  if (preset !== "phase") return new Chart(host, traces, spanOf(channels));
+  const [x, y] = channels.map((channel) => ({ channel, ...CHANNELS[channel] }));
+  if (x === undefined || y === undefined) throw new Error("a phase plane has two channels");
+  return new PhaseChart(host, traces, { x, y });
+}
+
+/** The curves of a plot as its reader wants them. */
+function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>) {
+  const lanes = laneNames.value;
+  const drawn = preset === "phase" ? channels.slice(1) : channels;
+  const key = drawn.join();
+  const content = useMemo(() => composeContent(drawn, lanes), [key, lanes]);
+  const groupKeys = content.groups.map((group) => group.key);
+  const valid = groupKeys.filter((group) => chosen.has(group));
+  const shown = new Set(valid.length > 0 ? valid : groupKeys.slice(0, 1));
+  const shownKey = [...shown].join();
+  const traces = useMemo(() => tracesOf(content, shown, lanes.length), [content, shownKey]);
+  return { content, shown, traces, isSideBySide: lanes.length > 1 };
+}
+
+/** The chart in its host: made anew for other curves, drawn by the clock of all plots. */
+function useChart(setup: PlotSetup, traces: readonly Trace[], hidden: ReadonlySet<string>) {
   const host = useRef<HTMLDivElement>(null);
-  const chart = useRef<Chart | null>(null);
   const readings = useRef(new Map<string, HTMLElement>());
-  const { isFirst, isLast } = place;
+  const hide = useRef<(keys: ReadonlySet<string>) => void>(() => undefined);
   useEffect(() => {
     const element = host.current;
     if (element === null) return;
-    let readAt = 0;
-    const read = () => {
-      if (chart.current) writeReadings(chart.current, choice.traces, readings.current);
-      readAt = performance.now();
+    const chart = makeChart(element, setup, traces);
+    let isSeen = true;
+    const drawing = { draw: () => chart.draw(), isSeen: () => isSeen };
+    hide.current = (keys) => {
+      chart.hide(keys);
+      renew(drawing);
     };
-    const made = new Chart(element, definition, choice, { isFirst, isLast }, read);
-    chart.current = made;
-    const stop = onFrame((view) => {
-      made.draw(view);
-      if (performance.now() - readAt > READING_MS) read();
+    const removeDrawing = addDrawing(drawing);
+    const resizing = new ResizeObserver(() => {
+      chart.resize(element.clientWidth, element.clientHeight);
+      renew(drawing);
     });
-    const observer = new ResizeObserver(() => {
-      made.resize(element.clientWidth, element.clientHeight);
-      redraw();
+    const seeing = new IntersectionObserver((entries) => {
+      isSeen = entries.at(-1)?.isIntersecting ?? true;
     });
-    observer.observe(element);
+    resizing.observe(element);
+    seeing.observe(element);
     return () => {
-      stop();
-      observer.disconnect();
-      made.destroy();
-      chart.current = null;
+      removeDrawing();
+      resizing.disconnect();
+      seeing.disconnect();
+      chart.destroy();
     };
-  }, [definition, choice, isFirst, isLast]);
-  return { host, chart, readings };
+  }, [setup, traces]);
+  useEffect(() => hide.current(hidden), [hidden, traces]);
+  useEffect(() => keepReadings(traces, readings.current), [traces]);
+  return { host, readings: readings.current };
+}
+
+/** Writes the values under the pointer, or the newest, into the legend. */
+function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HTMLElement>) {
+  let readAt = 0;
+  const read = () => {
+    readAt = performance.now();
+    const ring = shownRing();
+    const index = sampleRead();
+    for (const { key, channel, lane, factor } of traces) {
+      const element = readings.get(key);
+      const next = formatNumber(ring.valueAt(channel, index, lane) * factor, 3, 3);
+      if (element && element.textContent !== next) element.textContent = next;
+    }
+  };
+  const stopFrames = onFrame(() => {
+    if (performance.now() - readAt > READING_MS) read();
+  });
+  const stopHover = hoverShare.subscribe(read);
+  return () => {
+    stopFrames();
+    stopHover();
+  };
 }
 
 interface ChooserProps {
-  definition: PlotDefinition;
-  chosen: number;
-  onChoose: (index: number) => void;
+  title: string;
+  groups: readonly { key: string; label: string }[];
+  shown: ReadonlySet<string>;
+  onChoose: (keys: ReadonlySet<string>) => void;
 }
 
-function Chooser({ definition, chosen, onChoose }: ChooserProps) {
+/** Which quantities are drawn where several lanes have several; one at least. */
+function Chooser({ title, groups, shown, onChoose }: ChooserProps) {
+  const toggle = (key: string) => {
+    const next = new Set(shown);
+    if (!next.delete(key)) next.add(key);
+    if (next.size > 0) onChoose(next);
+  };
   return (
-    <fieldset class="choices" aria-label={text.plots.choose(definition.title)}>
-      {definition.choices.map((choice, index) => (
-        <label key={choice.label} class="chip">
-          <input
-            type="radio"
-            name={`plot.${definition.key}`}
-            checked={index === chosen}
-            onChange={() => onChoose(index)}
-          />
-          <span>{choice.label}</span>
+    <fieldset class="choices" aria-label={text.plots.choose(title)}>
+      {groups.map(({ key, label }) => (
+        <label key={key} class="chip">
+          <input type="checkbox" checked={shown.has(key)} onChange={() => toggle(key)} />
+          <span>{label}</span>
         </label>
       ))}
     </fieldset>
   );
 }
 
-export function Plot({ definition, ...place }: { definition: PlotDefinition } & ChartPlace) {
-  const [chosen, setChosen] = useState(0);
+export function Plot({ setup }: { setup: PlotSetup }) {
+  const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
   const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
-  const choice = definition.choices[chosen] as PlotChoice;
-  const { host, chart, readings } = useChart(definition, choice, place);
+  const { content, shown, traces, isSideBySide } = useTraces(setup, chosen);
+  const { host, readings } = useChart(setup, traces, hidden);
+  const title = titleOf(setup);
+  const isPhase = setup.preset === "phase";
+  const hasTruth = content.groups.some(({ traces: [leader, ...rest] }) =>
+    rest.some((one) => one.follows === leader?.key && one.factor > 0),
+  );
 
   const toggle = (key: string) => {
     const next = new Set(hidden);
     if (!next.delete(key)) next.add(key);
     setHidden(next);
-    choice.traces.forEach((trace, index) => {
-      chart.current?.show(index, !next.has(trace.follows ?? trace.key));
-    });
   };
-  const choose = (index: number) => {
-    setHidden(new Set());
-    setChosen(index);
-  };
-
   return (
-    <section class="plot" aria-label={definition.title} data-plot={definition.key}>
+    <section class={`plot ${isPhase ? "is-phase" : ""}`} aria-label={title} data-plot={setup.key}>
       <div class="plot-head">
         <h3>
-          {definition.title} <span class="unit">{definition.unit}</span>
+          {title}{" "}
+          <span class="unit">{unitOf(isPhase ? setup.channels.slice(1) : setup.channels)}</span>
         </h3>
-        {definition.choices.length > 1 && (
-          <Chooser definition={definition} chosen={chosen} onChoose={choose} />
+        {setup.preset !== "own" && <EquationButton topic={setup.preset} />}
+        {isSideBySide && content.groups.length > 1 && (
+          <Chooser title={title} groups={content.groups} shown={shown} onChoose={setChosen} />
         )}
         <Legend
-          note={definition.note}
-          traces={choice.traces}
+          note={phaseOrTruth(isPhase, hasTruth && !isSideBySide)}
+          traces={traces}
           hidden={hidden}
           readings={readings}
           onToggle={toggle}
         />
+        <PlotMenu setup={setup} title={title} traces={traces} hidden={hidden} />
       </div>
       <div class="plot-canvas" ref={host} />
     </section>
   );
+}
+
+function phaseOrTruth(isPhase: boolean, hasTruth: boolean): string | undefined {
+  if (isPhase) return text.plots.phaseNote;
+  return hasTruth ? text.plots.disturbanceNote : undefined;
 }

@@ -1,59 +1,68 @@
-import { computed } from "@preact/signals";
-import { laneNames } from "../state/lanes";
-import { chooseWindow, WINDOWS_S, windowS } from "../state/preferences";
+import { useEffect, useRef } from "preact/hooks";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
-import { PLOTS_ALONE } from "./alone";
-import { comparePlots } from "./compared";
+import { CursorHandles, CursorLines } from "./cursorlines";
+import { releaseCursors } from "./cursors";
+import { EventMarks } from "./events";
+import { listenToGestures } from "./gestures";
+import { MeasureTable } from "./measures";
+import { HoverLine } from "./overlays";
 import { Plot } from "./plot";
+import { setups } from "./setups";
+import { followSession, isHeld } from "./span";
+import { TimeAxis } from "./timeaxis";
+import { Toolbar } from "./toolbar";
 
-/** Other plots, and so other keys for them, as soon as other laws run. */
-const shown = computed(() => {
-  const names = laneNames.value;
-  const isComparison = names.length > 1;
-  return {
-    key: isComparison ? names.join() : "",
-    definitions: isComparison ? comparePlots(names) : PLOTS_ALONE,
-  };
-});
-
-function WindowPicker() {
+/** The plots over time between the events and the axis, and what lies across all of them. */
+function Stage() {
+  const stage = useRef<HTMLDivElement>(null);
+  const box = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (stage.current === null || box.current === null) return;
+    return listenToGestures(stage.current, box.current);
+  }, []);
+  const overTime = setups.value.filter(({ preset }) => preset !== "phase");
   return (
-    <fieldset class="window-picker">
-      <legend>{text.plots.window}</legend>
-      {WINDOWS_S.map((seconds) => (
-        <label key={seconds} class="chip">
-          <input
-            type="radio"
-            name="window"
-            checked={windowS.value === seconds}
-            onChange={() => chooseWindow(seconds)}
-          />
-          <span>{text.plots.seconds(seconds)}</span>
-        </label>
+    <div class="plots-stage" ref={stage}>
+      <div class="plots-top">
+        <EventMarks />
+      </div>
+      {overTime.map((setup) => (
+        <Plot key={setup.key} setup={setup} />
       ))}
-    </fieldset>
+      <div class="plots-box" ref={box}>
+        <HoverLine />
+        <CursorLines box={box} />
+      </div>
+      <div class="plots-foot">
+        <div class="plots-foot-box">
+          <TimeAxis />
+          <CursorHandles box={box} />
+        </div>
+      </div>
+    </div>
   );
 }
 
-/** All plots, on one axis of time. */
+/** All plots, in step with each other. */
 export function Plots() {
-  const { key, definitions } = shown.value;
+  useEffect(() => {
+    const ends = [followSession(), releaseCursors()];
+    return () => {
+      for (const end of ends) end();
+    };
+  }, []);
+  const phase = setups.value.find(({ preset }) => preset === "phase");
+  const isEmpty = setups.value.length === 0;
+  const isCut = !isLive.value && !isHeld.value;
   return (
-    <section
-      class={`plots ${isLive.value ? "" : "is-frozen"}`}
-      aria-label={text.plots.heading}
-      id="plots"
-    >
-      {definitions.map((definition, index) => (
-        <Plot
-          key={`${definition.key}.${key}`}
-          definition={definition}
-          isFirst={index === 0}
-          isLast={index === definitions.length - 1}
-        />
-      ))}
-      <WindowPicker />
+    <section class={`plots ${isCut ? "is-frozen" : ""}`} aria-label={text.plots.heading} id="plots">
+      <Toolbar />
+      <div class="plots-scroll">
+        {isEmpty ? <p class="plots-none">{text.plots.none}</p> : <Stage />}
+        {phase && <Plot key={phase.key} setup={phase} />}
+      </div>
+      <MeasureTable />
     </section>
   );
 }

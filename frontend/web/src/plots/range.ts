@@ -26,19 +26,6 @@ export function niceRange(low: number | null, high: number | null, span: number)
   ];
 }
 
-/** Smallest and largest number of all columns, past what is no number; null where there is none. */
-export function extentOf(columns: readonly Float32Array[]): [number, number] | [null, null] {
-  let low = Number.POSITIVE_INFINITY;
-  let high = Number.NEGATIVE_INFINITY;
-  for (const column of columns) {
-    for (const value of column) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
-  return low <= high ? [low, high] : [null, null];
-}
-
 /** Stretches the limits to a bound that the data come near to. */
 export function includeBounds(
   low: number,

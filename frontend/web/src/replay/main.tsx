@@ -16,10 +16,18 @@ declare global {
   }
 }
 
+/** The moment that the address names, as `?t=12.3`; 0 where it names none. */
+function readMoment(): number {
+  const timeS = Number(new URLSearchParams(location.search).get("t"));
+  return Number.isFinite(timeS) ? timeS : 0;
+}
+
 const host = document.getElementById("replay") as HTMLElement;
 try {
   const recording = await readRecording();
   setUpClock(recording.endS, recording.run.motion.step_s);
+  seek(readMoment());
+  document.documentElement.classList.toggle("is-embedded", window.parent !== window);
   render(<App recording={recording} />, host);
   window.addEventListener("keydown", answerKey);
   window.svsaReplay = { time: () => timeS.peek(), seek };

@@ -1,27 +1,12 @@
 /** What this browser remembers: theme, span of the plots, keys, and who homes the bench. */
 import { effect, signal } from "@preact/signals";
+import { remember, remembered } from "./storage";
 
-export const WINDOWS_S = [10, 20, 60] as const;
+export const WINDOWS_S = [5, 10, 20, 60] as const;
 export type WindowS = (typeof WINDOWS_S)[number];
 export type Theme = "light" | "dark";
 
 const systemIsDark = window.matchMedia("(prefers-color-scheme: dark)");
-
-function remembered(key: string): string | null {
-  try {
-    return localStorage.getItem(key);
-  } catch {
-    return null;
-  }
-}
-
-function remember(key: string, value: string): void {
-  try {
-    localStorage.setItem(key, value);
-  } catch {
-    // A browser that keeps nothing still shows the page.
-  }
-}
 
 function firstTheme(): Theme {
   const chosen = remembered("svsa.theme");

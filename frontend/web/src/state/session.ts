@@ -5,11 +5,9 @@ import { LockedError } from "../api/errors";
 import type { SessionState } from "../api/types";
 import { type Finding, type Phase, StreamConnection } from "../stream/connection";
 import { decodeBatch } from "../stream/decoder";
+import { HISTORY_S, LONGEST_WINDOW_S, RATE_HZ } from "../stream/rates";
 import { SampleRing } from "../stream/ring";
 
-export const RATE_HZ = 200;
-export const HISTORY_S = 20;
-export const LONGEST_WINDOW_S = 60;
 const CAPACITY = LONGEST_WINDOW_S * RATE_HZ + 1;
 
 interface Hello {
@@ -36,6 +34,16 @@ export const samples: { ring: SampleRing } = { ring: new SampleRing(1, []) };
 let periodS = 0.001;
 let run = -1;
 
+/** The channels that the page asks for, and whether the answer continues what it holds already. */
+const selection: { channels: readonly string[]; continues: boolean } = {
+  channels: [],
+  continues: false,
+};
+const SELECTION_MS = 250;
+let selectionTimer: ReturnType<typeof setTimeout> | undefined;
+/** Counts the selections of channels whose past has come. */
+export const selectionCount = signal(0);
+
 /** Takes over what the server sent, unless something newer of the same run is known. */
 export function acceptState(state: Progress): void {
   const known = session.peek();
@@ -50,16 +58,17 @@ function acceptText(message: string): void {
     return;
   }
   if (content.type !== "hello") return;
+  const names = content.channels.map((channel) => channel.name);
+  const continues = selection.continues && content.state.run === run;
   periodS = content.period_s;
   run = content.state.run;
-  samples.ring = new SampleRing(
-    CAPACITY,
-    content.channels.map((channel) => channel.name),
-  );
+  samples.ring = continues ? samples.ring.reselect(names) : new SampleRing(CAPACITY, names);
   session.value = content.state;
+  received.count++;
+  if (continues) return;
+  selection.continues = false;
   missedSamples.value = 0;
   connectionCount.value++;
-  received.count++;
 }
 
 function acceptBinary(message: ArrayBuffer): void {
@@ -71,6 +80,10 @@ function acceptBinary(message: ArrayBuffer): void {
   samples.ring.append(batch, periodS);
   if (batch.missed > 0) missedSamples.value += batch.missed;
   received.count++;
+  if (selection.continues) {
+    selection.continues = false;
+    selectionCount.value++;
+  }
 }
 
 async function probe(): Promise<Finding> {
@@ -82,15 +95,32 @@ async function probe(): Promise<Finding> {
   }
 }
 
-const connection = new StreamConnection(() => streamAddress(RATE_HZ, HISTORY_S), probe, {
-  onPhase: (next) => {
-    phase.value = next;
+const connection = new StreamConnection(
+  () => streamAddress(RATE_HZ, HISTORY_S, selection.channels),
+  probe,
+  {
+    onPhase: (next) => {
+      phase.value = next;
+      if (next === "lost") selection.continues = false;
+    },
+    onText: acceptText,
+    onBinary: acceptBinary,
   },
-  onText: acceptText,
-  onBinary: acceptBinary,
-});
+);
 
 export const openStream = (): void => connection.open();
+
+/** Has the stream carry these channels; what is held of them stays, the last 20 s of new ones come. */
+export function selectChannels(channels: readonly string[]): void {
+  selection.channels = channels;
+  clearTimeout(selectionTimer);
+  const isSame = (names: readonly string[]) => names.join() === channels.join();
+  selectionTimer = setTimeout(() => {
+    if (phase.peek() !== "live" || isSame(samples.ring.channels)) return;
+    selection.continues = true;
+    connection.open();
+  }, SELECTION_MS);
+}
 
 export function watchNetwork(): void {
   window.addEventListener("online", () => connection.hurry());

@@ -5,27 +5,47 @@
  */
 import type { Batch } from "./decoder";
 
+/** A piece of one column where it lies: sample i is at (start + i) mod the columns' length. */
+export interface Stretch {
+  time: Float64Array;
+  values: Float32Array;
+  start: number;
+  count: number;
+  /** Which sample since the beginning the first one is; the same sample keeps its number. */
+  number: number;
+}
+
 export class SampleRing {
   readonly capacity: number;
-  readonly channels: readonly string[];
-  readonly #time: Float64Array;
-  readonly #lanes: Map<string, Float32Array>[] = [];
+  #channels: readonly string[];
+  #time: Float64Array;
+  #lanes: Map<string, Float32Array>[] = [];
   #next = 0;
   #length = 0;
+  #total = 0;
 
   constructor(capacity: number, channels: readonly string[]) {
     this.capacity = capacity;
-    this.channels = channels;
+    this.#channels = channels;
     this.#time = new Float64Array(capacity);
+  }
+
+  get channels(): readonly string[] {
+    return this.#channels;
   }
 
   get length(): number {
     return this.#length;
   }
 
+  /** Time of the oldest sample, s; NaN when there is none. */
+  get oldestTime(): number {
+    return this.timeAt(0);
+  }
+
   /** Time of the newest sample, s; NaN when there is none. */
   get newestTime(): number {
-    return this.#length === 0 ? Number.NaN : (this.#time[this.#slot(this.#length - 1)] as number);
+    return this.timeAt(this.#length - 1);
   }
 
   /** How many lanes there are. */
@@ -38,28 +58,84 @@ export class SampleRing {
     this.#length = 0;
   }
 
+  /** Takes the newest samples; what is held of the same time and later gives way to them. */
   append(batch: Batch, periodS: number): void {
     this.#setLanes(batch.lanes);
-    const width = batch.lanes * this.channels.length;
+    this.#dropFrom(batch.firstTick * periodS);
+    const width = batch.lanes * this.#channels.length;
     const skipped = Math.max(0, batch.count - this.capacity);
     for (let row = skipped; row < batch.count; row++) {
       this.#time[this.#next] = (batch.firstTick + row * batch.stride) * periodS;
       let source = row * width;
       for (const columns of this.#lanes) {
-        for (const column of columns.values()) {
-          column[this.#next] = batch.values[source++] as number;
+        for (const channel of this.#channels) {
+          (columns.get(channel) as Float32Array)[this.#next] = batch.values[source++] as number;
         }
       }
       this.#next = (this.#next + 1) % this.capacity;
       this.#length = Math.min(this.#length + 1, this.capacity);
+      this.#total++;
     }
+  }
+
+  /** A ring for other channels that begins with what this one holds of them. */
+  reselect(channels: readonly string[]): SampleRing {
+    const other = this.copy();
+    other.#channels = channels;
+    for (const columns of other.#lanes) {
+      for (const name of [...columns.keys()]) if (!channels.includes(name)) columns.delete(name);
+      for (const name of channels) if (!columns.has(name)) columns.set(name, this.#blank());
+    }
+    return other;
+  }
+
+  copy(): SampleRing {
+    const other = new SampleRing(this.capacity, this.#channels);
+    other.#time = this.#time.slice();
+    other.#lanes = this.#lanes.map(
+      (columns) => new Map([...columns].map(([name, column]) => [name, column.slice()])),
+    );
+    other.#next = this.#next;
+    other.#length = this.#length;
+    other.#total = this.#total;
+    return other;
+  }
+
+  /** Takes over the channels that it lacks, where the other ring has a sample of the same time. */
+  adopt(source: SampleRing): void {
+    const missing = source.#channels.filter((name) => !this.#channels.includes(name));
+    this.#channels = [...this.#channels, ...missing];
+    this.#lanes.forEach((columns, lane) => {
+      for (const name of missing) {
+        const column = this.#blank();
+        for (let index = 0; index < this.#length; index++) {
+          const time = this.timeAt(index);
+          const at = source.firstAt(time);
+          if (source.timeAt(at) === time) {
+            column[this.#slot(index)] = source.valueAt(name, at, lane + 1);
+          }
+        }
+        columns.set(name, column);
+      }
+    });
   }
 
   /** Newest value of a channel of lane 1, 2, …; NaN when there is none. */
   newest(channel: string, lane = 1): number {
+    return this.valueAt(channel, this.#length - 1, lane);
+  }
+
+  /** Time of a sample, counted from the oldest one, s; NaN when there is none. */
+  timeAt(index: number): number {
+    const isHeld = index >= 0 && index < this.#length;
+    return isHeld ? (this.#time[this.#slot(index)] as number) : Number.NaN;
+  }
+
+  /** Value of a sample, counted from the oldest one; NaN when there is none. */
+  valueAt(channel: string, index: number, lane = 1): number {
     const column = this.#column(channel, lane);
-    if (column === undefined || this.#length === 0) return Number.NaN;
-    return column[this.#slot(this.#length - 1)] as number;
+    const isHeld = column !== undefined && index >= 0 && index < this.#length;
+    return isHeld ? (column[this.#slot(index)] as number) : Number.NaN;
   }
 
   /** Index, counted from the oldest sample, of the first one at or after `timeS`. */
@@ -72,6 +148,24 @@ export class SampleRing {
       else high = middle;
     }
     return low;
+  }
+
+  /** Index of the sample nearest to a time; -1 when there is none. */
+  nearestTo(timeS: number): number {
+    if (this.#length === 0) return -1;
+    const after = Math.min(this.firstAt(timeS), this.#length - 1);
+    const before = Math.max(0, after - 1);
+    return timeS - this.timeAt(before) <= this.timeAt(after) - timeS ? before : after;
+  }
+
+  /** Samples from index `first` up to before `end` of a channel and lane; null where it is not. */
+  stretch(channel: string, lane: number, first: number, end: number): Stretch | null {
+    const values = this.#column(channel, lane);
+    if (values === undefined) return null;
+    const from = Math.max(0, first);
+    const count = Math.max(0, Math.min(end, this.#length) - from);
+    const number = this.#total - this.#length + from;
+    return { time: this.#time, values, start: this.#slot(from), count, number };
   }
 
   /** Copies time from sample `first` on into `out`; returns how many were copied. */
@@ -95,12 +189,23 @@ export class SampleRing {
     return this.#lanes[lane - 1]?.get(channel);
   }
 
+  #blank(): Float32Array {
+    return new Float32Array(this.capacity).fill(Number.NaN);
+  }
+
   #setLanes(count: number): void {
     this.#lanes.length = Math.min(this.#lanes.length, count);
     while (this.#lanes.length < count) {
-      const column = () => new Float32Array(this.capacity).fill(Number.NaN);
-      this.#lanes.push(new Map(this.channels.map((name) => [name, column()])));
+      this.#lanes.push(new Map(this.#channels.map((name) => [name, this.#blank()])));
     }
+  }
+
+  #dropFrom(timeS: number): void {
+    if (!(timeS <= this.newestTime)) return;
+    const dropped = this.#length - this.firstAt(timeS);
+    this.#next = (this.#next - dropped + this.capacity) % this.capacity;
+    this.#length -= dropped;
+    this.#total -= dropped;
   }
 
   #slot(index: number): number {

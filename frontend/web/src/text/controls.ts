@@ -34,11 +34,6 @@ export const controlsText = {
       "Feedback linearization, and an observer that estimates the unknown load and cancels it.",
   },
   gains: {
-    explanation: "All poles at minus the bandwidth:",
-    position: "Position",
-    stiffness: "Stiffness",
-    bandwidth: "bandwidth",
-    spread: "Poles are placed one by one; a slider puts them together.",
     coefficients: "Gains, coefficient by coefficient",
     coefficient: (symbol: string, index: number) => `c${"₀₁₂₃"[index]} of ${symbol}`,
     coefficientUnit: (power: number) => (power === 1 ? "1/s" : `1/s${"⁰¹²³⁴"[power]}`),

@@ -1,14 +1,24 @@
 /** Every word of the page, by area. */
 import { benchText } from "./bench";
 import { controlsText } from "./controls";
+import { designText } from "./design";
 import { keysText } from "./keys";
+import { learningText } from "./learning";
 import { pageText } from "./page";
 import { plotsText } from "./plots";
+import { runsText } from "./runs";
+import { sceneText } from "./scene";
+import { scriptText } from "./script";
 
 export const text = {
   ...pageText,
   ...plotsText,
   ...controlsText,
   ...benchText,
+  ...designText,
+  ...learningText,
+  ...sceneText,
   ...keysText,
+  ...runsText,
+  ...scriptText,
 } as const;

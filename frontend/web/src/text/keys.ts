@@ -11,6 +11,8 @@ export const keysText = {
       record: "Begin or end a recording",
       load: "Hang or remove 3 kg",
       compare: "Switch the comparison on or off",
+      runs: "Recorded runs, and back to the lab",
+      calls: "What you did, as Python and curl",
       help: "Show or hide this sheet",
       close: "Close this sheet",
     },

@@ -1,0 +1,73 @@
+/** The public REST API of the recorded runs, one function a call. */
+import { API, request, sessionName } from "./client";
+import type {
+  ExportName,
+  RunDetails,
+  RunList,
+  RunMetrics,
+  RunOrigin,
+  RunPatch,
+  RunSamples,
+  RunSummary,
+  SessionState,
+} from "./types";
+
+const LONG_WAIT_MS = 60_000;
+
+export interface RunsWanted {
+  search: string;
+  tag: string;
+  page: number;
+  pageSize: number;
+  isTrash: boolean;
+}
+
+const pathOf = (run: string, rest = ""): string => `runs/${encodeURIComponent(run)}${rest}`;
+
+export function listRuns({ search, tag, page, pageSize, isTrash }: RunsWanted): Promise<RunList> {
+  const query = new URLSearchParams({ page: String(page), page_size: String(pageSize) });
+  if (search) query.set("search", search);
+  if (tag) query.set("tag", tag);
+  if (isTrash) query.set("trash", "true");
+  return request("get", `runs?${query}`) as Promise<RunList>;
+}
+
+export const readRun = (run: string) => request("get", pathOf(run)) as Promise<RunDetails>;
+export const changeRun = (run: string, patch: RunPatch) =>
+  request("patch", pathOf(run), patch) as Promise<RunSummary>;
+export const deleteRun = (run: string) => request("delete", pathOf(run)) as Promise<RunSummary>;
+export const restoreRun = (run: string) =>
+  request("post", pathOf(run, "/restore")) as Promise<RunSummary>;
+export const readRunOrigin = (run: string) =>
+  request("get", pathOf(run, "/origin"), undefined, LONG_WAIT_MS) as Promise<RunOrigin>;
+export const branchRun = (run: string, tick: number) =>
+  request("post", pathOf(run, "/branch"), { tick }, LONG_WAIT_MS) as Promise<SessionState>;
+
+export function readSamples(
+  run: string,
+  channels: readonly string[],
+  points: number,
+): Promise<RunSamples> {
+  const query = new URLSearchParams({ channels: channels.join(","), points: String(points) });
+  return request("get", pathOf(run, `/samples?${query}`)) as Promise<RunSamples>;
+}
+
+export function readMetrics(run: string, startS: number): Promise<RunMetrics> {
+  const query = new URLSearchParams({ start_s: String(startS) });
+  return request("get", pathOf(run, `/metrics?${query}`)) as Promise<RunMetrics>;
+}
+
+/** The run that the page's session is on. */
+export const readOrigin = () =>
+  request(
+    "get",
+    `sessions/${encodeURIComponent(sessionName)}/origin`,
+    undefined,
+    LONG_WAIT_MS,
+  ) as Promise<RunOrigin>;
+
+export const exportPath = (run: string, kind: ExportName | "html"): string =>
+  pathOf(run, kind === "html" ? "/replay.html" : `/export?kind=${kind}`);
+export const addressOf = (path: string): string => String(new URL(path, API));
+export const replayAddress = (run: string, timeS: number): string =>
+  addressOf(pathOf(run, timeS > 0 ? `/replay?t=${timeS}` : "/replay"));

@@ -1,0 +1,122 @@
+import { useEffect, useId, useRef } from "preact/hooks";
+import { Problem } from "../controls/problem";
+import { isLive } from "../state/session";
+import { text } from "../text/en";
+import { Bandwidths } from "./bandwidths";
+import {
+  apply,
+  discard,
+  draft,
+  expected,
+  isApplying,
+  isAsking,
+  isChanged,
+  isOpen,
+  watchSurroundings,
+} from "./draft";
+import { Outcome } from "./outcome";
+import { Plane } from "./plane";
+import { UndoButton } from "./summary";
+import { describePoles } from "./words";
+
+const words = text.design;
+
+function close(): void {
+  isOpen.value = false;
+}
+
+function Buttons() {
+  const verdict = expected.value?.verdict;
+  const isReady = isChanged.value && isLive.value && !isApplying.value && !isAsking.value;
+  return (
+    <div class="design-buttons">
+      <button
+        type="button"
+        class={`button is-primary ${verdict === "warn" ? "is-warned" : ""}`}
+        disabled={!isReady || verdict === undefined || verdict === "refuse"}
+        onClick={() => void apply()}
+      >
+        {verdict === "warn" && isChanged.value ? words.applyAnyway : words.apply}
+      </button>
+      <button
+        type="button"
+        class="button"
+        disabled={!isChanged.value}
+        title={words.discardHint}
+        onClick={discard}
+      >
+        {words.discard}
+      </button>
+      <UndoButton />
+    </div>
+  );
+}
+
+function Roots() {
+  const tried = draft.value;
+  return (
+    <p class="design-roots">
+      <strong>{words.roots}</strong>
+      <span class="is-position">{tried && describePoles(tried.position)}</span>
+      <span class="is-stiffness">{tried && describePoles(tried.stiffness)}</span>
+      <span class="unit">{words.unit}</span>
+    </p>
+  );
+}
+
+function Panel() {
+  const id = useId();
+  const panel = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    const before = document.activeElement as HTMLElement | null;
+    panel.current?.show();
+    const stopWatching = watchSurroundings();
+    return () => {
+      stopWatching();
+      before?.focus();
+    };
+  }, []);
+  return (
+    <dialog
+      ref={panel}
+      class="design"
+      aria-labelledby={id}
+      onKeyDown={(event) => {
+        if (event.key !== "Escape") return;
+        event.stopPropagation();
+        close();
+      }}
+    >
+      <div class="design-head">
+        <h2 id={id}>{words.title}</h2>
+        <p class="design-legend" aria-hidden="true">
+          <span class="is-position">✕ {words.legend.position}</span>
+          <span class="is-stiffness">◇ {words.legend.stiffness}</span>
+        </p>
+        <button type="button" class="button" onClick={close}>
+          {words.close}
+        </button>
+      </div>
+      <div class="design-body">
+        <div class="design-place">
+          <Plane />
+          <p class="hint" id="plane-hint">
+            {words.planeHint}
+          </p>
+          <Bandwidths />
+        </div>
+        <div class="design-outcome">
+          <Roots />
+          <Outcome />
+          <Problem id="design-problem" control="design.apply" />
+          <Buttons />
+        </div>
+      </div>
+    </dialog>
+  );
+}
+
+/** Gains without fear: place the poles, see what they would do, then apply. */
+export function DesignPanel() {
+  return isOpen.value ? <Panel /> : null;
+}

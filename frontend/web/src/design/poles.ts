@@ -1,0 +1,114 @@
+/** Poles as they are drawn and moved: real ones alone, complex ones with their conjugate. */
+
+export interface Pole {
+  re: number;
+  /** Zero on the real axis; a pole at re + j·im has its partner at re − j·im. */
+  im: number;
+}
+
+export type Poles = readonly Pole[];
+
+/** Closer to the real axis than this, a pole lies on it, rad/s. */
+export const SNAP = 4;
+export const MOST_RE = 40;
+export const LEAST_RE = -240;
+export const MOST_IM = 120;
+
+const clamp = (value: number, least: number, most: number) =>
+  Math.min(most, Math.max(least, value));
+const rounded = (value: number) => Math.round(value * 10) / 10;
+
+/** Roots as the server tells them; numerical dust around a multiple root is swept onto the axis. */
+export function polesOf(roots: readonly Pole[]): Pole[] {
+  const clean = roots.map(({ re, im }) => ({ re: rounded(re), im: rounded(im) }));
+  const mean = clean.reduce((sum, { re }) => sum + re, 0) / clean.length;
+  const spread = Math.max(...clean.map(({ re, im }) => Math.hypot(re - mean, im)));
+  if (spread > 0.02 * Math.abs(mean)) return pairUp(clean);
+  return clean.map(() => ({ re: rounded(mean), im: 0 }));
+}
+
+/** Each complex pole followed by its conjugate, so that both have exactly one value. */
+function pairUp(poles: Poles): Pole[] {
+  const above = poles.filter(({ im }) => im > 0);
+  const onAxis = poles.filter(({ im }) => im === 0);
+  return [
+    ...onAxis,
+    ...above.flatMap(({ re, im }) => [
+      { re, im },
+      { re, im: -im },
+    ]),
+  ];
+}
+
+/** The pole that goes along when this one moves off the axis: its conjugate, or the nearest real. */
+export function partnerOf(poles: Poles, index: number): number {
+  const moved = poles[index] as Pole;
+  let best = -1;
+  let distance = Number.POSITIVE_INFINITY;
+  poles.forEach((pole, other) => {
+    if (other === index) return;
+    const isPossible =
+      moved.im === 0 ? pole.im === 0 : pole.im === -moved.im && pole.re === moved.re;
+    if (!isPossible || Math.abs(pole.re - moved.re) >= distance) return;
+    distance = Math.abs(pole.re - moved.re);
+    best = other;
+  });
+  return best;
+}
+
+/**
+ * The poles with one of them moved from where it was when the drag began. Off the axis its partner
+ * mirrors it; on the axis a partner that came from there goes back to its place.
+ */
+export function movePole(start: Poles, index: number, to: Pole): Pole[] {
+  const partner = partnerOf(start, index);
+  const isOnAxis = Math.abs(to.im) < SNAP || partner < 0;
+  const re = rounded(clamp(to.re, LEAST_RE, MOST_RE));
+  const im = isOnAxis ? 0 : rounded(clamp(to.im, -MOST_IM, MOST_IM));
+  const wasPair = (start[index] as Pole).im !== 0;
+  return start.map((pole, other) => {
+    if (other === index) return { re, im };
+    if (other !== partner || (isOnAxis && !wasPair)) return pole;
+    return { re, im: im === 0 ? 0 : -im };
+  });
+}
+
+/** One step of a key: off the axis at once, and back onto it where the step would end near. */
+export function stepPole(poles: Poles, index: number, dRe: number, dIm: number): Pole[] {
+  const { re, im } = poles[index] as Pole;
+  const isLeaving = im === 0 && dIm !== 0;
+  const next = isLeaving ? Math.sign(dIm) * Math.max(SNAP, Math.abs(dIm)) : im + dIm;
+  return movePole(poles, index, { re: re + dRe, im: next });
+}
+
+export const allAt = (count: number, bandwidth: number): Pole[] =>
+  Array.from({ length: count }, () => ({ re: -bandwidth, im: 0 }));
+
+/** p where all poles are at −p; else the geometric mean of their sizes, as c₀ = pⁿ. */
+export function bandwidthOf(poles: Poles): number {
+  const product = poles.reduce((size, { re, im }) => size * Math.hypot(re, im), 1);
+  return product ** (1 / poles.length);
+}
+
+export const areTogether = (poles: Poles): boolean =>
+  poles.every(({ re, im }) => im === 0 && re === poles[0]?.re);
+
+/** As the API takes a pole: a real part, or [re, im]. */
+export const toRequest = ({ re, im }: Pole): number | [number, number] =>
+  im === 0 ? re : [re, im];
+
+export interface Place {
+  pole: Pole;
+  count: number;
+}
+
+/** Poles that lie on one another, counted. */
+export function countPlaces(poles: Poles): Place[] {
+  const places: Place[] = [];
+  for (const pole of poles) {
+    const found = places.find((one) => one.pole.re === pole.re && one.pole.im === pole.im);
+    if (found) found.count += 1;
+    else places.push({ pole, count: 1 });
+  }
+  return places;
+}

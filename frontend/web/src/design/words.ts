@@ -1,0 +1,26 @@
+/** Poles and numbers of a design as they are read. */
+import { text } from "../text/en";
+import { formatInput, formatNumber, toDegrees } from "../units";
+import { countPlaces, type Pole, type Poles } from "./poles";
+
+const MINUS = "\u2212";
+
+const plain = (value: number) => formatInput(Math.abs(value), 4);
+const signed = (value: number) => (value < 0 ? MINUS : "") + plain(value);
+
+export function describePole({ re, im }: Pole): string {
+  return im === 0 ? signed(re) : text.design.complex(signed(re), plain(im), im > 0);
+}
+
+/** "−60 ×4" or "−40 ± 30j, −60 ×2". */
+export function describePoles(poles: Poles): string {
+  return countPlaces(poles.filter(({ im }) => im >= 0))
+    .map(({ pole, count }) => {
+      const place = pole.im === 0 ? signed(pole.re) : `${signed(pole.re)} ± ${plain(pole.im)}j`;
+      return count > 1 ? `${place} ${text.design.many(count)}` : place;
+    })
+    .join(", ");
+}
+
+export const degreesOf = (rad: number) => `${formatNumber(Math.abs(toDegrees(rad)), 3, 3)}°`;
+export const torqueOf = (torque: number) => `${formatNumber(torque, 3, 4)} N·m`;

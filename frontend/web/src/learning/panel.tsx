@@ -1,0 +1,98 @@
+import { signal } from "@preact/signals";
+import { useId, useLayoutEffect, useRef } from "preact/hooks";
+import { text } from "../text/en";
+import { Claims } from "./claims";
+import { EquationCard } from "./equation";
+import { TOPICS, type Topic } from "./equations";
+import { startTour } from "./tour";
+
+const words = text.learning;
+const isOpen = signal(false);
+
+function close(): void {
+  isOpen.value = false;
+}
+
+function EquationList() {
+  return (
+    <>
+      <h3>{words.equations}</h3>
+      <p class="hint">{words.equationsHint}</p>
+      {TOPICS.map((topic: Topic) => (
+        <details key={topic} class="more">
+          <summary>{text.equations.topics[topic]}</summary>
+          <EquationCard topic={topic} />
+        </details>
+      ))}
+    </>
+  );
+}
+
+function Panel() {
+  const id = useId();
+  const panel = useRef<HTMLDialogElement>(null);
+  useLayoutEffect(() => {
+    const before = document.activeElement as HTMLElement | null;
+    panel.current?.show();
+    return () => before?.focus();
+  }, []);
+  return (
+    <dialog
+      ref={panel}
+      class="learn"
+      aria-labelledby={id}
+      onKeyDown={(event) => {
+        if (event.key !== "Escape") return;
+        event.stopPropagation();
+        close();
+      }}
+    >
+      <div class="learn-head">
+        <h2 id={id}>{words.title}</h2>
+        <button
+          type="button"
+          class="button"
+          onClick={() => {
+            close();
+            startTour();
+          }}
+        >
+          {text.tour.take}
+        </button>
+        <button type="button" class="button" onClick={close}>
+          {words.close}
+        </button>
+      </div>
+      <div class="learn-body">
+        <Claims />
+        <div class="learn-equations">
+          <EquationList />
+        </div>
+      </div>
+    </dialog>
+  );
+}
+
+export function LearnPanel() {
+  return isOpen.value ? <Panel /> : null;
+}
+
+export function LearnButton() {
+  return (
+    <button
+      type="button"
+      class="button"
+      aria-haspopup="dialog"
+      aria-expanded={isOpen.value}
+      title={words.openHint}
+      onClick={() => {
+        isOpen.value = !isOpen.peek();
+      }}
+    >
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        <path d="M8 2L0 5.8l8 3.8 6.4-3v4.6H16V5.8zM3 8.6v3.2c1.2 1.5 3 2.2 5 2.2s3.8-.7 5-2.2V8.6l-5 2.4z" />
+      </svg>
+      {words.open}
+    </button>
+  );
+}

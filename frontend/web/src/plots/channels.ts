@@ -1,0 +1,96 @@
+/** The server's channels as plots show them: unit, scale, ink, and which belong together. */
+import type { SessionState } from "../api/types";
+import type { text } from "../text/en";
+import { DEGREES_PER_RADIAN } from "../units";
+import type { PlotColour } from "./definitions";
+
+export type ChannelName = keyof typeof text.channelNames;
+
+interface ChannelLook {
+  /** On screen. */
+  unit: string;
+  /** From SI to the unit on screen. */
+  factor: number;
+  /** The axis never shows less than this, in the unit on screen. */
+  span: number;
+  colour: PlotColour;
+  /** The same in every lane. */
+  isReference?: true;
+  /** What the channel of this name estimates. */
+  truthOf?: ChannelName;
+  /** ± this is how far the channel of this name may go. */
+  limitOf?: ChannelName;
+  /** A fixed limit, ±, in SI. */
+  bound?: (state: SessionState) => number;
+}
+
+const angle = (colour: PlotColour, span = 2): ChannelLook => ({
+  unit: "deg",
+  factor: DEGREES_PER_RADIAN,
+  span,
+  colour,
+});
+const speed = (colour: PlotColour): ChannelLook => ({ ...angle(colour), unit: "deg/s" });
+const stiffness = (colour: PlotColour, span = 2): ChannelLook => ({
+  unit: "N·m/rad",
+  factor: 1,
+  span,
+  colour,
+});
+const torque = (colour: PlotColour): ChannelLook => ({ unit: "N·m", factor: 1, span: 1, colour });
+
+export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
+  position_reference_rad: { ...angle("reference"), isReference: true },
+  position_rad: angle("blue"),
+  position_estimate_rad: angle("orange"),
+  position_error_rad: angle("vermilion", 0.004),
+  position_residual_rad: angle("purple", 0.004),
+  motor1_position_rad: angle("green"),
+  motor2_position_rad: angle("purple"),
+  deflection_rad: angle("vermilion"),
+  deflection_limit_rad: { ...angle("reference"), limitOf: "deflection_rad" },
+  velocity_reference_rad_per_s: { ...speed("reference"), isReference: true },
+  velocity_rad_per_s: speed("blue"),
+  velocity_estimate_rad_per_s: speed("orange"),
+  motor1_velocity_rad_per_s: speed("green"),
+  motor2_velocity_rad_per_s: speed("purple"),
+  stiffness_reference_nm_per_rad: { ...stiffness("reference"), isReference: true },
+  stiffness_nm_per_rad: stiffness("green"),
+  stiffness_error_nm_per_rad: stiffness("vermilion", 0.004),
+  stiffness_residual_nm_per_rad: stiffness("purple", 0.004),
+  torque1_nm: {
+    ...torque("blue"),
+    bound: ({ configuration: { limits } }) => limits.torque1_nm,
+  },
+  torque2_nm: {
+    ...torque("orange"),
+    bound: ({ configuration: { limits } }) => limits.torque2_nm,
+  },
+  estimate_link_nm: torque("vermilion"),
+  estimate_motor1_nm: torque("blue"),
+  estimate_motor2_nm: torque("purple"),
+  disturbance_link_nm: { ...torque("vermilion"), truthOf: "estimate_link_nm" },
+  disturbance_motor1_nm: { ...torque("blue"), truthOf: "estimate_motor1_nm" },
+  disturbance_motor2_nm: { ...torque("purple"), truthOf: "estimate_motor2_nm" },
+  lever_ratio: { unit: "1", factor: 1, span: 0.1, colour: "green" },
+};
+
+export const CHANNEL_NAMES = Object.keys(CHANNELS) as ChannelName[];
+
+export const isChannel = (name: unknown): name is ChannelName =>
+  typeof name === "string" && Object.hasOwn(CHANNELS, name);
+
+const UNITS = [...new Set(CHANNEL_NAMES.map((name) => CHANNELS[name].unit))];
+
+/** The channels by their unit on screen. */
+export const CHANNELS_BY_UNIT = UNITS.map((unit) => ({
+  unit,
+  channels: CHANNEL_NAMES.filter((name) => CHANNELS[name].unit === unit),
+}));
+
+/** The one unit of a plot's channels; "" where it has none. */
+export const unitOf = (channels: readonly ChannelName[]): string =>
+  channels[0] === undefined ? "" : CHANNELS[channels[0]].unit;
+
+export const spanOf = (channels: readonly ChannelName[]): number =>
+  Math.max(...channels.map((name) => CHANNELS[name].span));

@@ -1,0 +1,107 @@
+/** Fewer points with the same look: of each bucket of samples the smallest and the largest. */
+import type { Stretch } from "../stream/ring";
+
+/** Points to draw; no number (NaN) parts one piece of the curve from the next. */
+export interface Points {
+  x: Float64Array;
+  y: Float64Array;
+  count: number;
+}
+
+export const emptyPoints = (): Points => ({
+  x: new Float64Array(0),
+  y: new Float64Array(0),
+  count: 0,
+});
+
+/** How many samples share a bucket so that there is at most one a pixel. */
+export const samplesPerBucket = (samples: number, pixels: number): number =>
+  Math.max(1, Math.ceil(samples / Math.max(1, pixels)));
+
+export function makeRoom(points: Points, count: number): void {
+  if (points.x.length >= count) return;
+  points.x = new Float64Array(count);
+  points.y = new Float64Array(count);
+}
+
+function put(points: Points, x: number, y: number): void {
+  points.x[points.count] = x;
+  points.y[points.count++] = y;
+}
+
+function copyAll({ time, values, start, count }: Stretch, factor: number, out: Points): void {
+  makeRoom(out, count);
+  let slot = start;
+  for (let index = 0; index < count; index++) {
+    put(out, time[slot] as number, (values[slot] as number) * factor);
+    slot = slot + 1 === values.length ? 0 : slot + 1;
+  }
+}
+
+/**
+ * Writes the points of a stretch, times `factor`, into `out`. Buckets begin at multiples of
+ * `perBucket` of a sample's number, so that they do not change while time goes on. Real samples
+ * only, in the order of time; a gap stays one.
+ */
+export function decimate(stretch: Stretch, perBucket: number, factor: number, out: Points): void {
+  out.count = 0;
+  if (perBucket <= 2) {
+    copyAll(stretch, factor, out);
+    return;
+  }
+  const { time, values, start, count, number } = stretch;
+  makeRoom(out, 4 * (Math.ceil(count / perBucket) + 1));
+  let slot = start;
+  let left = perBucket - (number % perBucket);
+  let index = 0;
+  while (index < count) {
+    const end = Math.min(count, index + left);
+    left = perBucket;
+    let low = Number.POSITIVE_INFINITY;
+    let high = Number.NEGATIVE_INFINITY;
+    let lowSlot = -1;
+    let highSlot = -1;
+    const isGapBefore = Number.isNaN(values[slot]);
+    let last = Number.NaN;
+    for (; index < end; index++) {
+      const value = values[slot] as number;
+      if (value < low) {
+        low = value;
+        lowSlot = slot;
+      }
+      if (value > high) {
+        high = value;
+        highSlot = slot;
+      }
+      last = value;
+      slot = slot + 1 === values.length ? 0 : slot + 1;
+    }
+    if (lowSlot < 0) {
+      put(out, Number.NaN, Number.NaN);
+      continue;
+    }
+    if (isGapBefore) put(out, Number.NaN, Number.NaN);
+    const lowTime = time[lowSlot] as number;
+    const highTime = time[highSlot] as number;
+    const isLowFirst = lowTime <= highTime;
+    put(out, isLowFirst ? lowTime : highTime, (isLowFirst ? low : high) * factor);
+    if (lowSlot !== highSlot) {
+      put(out, isLowFirst ? highTime : lowTime, (isLowFirst ? high : low) * factor);
+    }
+    if (Number.isNaN(last)) put(out, Number.NaN, Number.NaN);
+  }
+}
+
+/** Smallest and largest y of all points; null where there is none. */
+export function extentOf(curves: Iterable<Points>): readonly [number | null, number | null] {
+  let low = Number.POSITIVE_INFINITY;
+  let high = Number.NEGATIVE_INFINITY;
+  for (const { y, count } of curves) {
+    for (let index = 0; index < count; index++) {
+      const value = y[index] as number;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return low <= high ? [low, high] : [null, null];
+}

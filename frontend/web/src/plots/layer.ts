@@ -1,0 +1,103 @@
+/**
+ * The strokes of a plot on a canvas of their own. While time goes on they are moved to the left by
+ * whole pixels and only what is new is stroked; anything else draws them all again.
+ */
+import uPlot from "uplot";
+import type { SampleRing } from "../stream/ring";
+import { type Curve, drawSigns, type Place } from "./curves";
+import { palette } from "./palette";
+import type { Span } from "./spans";
+
+/** Everything that the strokes depend on but time. */
+export interface Frame {
+  ring: SampleRing;
+  span: Span;
+  min: number;
+  max: number;
+  /** Device pixels. */
+  width: number;
+  height: number;
+  shown: readonly Curve[];
+}
+
+interface Drawn extends Frame {
+  look: object;
+  /** Left edge, in pixels since time 0. */
+  left: number;
+  newest: number;
+}
+
+/** What may still change left of the newest sample: the last buckets, and the width of a stroke. */
+const UNSETTLED_BUCKETS = 3;
+const STROKE_PX = 6;
+
+function isContinued(drawn: Drawn, next: Frame): boolean {
+  const length = ({ span }: Frame) => span.to - span.from;
+  return (
+    drawn.look === palette.peek() &&
+    drawn.ring === next.ring &&
+    Math.abs(length(drawn) - length(next)) < 1e-9 &&
+    drawn.min === next.min &&
+    drawn.max === next.max &&
+    drawn.width === next.width &&
+    drawn.height === next.height &&
+    drawn.newest <= next.ring.newestTime &&
+    drawn.shown.length === next.shown.length &&
+    drawn.shown.every((curve, index) => curve === next.shown[index])
+  );
+}
+
+export class StrokeLayer {
+  readonly canvas = document.createElement("canvas");
+  readonly #context = this.canvas.getContext("2d") as CanvasRenderingContext2D;
+  #drawn: Drawn | null = null;
+
+  /** @param perBucketS time between two points of a curve */
+  draw(frame: Frame, perBucketS: number): void {
+    const { ring, span, min, max, width, height, shown } = frame;
+    const perSecond = width / (span.to - span.from);
+    const left = Math.round(span.from * perSecond);
+    const place: Place = {
+      x: (time) => time * perSecond - left,
+      y: (value) => ((max - value) / (max - min)) * height,
+    };
+    const from = this.#makeRoom(frame, left, place, perBucketS);
+    const context = this.#context;
+    context.save();
+    context.beginPath();
+    context.rect(from, 0, width - from, height);
+    context.clip();
+    for (const curve of shown) {
+      curve.stroke(context, place, from - STROKE_PX * uPlot.pxRatio);
+      drawSigns(context, curve, place, from);
+    }
+    context.restore();
+    const newest = ring.newestTime;
+    this.#drawn = { ...frame, look: palette.peek(), left, newest };
+  }
+
+  /** Moves what stays and clears the rest; returns where the rest begins. */
+  #makeRoom(frame: Frame, left: number, place: Place, perBucketS: number): number {
+    const { width, height } = frame;
+    const context = this.#context;
+    const drawn = this.#drawn;
+    const shift = drawn === null ? -1 : left - drawn.left;
+    if (drawn === null || !isContinued(drawn, frame) || shift < 0 || shift >= width) {
+      if (this.canvas.width !== width) this.canvas.width = width;
+      if (this.canvas.height !== height) this.canvas.height = height;
+      context.clearRect(0, 0, width, height);
+      for (const curve of frame.shown) curve.forget();
+      return 0;
+    }
+    if (shift > 0) {
+      context.globalCompositeOperation = "copy";
+      context.drawImage(this.canvas, -shift, 0);
+      context.globalCompositeOperation = "source-over";
+    }
+    const settled = place.x(drawn.newest - UNSETTLED_BUCKETS * perBucketS);
+    const entered = width - shift;
+    const from = Math.max(0, Math.floor(Math.min(settled, entered) - STROKE_PX * uPlot.pxRatio));
+    context.clearRect(from, 0, width - from, height);
+    return Math.min(from, width);
+  }
+}

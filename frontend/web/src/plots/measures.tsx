@@ -1,0 +1,106 @@
+import { laneNames } from "../state/lanes";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
+import { unitOf } from "./channels";
+import { cursorSamples } from "./cursors";
+import type { Trace } from "./definitions";
+import { Swatch } from "./legend";
+import { titleOf } from "./plot";
+import { type PlotSetup, setups } from "./setups";
+import { held } from "./span";
+import { type Measures, measureBetween } from "./statistics";
+import { composeContent, tracesOf } from "./traces";
+
+const COLUMNS = ["a", "b", "delta", "min", "max", "rms"] as const satisfies (keyof Measures)[];
+const HEADS: Readonly<Record<keyof Measures, string>> = {
+  a: text.cursors.at(text.cursors.names.a),
+  b: text.cursors.at(text.cursors.names.b),
+  delta: text.cursors.delta,
+  min: text.cursors.min,
+  max: text.cursors.max,
+  rms: text.cursors.rms,
+};
+
+/** Every curve of a plot but the other side of its limits. */
+function curvesOf({ channels }: PlotSetup): Trace[] {
+  const lanes = laneNames.value;
+  const content = composeContent(channels, lanes);
+  const everything = new Set(content.groups.map((group) => group.key));
+  return tracesOf(content, everything, lanes.length).filter(({ factor }) => factor > 0);
+}
+
+interface RowsProps {
+  setup: PlotSetup;
+  indices: readonly [number, number];
+}
+
+function Rows({ setup, indices }: RowsProps) {
+  const ring = held.value?.ring;
+  if (ring === undefined) return null;
+  return (
+    <tbody>
+      <tr class="measures-plot">
+        <th scope="rowgroup" colSpan={COLUMNS.length + 1}>
+          {titleOf(setup)} <span class="unit">{unitOf(setup.channels)}</span>
+        </th>
+      </tr>
+      {curvesOf(setup).map((trace) => {
+        const measures = measureBetween(ring, trace.channel, trace.lane, indices, trace.factor);
+        return (
+          <tr key={trace.key}>
+            <th scope="row">
+              <Swatch look={trace} sign={trace.sign} />
+              {trace.label}
+            </th>
+            {COLUMNS.map((column) => (
+              <td key={column}>{formatNumber(measures[column], 4, 4)}</td>
+            ))}
+          </tr>
+        );
+      })}
+    </tbody>
+  );
+}
+
+/** What lies between the cursors, curve by curve. */
+export function MeasureTable() {
+  const indices = cursorSamples.value;
+  const ring = held.value?.ring;
+  if (indices === null || ring === undefined) return null;
+  const [a, b] = [ring.timeAt(indices[0]), ring.timeAt(indices[1])];
+  const lapse = b - a;
+  return (
+    <section class="measures" aria-label={text.cursors.table}>
+      <dl class="measures-head">
+        <dt>{text.cursors.names.a}</dt>
+        <dd>{text.cursors.value(a.toFixed(3))}</dd>
+        <dt>{text.cursors.names.b}</dt>
+        <dd>{text.cursors.value(b.toFixed(3))}</dd>
+        <dt>{text.cursors.deltaTime}</dt>
+        <dd>{text.cursors.value(formatNumber(lapse, 6, 3))}</dd>
+        <dt>{text.cursors.rate}</dt>
+        <dd>{formatNumber(lapse === 0 ? null : 1 / Math.abs(lapse), 4, 3)} Hz</dd>
+      </dl>
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by key */}
+      <section class="measures-rows" tabIndex={0} aria-label={text.cursors.rows}>
+        <table>
+          <thead>
+            <tr>
+              <th scope="col">{text.cursors.curve}</th>
+              {COLUMNS.map((column) => (
+                <th key={column} scope="col">
+                  {HEADS[column]}
+                </th>
+              ))}
+            </tr>
+          </thead>
+          {setups.value
+            .filter(({ preset }) => preset !== "phase")
+            .map((setup) => (
+              <Rows key={setup.key} setup={setup} indices={indices} />
+            ))}
+        </table>
+      </section>
+    </section>
+  );
+}

@@ -1,0 +1,130 @@
+/** What the plots show, as files. */
+import { laneNames } from "../state/lanes";
+import { samples, session } from "../state/session";
+import { text } from "../text/en";
+import { boundsOf } from "./bounds";
+import { CHANNELS, type ChannelName, spanOf, unitOf } from "./channels";
+import { type CsvColumn, writeCsv } from "./csv";
+import { Curve } from "./curves";
+import { emptyPoints, extentOf, makeRoom } from "./decimation";
+import type { Trace } from "./definitions";
+import { palette } from "./palette";
+import { includeBounds, niceRange } from "./range";
+import { type PlotSetup, setups } from "./setups";
+import { shownRing, shownSpan } from "./span";
+import { type Drawing, drawSvg, HEIGHT, WIDTH } from "./svg";
+
+const SHARPNESS = 2;
+
+function fileName(what: string, ending: string): string {
+  const { from, to } = shownSpan();
+  const word = what.toLowerCase().replace(/[^a-z0-9]+/g, "-");
+  return `${text.save.file(word, from.toFixed(2), to.toFixed(2))}.${ending}`;
+}
+
+function download(content: Blob, name: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(content);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+function drawTimePlot(title: string, { channels }: PlotSetup, traces: readonly Trace[]): Drawing {
+  const { from, to } = shownSpan();
+  const curves = traces.map((trace) => new Curve(trace));
+  for (const curve of curves) curve.fill(shownRing(), { from, to }, WIDTH);
+  const bounds = boundsOf(traces, session.peek());
+  const extent = extentOf(curves.map(({ points }) => points));
+  const [low, high] = niceRange(...extent, spanOf(channels));
+  const [bottom, top] = includeBounds(
+    low,
+    high,
+    bounds.map(({ value }) => value),
+  );
+  const events = session.peek()?.events ?? [];
+  return {
+    title,
+    x: { label: text.save.axis(text.save.time, "s"), from, to },
+    y: { label: text.save.axis(title, unitOf(channels)), from: bottom, to: top },
+    curves,
+    bounds,
+    events: events.map(({ time_s, label }) => ({ time: time_s, label })),
+    colours: palette.peek(),
+  };
+}
+
+function drawPhasePlane(title: string, { channels }: PlotSetup, traces: readonly Trace[]): Drawing {
+  const [across, up] = channels as readonly [ChannelName, ChannelName];
+  const ring = shownRing();
+  const { from, to } = shownSpan();
+  const first = ring.firstAt(from);
+  const end = Math.min(ring.length, ring.firstAt(to) + 1);
+  const curves = traces.map((trace) => {
+    const points = emptyPoints();
+    makeRoom(points, end - first);
+    for (let index = first; index < end; index++) {
+      points.x[points.count] = ring.valueAt(across, index, trace.lane) * CHANNELS[across].factor;
+      points.y[points.count++] = ring.valueAt(up, index, trace.lane) * CHANNELS[up].factor;
+    }
+    return { trace, points };
+  });
+  const turned = curves.map(({ points: { x, count } }) => ({ x, y: x, count }));
+  const [left, right] = niceRange(...extentOf(turned), CHANNELS[across].span);
+  const [bottom, top] = niceRange(...extentOf(curves.map((c) => c.points)), CHANNELS[up].span);
+  const { x, y } = text.plots.phaseAxes;
+  return {
+    title,
+    x: { label: text.save.axis(x, CHANNELS[across].unit), from: left, to: right },
+    y: { label: text.save.axis(y, CHANNELS[up].unit), from: bottom, to: top },
+    curves,
+    bounds: [],
+    events: [],
+    colours: palette.peek(),
+  };
+}
+
+function drawPlot(title: string, setup: PlotSetup, traces: readonly Trace[]): string {
+  const draw = setup.preset === "phase" ? drawPhasePlane : drawTimePlot;
+  return drawSvg(draw(title, setup, traces));
+}
+
+export function saveSvg(title: string, setup: PlotSetup, traces: readonly Trace[]): void {
+  const drawing = drawPlot(title, setup, traces);
+  download(new Blob([drawing], { type: "image/svg+xml" }), fileName(title, "svg"));
+}
+
+export async function savePng(
+  title: string,
+  setup: PlotSetup,
+  traces: readonly Trace[],
+): Promise<void> {
+  const name = fileName(title, "png");
+  const image = new Image();
+  image.src = `data:image/svg+xml,${encodeURIComponent(drawPlot(title, setup, traces))}`;
+  await image.decode();
+  const canvas = document.createElement("canvas");
+  canvas.width = WIDTH * SHARPNESS;
+  canvas.height = HEIGHT * SHARPNESS;
+  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
+  canvas.toBlob((content) => content && download(content, name), "image/png");
+}
+
+/** Every lane of the channels, at the stream's full rate. */
+function saveCsv(what: string, channels: readonly ChannelName[]): void {
+  const lanes = Math.max(1, samples.ring.lanes);
+  const columns = channels.flatMap((channel): CsvColumn[] => {
+    const isCommon = CHANNELS[channel].isReference === true;
+    const numbers = Array.from({ length: isCommon ? 1 : lanes }, (_, index) => index + 1);
+    return numbers.map((lane) => ({ channel, lane }));
+  });
+  const csv = writeCsv(shownRing(), shownSpan(), columns, laneNames.peek());
+  download(new Blob([csv], { type: "text/csv" }), fileName(what, "csv"));
+}
+
+export const savePlotCsv = (title: string, { channels }: PlotSetup): void =>
+  saveCsv(title, channels);
+
+export function saveWindowCsv(): void {
+  saveCsv(text.save.window, [...new Set(setups.peek().flatMap((setup) => setup.channels))]);
+}

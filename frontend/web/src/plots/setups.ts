@@ -1,0 +1,132 @@
+/** Which plots there are and what is in them, as the reader arranged them and the browser keeps them. */
+import { computed, signal } from "@preact/signals";
+import { remember, remembered } from "../state/storage";
+import { CHANNELS, type ChannelName, isChannel } from "./channels";
+
+const EVERY_PRESET = {
+  position: ["position_rad", "position_reference_rad"],
+  error: ["position_error_rad"],
+  stiffness: ["stiffness_nm_per_rad", "stiffness_reference_nm_per_rad"],
+  stiffnessError: ["stiffness_error_nm_per_rad"],
+  torque: ["torque1_nm", "torque2_nm"],
+  disturbance: [
+    "estimate_link_nm",
+    "estimate_motor1_nm",
+    "estimate_motor2_nm",
+    "disturbance_link_nm",
+    "disturbance_motor1_nm",
+    "disturbance_motor2_nm",
+  ],
+  deflection: ["deflection_rad", "deflection_limit_rad"],
+  /** Velocity over position error, not over time. */
+  phase: ["position_error_rad", "velocity_rad_per_s"],
+} as const satisfies Record<string, readonly ChannelName[]>;
+
+export type PresetName = keyof typeof EVERY_PRESET;
+export const PRESETS: Readonly<Record<PresetName, readonly ChannelName[]>> = EVERY_PRESET;
+export const PRESET_NAMES = Object.keys(PRESETS) as PresetName[];
+const AT_FIRST: readonly PresetName[] = ["position", "error", "stiffness", "torque", "disturbance"];
+
+export interface PlotSetup {
+  key: string;
+  /** "own" for one that the reader began with a channel of choice. */
+  preset: PresetName | "own";
+  channels: readonly ChannelName[];
+}
+
+export const MOST_PLOTS = 16;
+const STORE = "svsa.plots";
+/** What numbers on the page need, whatever is plotted. */
+const ALWAYS: readonly ChannelName[] = ["position_error_rad"];
+
+const isPreset = (name: unknown): name is PresetName =>
+  typeof name === "string" && Object.hasOwn(PRESETS, name);
+
+const ofPreset = (preset: PresetName): PlotSetup => ({
+  key: preset,
+  preset,
+  channels: PRESETS[preset],
+});
+
+export const setupsAtFirst = (): PlotSetup[] => AT_FIRST.map(ofPreset);
+
+function readSetup(stored: unknown, index: number): PlotSetup[] {
+  if (typeof stored !== "object" || stored === null) return [];
+  const { preset, channels } = stored as { preset?: unknown; channels?: unknown };
+  const known = Array.isArray(channels) ? channels.filter(isChannel) : [];
+  const ofOneUnit = known.filter((name) => CHANNELS[name].unit === CHANNELS[known[0] ?? name].unit);
+  if (preset === "phase") return [ofPreset(preset)];
+  if (isPreset(preset)) {
+    return [ofOneUnit.length > 0 ? { key: preset, preset, channels: ofOneUnit } : ofPreset(preset)];
+  }
+  return ofOneUnit.length > 0 ? [{ key: `own${index}`, preset: "own", channels: ofOneUnit }] : [];
+}
+
+/** What was kept, as far as it still makes sense; null where nothing does. */
+export function readSetups(stored: string | null): PlotSetup[] | null {
+  if (stored === null) return null;
+  let rows: unknown;
+  try {
+    rows = JSON.parse(stored);
+  } catch {
+    return null;
+  }
+  if (!Array.isArray(rows)) return null;
+  const setups = new Map<string, PlotSetup>();
+  for (const setup of rows.slice(0, MOST_PLOTS).flatMap(readSetup)) setups.set(setup.key, setup);
+  return [...setups.values()];
+}
+
+export const setups = signal<readonly PlotSetup[]>(
+  readSetups(remembered(STORE)) ?? setupsAtFirst(),
+);
+
+/** What the stream has to carry. */
+export const channelsInUse = computed(() => [
+  ...new Set([...ALWAYS, ...setups.value.flatMap((setup) => setup.channels)]),
+]);
+
+function arrange(next: readonly PlotSetup[]): void {
+  setups.value = next;
+  remember(STORE, JSON.stringify(next.map(({ preset, channels }) => ({ preset, channels }))));
+}
+
+/** Adds one of the plots that the lab knows, at its place among them, or takes it away. */
+export function togglePreset(preset: PresetName): void {
+  const rest = setups.peek().filter((setup) => setup.key !== preset);
+  if (rest.length < setups.peek().length) {
+    arrange(rest);
+    return;
+  }
+  const order = (setup: PlotSetup) =>
+    setup.preset === "own" ? PRESET_NAMES.length : PRESET_NAMES.indexOf(setup.preset);
+  arrange([...rest, ofPreset(preset)].sort((a, b) => order(a) - order(b)));
+}
+
+export function addOwnPlot(channel: ChannelName): void {
+  const taken = setups.peek().map((setup) => setup.key);
+  let number = 0;
+  while (taken.includes(`own${number}`)) number++;
+  arrange([...setups.peek(), { key: `own${number}`, preset: "own", channels: [channel] }]);
+}
+
+export function removePlot(key: string): void {
+  arrange(setups.peek().filter((setup) => setup.key !== key));
+}
+
+/** Adds a channel to a plot or takes it away; the last one stays. */
+export function toggleChannel(key: string, channel: ChannelName): void {
+  arrange(
+    setups.peek().map((setup) => {
+      if (setup.key !== key) return setup;
+      const rest = setup.channels.filter((name) => name !== channel);
+      if (rest.length === 0) return setup;
+      const isThere = rest.length < setup.channels.length;
+      return { ...setup, channels: isThere ? rest : [...rest, channel] };
+    }),
+  );
+}
+
+export function resetPlots(): void {
+  arrange(setupsAtFirst());
+}

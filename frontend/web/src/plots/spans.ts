@@ -1,0 +1,31 @@
+/** Spans of time, as numbers. */
+import { LONGEST_WINDOW_S } from "../stream/rates";
+import type { SampleRing } from "../stream/ring";
+
+/** Limits of the time axis, s. */
+export interface Span {
+  from: number;
+  to: number;
+}
+
+const SHORTEST_S = 0.05;
+
+/** The span widened by `factor` (narrowed below 1) with the time `around` staying in its place. */
+export function zoomSpan({ from, to }: Span, factor: number, around: number): Span {
+  const length = Math.min(LONGEST_WINDOW_S, Math.max(SHORTEST_S, (to - from) * factor));
+  const share = (around - from) / (to - from);
+  return { from: around - share * length, to: around + (1 - share) * length };
+}
+
+/** The span moved so that at least half of it has samples, if there are any. */
+export function keepInside({ from, to }: Span, oldest: number, newest: number): Span {
+  if (Number.isNaN(oldest)) return { from, to };
+  const half = (to - from) / 2;
+  const middle = Math.min(newest, Math.max(oldest, from + half));
+  return { from: middle - half, to: middle + half };
+}
+
+export function liveSpan(ring: SampleRing, lengthS: number): Span {
+  const to = Math.max(Number.isNaN(ring.newestTime) ? 0 : ring.newestTime, lengthS);
+  return { from: to - lengthS, to };
+}

@@ -1,0 +1,84 @@
+/** What lies between two samples of one curve, and what a step did to the position. */
+import type { SampleRing } from "../stream/ring";
+
+export interface Measures {
+  a: number;
+  b: number;
+  delta: number;
+  min: number;
+  max: number;
+  rms: number;
+}
+
+/** Of the samples from index `a` to `b`, both included, past what is no number. */
+export function measureBetween(
+  ring: SampleRing,
+  channel: string,
+  lane: number,
+  [a, b]: readonly [number, number],
+  factor = 1,
+): Measures {
+  const atA = ring.valueAt(channel, a, lane) * factor;
+  const atB = ring.valueAt(channel, b, lane) * factor;
+  let min = Number.NaN;
+  let max = Number.NaN;
+  let squares = 0;
+  let count = 0;
+  for (let index = Math.min(a, b); index <= Math.max(a, b); index++) {
+    const value = ring.valueAt(channel, index, lane) * factor;
+    if (Number.isNaN(value)) continue;
+    if (!(value >= min)) min = value;
+    if (!(value <= max)) max = value;
+    squares += value * value;
+    count++;
+  }
+  const rms = count === 0 ? Number.NaN : Math.sqrt(squares / count);
+  return { a: atA, b: atB, delta: atB - atA, min, max, rms };
+}
+
+export interface StepMetrics {
+  peak: number;
+  rms: number;
+  /** From the step until the error stays small, s; null while it has not for long enough. */
+  recoveryS: number | null;
+}
+
+/** As the server has it: within 2 % of the peak so far, and for half a second at least. */
+const RECOVERY_SHARE = 0.02;
+const SETTLED_S = 0.5;
+
+/**
+ * The error from a time on up to before another, of the samples held; null where none is held of
+ * its beginning.
+ */
+export function measureStep(
+  ring: SampleRing,
+  channel: string,
+  lane: number,
+  fromS: number,
+  toS: number,
+): StepMetrics | null {
+  const first = ring.firstAt(fromS);
+  const end = Math.min(ring.length, ring.firstAt(toS));
+  const beginsBefore = first === 0 && ring.oldestTime > fromS + 0.1;
+  if (first >= end || beginsBefore) return null;
+  let peak = 0;
+  let squares = 0;
+  let count = 0;
+  let lastOutside = fromS;
+  for (let index = first; index < end; index++) {
+    const size = Math.abs(ring.valueAt(channel, index, lane));
+    if (Number.isNaN(size)) continue;
+    peak = Math.max(peak, size);
+    squares += size * size;
+    count++;
+    if (size > RECOVERY_SHARE * peak) lastOutside = ring.timeAt(Math.min(index + 1, end - 1));
+  }
+  if (count === 0) return null;
+  const isSettled = ring.timeAt(end - 1) - lastOutside >= SETTLED_S;
+  return {
+    peak,
+    rms: Math.sqrt(squares / count),
+    recoveryS: isSettled ? lastOutside - fromS : null,
+  };
+}

@@ -1,0 +1,91 @@
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { SessionEvent } from "../api/types";
+import { laneNames } from "../state/lanes";
+import { text } from "../text/en";
+import { formatNumber, toDegrees } from "../units";
+import { inkOf } from "./inks";
+import { Swatch } from "./legend";
+import { shownRing } from "./span";
+import { measureStep } from "./statistics";
+
+const AGAIN_MS = 500;
+const ERROR = "position_error_rad";
+
+const degrees = (rad: number) => formatNumber(toDegrees(rad), 3, 3);
+
+interface StepNumbersProps {
+  event: SessionEvent;
+  untilS: number;
+}
+
+/** What an event did to the position, lane by lane, while nothing else happened. */
+export function StepNumbers({ event, untilS }: StepNumbersProps) {
+  const [, setCount] = useState(0);
+  const panel = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const timer = setInterval(() => setCount((count) => count + 1), AGAIN_MS);
+    return () => clearInterval(timer);
+  }, []);
+  useLayoutEffect(() => {
+    const element = panel.current;
+    const list = element?.closest(".marks");
+    if (!element || !list) return;
+    element.style.marginLeft = "0";
+    const { left, right } = element.getBoundingClientRect();
+    const room = list.getBoundingClientRect();
+    const shift = Math.min(0, room.right - right) + Math.max(0, room.left - left);
+    element.style.marginLeft = `${shift}px`;
+  });
+  const ring = shownRing();
+  const rows = laneNames.value.map((name, index) => ({
+    name,
+    lane: index + 1,
+    metrics: measureStep(ring, ERROR, index + 1, event.time_s, untilS),
+  }));
+  const isHeld = rows.some(({ metrics }) => metrics !== null);
+  return (
+    <div class="step-numbers" ref={panel} role="status">
+      <strong>{text.steps.heading(event.label, event.time_s.toFixed(2))}</strong>
+      {isHeld ? (
+        <table>
+          <caption>
+            {Number.isFinite(untilS) ? text.steps.until(untilS.toFixed(2)) : text.steps.untilNow}
+          </caption>
+          <thead>
+            <tr>
+              <th scope="col">{text.steps.lane}</th>
+              <th scope="col">
+                {text.steps.peak} <span class="unit">{text.compare.degrees}</span>
+              </th>
+              <th scope="col">
+                {text.steps.rms} <span class="unit">{text.compare.degrees}</span>
+              </th>
+              <th scope="col">
+                {text.steps.recovery} <span class="unit">{text.compare.seconds}</span>
+              </th>
+            </tr>
+          </thead>
+          <tbody>
+            {rows.map(({ name, lane, metrics }) => (
+              <tr key={lane}>
+                <th scope="row">
+                  <Swatch look={inkOf(lane)} />
+                  {name}
+                </th>
+                <td>{degrees(metrics?.peak ?? Number.NaN)}</td>
+                <td>{degrees(metrics?.rms ?? Number.NaN)}</td>
+                <td>
+                  {metrics?.recoveryS === null
+                    ? text.steps.notYet
+                    : formatNumber(metrics?.recoveryS, 3, 2)}
+                </td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      ) : (
+        <p>{text.steps.gone}</p>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,103 @@
+import { useEffect, useRef } from "preact/hooks";
+import { text } from "../text/en";
+import { FONT, TIME_STEPS_S } from "./axes";
+import { onFrame } from "./frame";
+import { palette } from "./palette";
+import { goLive, isHeld, pan, shownRing, shownSpan, showSpan, zoom } from "./span";
+import type { Span } from "./spans";
+
+const LEAST_BETWEEN_PX = 64;
+const PAN_SHARE = 0.1;
+const ZOOM = 1.25;
+const TOLD_MS = 1000;
+
+const KEYS: Readonly<Record<string, () => void>> = {
+  ArrowLeft: () => pan(-PAN_SHARE),
+  ArrowDown: () => pan(-PAN_SHARE),
+  ArrowRight: () => pan(PAN_SHARE),
+  ArrowUp: () => pan(PAN_SHARE),
+  PageUp: () => pan(1),
+  PageDown: () => pan(-1),
+  "+": () => zoom(1 / ZOOM),
+  "=": () => zoom(1 / ZOOM),
+  "-": () => zoom(ZOOM),
+  End: goLive,
+  Home: () => {
+    const { from, to } = shownSpan();
+    const oldest = shownRing().oldestTime;
+    showSpan({ from: oldest, to: oldest + to - from });
+  },
+};
+
+/** Numbers of the axis at round times. */
+function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
+  const context = canvas.getContext("2d");
+  if (context === null) return;
+  const ratio = devicePixelRatio;
+  const { clientWidth, clientHeight } = canvas;
+  const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, clientWidth, clientHeight);
+  context.font = FONT;
+  context.fillStyle = palette.peek().axis;
+  context.textBaseline = "middle";
+  const most = clientWidth / LEAST_BETWEEN_PX;
+  const step = TIME_STEPS_S.find((one) => (to - from) / one <= most) ?? 10;
+  for (let index = Math.ceil(from / step - 1e-9); index * step <= to + 1e-9; index++) {
+    const x = ((index * step - from) / (to - from)) * clientWidth;
+    const isFirst = x < 12;
+    const isLast = x > clientWidth - 14;
+    context.textAlign = isFirst ? "left" : isLast ? "right" : "center";
+    context.fillText(text.plots.timeTick(index * step), x, clientHeight / 2 + 1);
+  }
+}
+
+/** The axis of time below all plots: it has the numbers, and the keys that move and zoom. */
+export function TimeAxis() {
+  const axis = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    let toldAt = 0;
+    const tell = () => {
+      const { from, to } = shownSpan();
+      const value = text.plots.spanValue(from.toFixed(2), to.toFixed(2));
+      axis.current?.setAttribute("aria-valuetext", value);
+      axis.current?.setAttribute("aria-valuenow", to.toFixed(2));
+      axis.current?.setAttribute("aria-valuemax", Math.max(to, shownRing().newestTime).toFixed(2));
+      toldAt = performance.now();
+    };
+    const draw = () => {
+      if (canvas.current) drawTicks(canvas.current, shownSpan());
+      if (isHeld.peek() || performance.now() - toldAt > TOLD_MS) tell();
+    };
+    const stop = onFrame(draw);
+    const resizing = new ResizeObserver(draw);
+    if (canvas.current) resizing.observe(canvas.current);
+    return () => {
+      stop();
+      resizing.disconnect();
+    };
+  }, []);
+  return (
+    <div
+      ref={axis}
+      class="time-axis"
+      role="slider"
+      tabIndex={0}
+      aria-label={text.plots.span}
+      aria-valuemin={0}
+      aria-valuenow={0}
+      title={text.plots.spanHint}
+      onKeyDown={(event) => {
+        const answer = KEYS[event.key];
+        if (answer === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+        event.preventDefault();
+        answer();
+      }}
+    >
+      <canvas ref={canvas} />
+    </div>
+  );
+}

@@ -1,0 +1,127 @@
+import { useLiveText } from "../layout/live";
+import { chooseWindow, WINDOWS_S, type WindowS, windowS } from "../state/preferences";
+import { text } from "../text/en";
+import { areCursorsOn, toggleCursors } from "./cursors";
+import { PlotPicker } from "./picker";
+import { saveWindowCsv } from "./save";
+import { behindS, goLive, held, hold, isHeld, showLength, zoom } from "./span";
+
+const ZOOM = 1.6;
+const readBehind = () => text.plots.behind(behindS().toFixed(1));
+
+function WindowPicker() {
+  const span = held.value;
+  const choose = (seconds: WindowS) => {
+    chooseWindow(seconds);
+    showLength(seconds);
+  };
+  return (
+    <fieldset class="window-picker" aria-label={text.plots.window}>
+      {WINDOWS_S.map((seconds) => {
+        const isThis =
+          span === null
+            ? windowS.value === seconds
+            : Math.abs(span.to - span.from - seconds) < 1e-6;
+        return (
+          <label key={seconds} class="chip">
+            <input
+              type="radio"
+              name="window"
+              checked={isThis}
+              onChange={() => choose(seconds)}
+              onClick={() => choose(seconds)}
+            />
+            <span>{text.plots.seconds(seconds)}</span>
+          </label>
+        );
+      })}
+    </fieldset>
+  );
+}
+
+/** How far the data have gone on since the plots stand still. */
+function Behind() {
+  const element = useLiveText<HTMLSpanElement>(readBehind);
+  return <span class="behind" ref={element} aria-hidden="true" />;
+}
+
+function HoldButton() {
+  if (isHeld.value) {
+    return (
+      <button type="button" class="tool is-live" title={text.plots.liveHint} onClick={goLive}>
+        <svg viewBox="0 0 12 12" aria-hidden="true">
+          <path d="M2 1l8 5-8 5zM10.4 1H12v10h-1.6z" />
+        </svg>
+        {text.plots.live}
+        <Behind />
+      </button>
+    );
+  }
+  return (
+    <button type="button" class="tool" title={text.plots.holdHint} onClick={hold}>
+      <svg viewBox="0 0 12 12" aria-hidden="true">
+        <path d="M2 1h3v10H2zM7 1h3v10H7z" />
+      </svg>
+      {text.plots.hold}
+    </button>
+  );
+}
+
+interface ZoomButtonProps {
+  name: string;
+  factor: number;
+  path: string;
+}
+
+function ZoomButton({ name, factor, path }: ZoomButtonProps) {
+  return (
+    <button
+      type="button"
+      class="tool is-icon"
+      aria-label={name}
+      title={`${name}. ${text.plots.gestures}`}
+      onClick={() => zoom(factor)}
+    >
+      <svg viewBox="0 0 12 12" aria-hidden="true">
+        <path d={path} />
+      </svg>
+    </button>
+  );
+}
+
+/** What holds for all plots. */
+export function Toolbar() {
+  return (
+    <div class="plot-tools" role="toolbar" aria-label={text.plots.tools}>
+      <HoldButton />
+      <span class="visually-hidden" role="status">
+        {isHeld.value ? text.plots.held : ""}
+      </span>
+      <button
+        type="button"
+        class="tool"
+        aria-pressed={areCursorsOn.value}
+        title={text.cursors.switchHint}
+        onClick={toggleCursors}
+      >
+        <svg viewBox="0 0 12 12" aria-hidden="true">
+          <path d="M3 0h1.4v12H3zM7.6 0H9v12H7.6z" />
+        </svg>
+        {text.cursors.switch}
+      </button>
+      <WindowPicker />
+      <ZoomButton name={text.plots.zoomOut} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
+      <ZoomButton
+        name={text.plots.zoomIn}
+        factor={1 / ZOOM}
+        path="M1 5.2h4.2V1h1.6v4.2H11v1.6H6.8V11H5.2V6.8H1z"
+      />
+      <span class="plot-tools-end">
+        <PlotPicker />
+        <button type="button" class="tool" title={text.save.allHint} onClick={saveWindowCsv}>
+          {text.save.csv}
+        </button>
+      </span>
+    </div>
+  );
+}

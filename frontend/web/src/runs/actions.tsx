@@ -1,0 +1,98 @@
+import { useState } from "preact/hooks";
+import { addressOf, branchRun, exportPath } from "../api/runs";
+import type { ExportName, RunDetails } from "../api/types";
+import { noteDownload } from "../script/calls";
+import { CopyButton } from "../script/copybutton";
+import { makeRunScript, scriptProblem } from "../script/repeat";
+import { text } from "../text/en";
+import { putIntoTrash } from "./list";
+import { goTo, linkTo } from "./place";
+import { attempt } from "./problem";
+import { nameOf } from "./words";
+
+const words = text.run;
+const KINDS: readonly (ExportName | "html")[] = ["csv", "parquet", "mat", "mcap", "html"];
+
+/** The tick of the run's own count that a moment of the replay is. */
+const tickAt = (run: RunDetails, moment: number): number =>
+  run.first_tick + Math.min(Math.round(moment / run.period_s), Math.max(0, run.ticks - 1));
+
+function Branch({ run, moment }: { run: RunDetails; moment: number }) {
+  const [isBusy, setBusy] = useState(false);
+  if (run.plant !== "simulated") {
+    return <span class="hint run-bench">{words.branchBench}</span>;
+  }
+  const branch = async () => {
+    setBusy(true);
+    const session = await attempt(() => branchRun(run.id, tickAt(run, moment)));
+    if (session) location.assign(`${location.pathname}?session=${session.session}`);
+    else setBusy(false);
+  };
+  return (
+    <button
+      type="button"
+      class="button is-primary"
+      title={words.branchHint}
+      disabled={isBusy}
+      onClick={() => void branch()}
+    >
+      {isBusy ? words.branching : words.branch(text.runs.seconds(Number(moment.toFixed(2))))}
+    </button>
+  );
+}
+
+function Exports({ run }: { run: RunDetails }) {
+  return (
+    <details class="menu">
+      <summary class="button">{words.download}</summary>
+      <ul>
+        {KINDS.map((kind) => {
+          const path = exportPath(run.id, kind);
+          return (
+            <li key={kind}>
+              <a
+                href={addressOf(path)}
+                download
+                onClick={(event) => {
+                  noteDownload(path);
+                  event.currentTarget.closest("details")?.removeAttribute("open");
+                }}
+              >
+                <strong>{words.kinds[kind].name}</strong> <small>{words.kinds[kind].does}</small>
+              </a>
+            </li>
+          );
+        })}
+      </ul>
+    </details>
+  );
+}
+
+/** What may be done with a run, at the moment that its replay shows. */
+export function RunActions({ run, moment }: { run: RunDetails; moment: number }) {
+  const link = () =>
+    new URL(linkTo({ kind: "run", run: run.id, timeS: moment }), location.href).href;
+  const remove = async () => {
+    if (await putIntoTrash(run.id)) goTo({ kind: "list" });
+  };
+  return (
+    <div class="run-actions">
+      <Branch run={run} moment={moment} />
+      <CopyButton read={link} hint={words.linkHint}>
+        {words.link}
+      </CopyButton>
+      <CopyButton read={() => makeRunScript(run.id, nameOf(run))} hint={words.scriptHint}>
+        {words.script}
+      </CopyButton>
+      <Exports run={run} />
+      <button type="button" class="button" onClick={() => void remove()}>
+        {text.runs.remove}
+      </button>
+      {scriptProblem.value !== "" && (
+        <span class="problem" role="alert">
+          {scriptProblem.value}
+        </span>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,90 @@
+/** The list of runs as the server gives it for a search, a tag and a page. */
+import { effect, signal } from "@preact/signals";
+import { changeRun, deleteRun, listRuns, restoreRun } from "../api/runs";
+import type { RunList, RunPatch, RunSummary } from "../api/types";
+import { attempt } from "./problem";
+
+export const PAGE_SIZE = 20;
+export const MOST_CHOSEN = 6;
+
+export const search = signal("");
+export const tag = signal("");
+export const pageNumber = signal(1);
+export const isTrash = signal(false);
+export const found = signal<RunList | null>(null);
+/** Runs to be laid over one another, in the order in which they were chosen. */
+export const chosen = signal<readonly string[]>([]);
+/** The run that was deleted last, as long as it may be taken back at once. */
+export const deleted = signal<RunSummary | null>(null);
+
+let newest = 0;
+
+export async function refresh(): Promise<void> {
+  newest += 1;
+  const mine = newest;
+  const wanted = {
+    search: search.peek().trim(),
+    tag: tag.peek(),
+    page: pageNumber.peek(),
+    pageSize: PAGE_SIZE,
+    isTrash: isTrash.peek(),
+  };
+  const answer = await attempt(() => listRuns(wanted));
+  if (answer === null || mine !== newest) return;
+  if (answer.runs.length === 0 && wanted.page > 1) {
+    pageNumber.value = Math.max(1, Math.ceil(answer.total / PAGE_SIZE));
+    return;
+  }
+  found.value = answer;
+}
+
+/** Asks again whenever what is asked for changes; returns the function that ends it. */
+export const followList = (): (() => void) =>
+  effect(() => {
+    void [search.value, tag.value, pageNumber.value, isTrash.value];
+    void refresh();
+  });
+
+/** Another search, tag or trash begins on its first page. */
+export function ask(change: { search?: string; tag?: string; isTrash?: boolean }): void {
+  pageNumber.value = 1;
+  if (change.search !== undefined) search.value = change.search;
+  if (change.tag !== undefined) tag.value = change.tag;
+  if (change.isTrash !== undefined) isTrash.value = change.isTrash;
+}
+
+export function toggleChosen(run: string): void {
+  const before = chosen.peek();
+  chosen.value = before.includes(run) ? before.filter((id) => id !== run) : [...before, run];
+}
+
+/** Takes over a run that the server has changed. */
+function accept(run: RunSummary): void {
+  const list = found.peek();
+  if (list === null) return;
+  found.value = { ...list, runs: list.runs.map((row) => (row.id === run.id ? run : row)) };
+}
+
+export async function patchRun(run: string, patch: RunPatch): Promise<RunSummary | null> {
+  const answer = await attempt(() => changeRun(run, patch));
+  if (answer) {
+    accept(answer);
+    if (patch.tags) void refresh();
+  }
+  return answer;
+}
+
+export async function putIntoTrash(run: string): Promise<boolean> {
+  const answer = await attempt(() => deleteRun(run));
+  if (answer === null) return false;
+  deleted.value = answer;
+  chosen.value = chosen.peek().filter((id) => id !== run);
+  await refresh();
+  return true;
+}
+
+export async function takeBack(run: string): Promise<void> {
+  if ((await attempt(() => restoreRun(run))) === null) return;
+  if (deleted.peek()?.id === run) deleted.value = null;
+  await refresh();
+}

@@ -1,0 +1,83 @@
+import type { Metrics } from "../api/types";
+import { bestOf } from "../layout/best";
+import { Swatch } from "../plots/legend";
+import { text } from "../text/en";
+import { formatNumber, toDegrees } from "../units";
+import { nameCurve, type Overlaid } from "./overlaid";
+
+const words = text.overlay;
+
+interface Column {
+  name: string;
+  unit: string;
+  read: (metrics: Metrics) => number | null;
+}
+
+const COLUMNS: readonly Column[] = [
+  {
+    name: words.rmsError,
+    unit: words.degrees,
+    read: (metrics) => toDegrees(metrics.rms_position_error_rad),
+  },
+  {
+    name: words.peakError,
+    unit: words.degrees,
+    read: (metrics) => toDegrees(metrics.peak_position_error_rad),
+  },
+  { name: words.recovery, unit: words.secondsUnit, read: (metrics) => metrics.recovery_time_s },
+  {
+    name: words.rmsStiffness,
+    unit: words.stiffnessUnit,
+    read: (metrics) => metrics.rms_stiffness_error_nm_per_rad,
+  },
+  { name: words.peakTorque, unit: words.torqueUnit, read: (metrics) => metrics.peak_torque1_nm },
+];
+
+/** Whose value is clearly the smallest is marked; a run that never came back is no winner. */
+function readColumn(curves: readonly Overlaid[], { read }: Column) {
+  const values = curves.map(({ metrics }) => (metrics === null ? null : read(metrics)));
+  return { values, best: bestOf(values.map((value) => value ?? Number.POSITIVE_INFINITY)) };
+}
+
+/** The curves of an overlay in numbers. */
+export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
+  const columns = COLUMNS.map((column) => ({ ...column, ...readColumn(curves, column) }));
+  return (
+    <div class="overlay-table">
+      <table>
+        <caption>{words.table}</caption>
+        <thead>
+          <tr>
+            <th scope="col">{words.run}</th>
+            {columns.map((column) => (
+              <th key={column.name} scope="col">
+                {column.name} <span class="unit">{column.unit}</span>
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {curves.map((curve, row) => (
+            <tr key={curve.key}>
+              <th scope="row">
+                <Swatch look={curve.ink} />
+                {nameCurve(curve)}
+              </th>
+              {columns.map((column) => (
+                <td key={column.name} class={row === column.best ? "is-best" : ""}>
+                  {row === column.best && (
+                    <>
+                      <span aria-hidden="true">{text.compare.bestSign}</span>
+                      <span class="visually-hidden">{text.compare.best}</span>{" "}
+                    </>
+                  )}
+                  {formatNumber(column.values[row], 3, 4)}
+                </td>
+              ))}
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}

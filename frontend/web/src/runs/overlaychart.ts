@@ -1,0 +1,124 @@
+/** One uPlot of an overlay: curves with times of their own, a line where the load came on. */
+import uPlot from "uplot";
+import { palette } from "../plots/palette";
+import { niceRange } from "../plots/range";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
+import type { Overlaid, OverlayChannel } from "./overlaid";
+
+const Y_AXIS_PX = 54;
+const FONT = "11px system-ui, sans-serif";
+const SMALLEST_DRAG_PX = 4;
+const SPANS: Record<OverlayChannel, number> = {
+  position_error_rad: 0.004,
+  stiffness_error_nm_per_rad: 0.001,
+};
+
+export class OverlayChart {
+  readonly #plot: uPlot;
+
+  constructor(host: HTMLElement, curves: readonly Overlaid[], channel: OverlayChannel) {
+    const tables = curves.map(
+      (curve): uPlot.AlignedData => [Array.from(curve.time), curve.values[channel]],
+    );
+    this.#plot = new uPlot(
+      {
+        width: Math.max(1, host.clientWidth),
+        height: Math.max(1, host.clientHeight),
+        padding: [8, 14, 0, 0],
+        legend: { show: false },
+        cursor: {
+          y: false,
+          points: { show: false },
+          drag: { x: true, y: false, dist: SMALLEST_DRAG_PX },
+          sync: { key: "overlay", scales: ["x", null] },
+        },
+        scales: {
+          x: { time: false },
+          y: { range: (_, low, high) => niceRange(low, high, SPANS[channel]) },
+        },
+        axes: [
+          {
+            ...axis(),
+            size: 26,
+            space: 70,
+            values: (_, splits) => splits.map(text.overlay.timeTick),
+          },
+          { ...axis(), size: Y_AXIS_PX, space: 24, values: writeValues },
+        ],
+        series: [{}, ...curves.map(drawn)],
+        hooks: { drawClear: [drawOnset], setScale: [followTime] },
+      },
+      uPlot.join(tables),
+      host,
+    );
+    uPlot.sync("overlay").sub(this.#plot);
+  }
+
+  show(index: number, isShown: boolean): void {
+    this.#plot.setSeries(index + 1, { show: isShown });
+  }
+
+  resize(width: number, height: number): void {
+    if (width > 0 && height > 0) this.#plot.setSize({ width, height });
+  }
+
+  redraw(): void {
+    this.#plot.redraw(false);
+  }
+
+  destroy(): void {
+    uPlot.sync("overlay").unsub(this.#plot);
+    this.#plot.destroy();
+  }
+}
+
+/** All charts of an overlay show the same stretch of time. */
+function followTime(plot: uPlot, scale: string): void {
+  if (scale !== "x") return;
+  const { min, max } = plot.scales.x as uPlot.Scale;
+  if (min == null || max == null) return;
+  for (const other of uPlot.sync("overlay").plots) {
+    const { x } = other.scales;
+    if (other !== plot && (x?.min !== min || x?.max !== max)) other.setScale("x", { min, max });
+  }
+}
+
+function drawOnset(plot: uPlot): void {
+  const { ctx: context, bbox } = plot;
+  const { min = 0, max = 0 } = plot.scales.x as uPlot.Scale;
+  if (min > 0 || max < 0) return;
+  const x = Math.round(plot.valToPos(0, "x", true));
+  context.save();
+  context.strokeStyle = palette.peek().mark;
+  context.lineWidth = devicePixelRatio;
+  context.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
+  context.beginPath();
+  context.moveTo(x, bbox.top);
+  context.lineTo(x, bbox.top + bbox.height);
+  context.stroke();
+  context.restore();
+}
+
+const axis = (): uPlot.Axis => ({
+  stroke: () => palette.peek().axis,
+  grid: { stroke: () => palette.peek().grid, width: 1 },
+  ticks: { show: false },
+  font: FONT,
+  gap: 4,
+});
+
+function writeValues(_: uPlot, splits: number[]): string[] {
+  const step = Math.abs((splits[1] ?? 1) - (splits[0] ?? 0));
+  const decimals = (String(Number(step.toPrecision(3))).split(".")[1] ?? "").length;
+  return splits.map((value) => formatNumber(Number(value.toFixed(decimals)), 12, decimals));
+}
+
+function drawn(curve: Overlaid): uPlot.Series {
+  return {
+    stroke: () => palette.peek()[curve.ink.colour],
+    width: curve.ink.width,
+    dash: [...curve.ink.dash],
+    points: { show: false },
+  };
+}

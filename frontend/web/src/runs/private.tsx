@@ -1,0 +1,17 @@
+import { isPrivate } from "../api/client";
+import { text } from "../text/en";
+
+/** Says that the page shows a private session, and leads back. */
+export function PrivateBanner() {
+  if (!isPrivate) return null;
+  return (
+    <div class="private-banner">
+      <p>
+        <strong>{text.private.title}</strong> {text.private.text}
+      </p>
+      <a class="button" href={location.pathname}>
+        {text.private.back}
+      </a>
+    </div>
+  );
+}

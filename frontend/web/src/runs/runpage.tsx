@@ -1,0 +1,136 @@
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { readRun } from "../api/runs";
+import type { RunDetails, RunSummary } from "../api/types";
+import { text } from "../text/en";
+import { RunActions } from "./actions";
+import { patchRun } from "./list";
+import { keepMoment } from "./place";
+import { PlaceLink } from "./placelink";
+import { attempt } from "./problem";
+import { ReplayFrame } from "./replayframe";
+import { Tags } from "./tags";
+import { formatDuration, formatMoment, nameOf } from "./words";
+
+const words = text.run;
+
+interface WrittenProps {
+  label: string;
+  hint?: string;
+  class: string;
+  value: string;
+  longest: number;
+  onWrite: (value: string) => unknown;
+}
+
+/** A line of text that is kept when it is left, or with Enter; Escape takes the draft back. */
+function Written({ label, hint, value, longest, onWrite, ...rest }: WrittenProps) {
+  const [draft, setDraft] = useState<string | null>(null);
+  return (
+    <input
+      type="text"
+      class={rest.class}
+      aria-label={label}
+      placeholder={hint}
+      maxLength={longest}
+      value={draft ?? value}
+      onInput={(event) => setDraft(event.currentTarget.value)}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") event.currentTarget.blur();
+        if (event.key === "Escape") setDraft(null);
+      }}
+      onBlur={() => {
+        if (draft !== null && draft !== value) onWrite(draft);
+        setDraft(null);
+      }}
+    />
+  );
+}
+
+function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummary) => void }) {
+  const write = async (patch: { name: string } | { notes: string }) => {
+    const answer = await patchRun(run.id, patch);
+    if (answer) onChanged(answer);
+  };
+  return (
+    <div class="run-about">
+      <h2 class="visually-hidden">{nameOf(run)}</h2>
+      <div class="run-line">
+        <Written
+          label={words.name}
+          hint={run.id}
+          class="run-name"
+          longest={200}
+          value={run.name}
+          onWrite={(name) => void write({ name })}
+        />
+        <span class="run-when">
+          {formatMoment(run.created)} · {formatDuration(run.duration_s)}
+        </span>
+        <Tags run={run} onChanged={onChanged} />
+      </div>
+      <Written
+        label={words.notes}
+        hint={words.notesHint}
+        class="run-note"
+        longest={10_000}
+        value={run.notes}
+        onWrite={(notes) => void write({ notes })}
+      />
+    </div>
+  );
+}
+
+const SETTLED = 2;
+
+/** The moment of the replay; the address follows it once it rests. */
+function useMoment(run: string, startS: number) {
+  const [moment, setMoment] = useState(startS);
+  const resting = useRef({ timeS: startS, count: 0 });
+  const follow = useCallback(
+    (timeS: number) => {
+      const { current } = resting;
+      current.count = current.timeS === timeS ? current.count + 1 : 0;
+      current.timeS = timeS;
+      setMoment(timeS);
+      if (current.count === SETTLED) keepMoment(run, timeS);
+    },
+    [run],
+  );
+  return { moment, follow };
+}
+
+/** One run: replayed, named, branched, exported. */
+export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
+  const [run, setRun] = useState<RunDetails | null>(null);
+  const { moment, follow } = useMoment(id, timeS);
+  useEffect(() => {
+    let isGone = false;
+    void attempt(() => readRun(id)).then((answer) => {
+      if (!isGone) setRun(answer);
+    });
+    return () => {
+      isGone = true;
+    };
+  }, [id]);
+  if (run === null) {
+    return (
+      <div class="run-head">
+        <PlaceLink to={{ kind: "list" }} class="button">
+          ← {words.toList}
+        </PlaceLink>
+      </div>
+    );
+  }
+  return (
+    <>
+      <div class="run-head">
+        <PlaceLink to={{ kind: "list" }} class="button">
+          ← {words.toList}
+        </PlaceLink>
+        <About run={run} onChanged={(changed) => setRun({ ...run, ...changed })} />
+        <RunActions run={run} moment={moment} />
+      </div>
+      <ReplayFrame run={id} name={nameOf(run)} startS={timeS} onMoment={follow} />
+    </>
+  );
+}

@@ -1,0 +1,77 @@
+import { useEffect } from "preact/hooks";
+import { text } from "../text/en";
+import { deleted, takeBack } from "./list";
+import { ListPage } from "./listpage";
+import { OverlayPage } from "./overlaypage";
+import { type Place, place, toggleRuns } from "./place";
+import { runsProblem } from "./problem";
+import { RunPage } from "./runpage";
+import { nameOf } from "./words";
+
+function Inside({ at }: { at: Exclude<Place, { kind: "lab" }> }) {
+  if (at.kind === "list") return <ListPage />;
+  if (at.kind === "overlay") return <OverlayPage runs={at.runs} />;
+  return <RunPage key={at.run} run={at.run} timeS={at.timeS} />;
+}
+
+/** The last deletion, as long as nobody dismisses it. */
+function Undo() {
+  const run = deleted.value;
+  return (
+    <div class="undo" role="status" hidden={run === null}>
+      {run && (
+        <>
+          <span>{text.runs.deleted(nameOf(run))}</span>
+          <button type="button" class="button" onClick={() => void takeBack(run.id)}>
+            {text.runs.undo}
+          </button>
+          <button
+            type="button"
+            class="quiet"
+            aria-label={text.runs.dismiss}
+            onClick={() => {
+              deleted.value = null;
+            }}
+          >
+            ✕
+          </button>
+        </>
+      )}
+    </div>
+  );
+}
+
+/** The recorded runs, in the place of the lab. */
+export function Runs({ at }: { at: Exclude<Place, { kind: "lab" }> }) {
+  useEffect(() => {
+    runsProblem.value = "";
+  }, [at.kind]);
+  return (
+    <main class={`runs is-${at.kind}`} aria-label={text.runs.title}>
+      <p class="problem" role="alert" hidden={runsProblem.value === ""}>
+        {runsProblem.value}
+      </p>
+      <Inside at={at} />
+      <Undo />
+    </main>
+  );
+}
+
+export function RunsButton() {
+  const isOpen = place.value.kind !== "lab";
+  return (
+    <button
+      type="button"
+      class="button"
+      aria-pressed={isOpen}
+      aria-keyshortcuts="o"
+      title={isOpen ? text.runs.back : text.runs.openHint}
+      onClick={toggleRuns}
+    >
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        <path d="M1 2h14v2.5H1zM1 6.8h14v2.5H1zM1 11.5h14V14H1z" />
+      </svg>
+      {text.runs.open}
+    </button>
+  );
+}

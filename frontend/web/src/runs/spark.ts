@@ -1,0 +1,73 @@
+/** The position error of a run, small: one path a lane, on one scale. */
+import { readRun, readSamples } from "../api/runs";
+import type { RunSamples } from "../api/types";
+import { nameRunLanes } from "./lanenames";
+
+export const WIDTH = 300;
+export const HEIGHT = 44;
+const POINTS = 240;
+const MARGIN = 2;
+const CHANNEL = "position_error_rad";
+/** A smaller error than this fills no plot, rad. */
+const SMALLEST = 1e-4;
+
+export interface Spark {
+  paths: string[];
+  /** Height of zero error. */
+  zero: number;
+  /** Largest error of any lane, rad. */
+  peak: number;
+}
+
+/** A run at a glance: its curves, and the names of its lanes. */
+export interface Glance extends Spark {
+  lanes: string[];
+}
+
+export function drawSpark({ time_s: time, lanes }: Pick<RunSamples, "time_s" | "lanes">): Spark {
+  const curves = Object.values(lanes).map((channels) => channels[CHANNEL] ?? []);
+  const values = curves.flat().filter((value) => value !== null);
+  const peak = values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  const low = Math.min(-SMALLEST, ...values.map((value) => Math.min(0, value)));
+  const high = Math.max(SMALLEST, ...values.map((value) => Math.max(0, value)));
+  const first = time[0] ?? 0;
+  const span = Math.max((time.at(-1) ?? 1) - first, 1e-9);
+  const across = (seconds: number) => ((seconds - first) / span) * WIDTH;
+  const down = (value: number) => MARGIN + ((high - value) / (high - low)) * (HEIGHT - 2 * MARGIN);
+  const paths = curves.map((curve) => {
+    let isDown = false;
+    return curve
+      .map((value, index) => {
+        if (value === null) {
+          isDown = false;
+          return "";
+        }
+        const command = isDown ? "L" : "M";
+        isDown = true;
+        return `${command}${across(time[index] ?? 0).toFixed(1)} ${down(value).toFixed(1)}`;
+      })
+      .join("");
+  });
+  return { paths, zero: down(0), peak };
+}
+
+const MOST_KEPT = 200;
+const kept = new Map<string, Promise<Glance>>();
+
+async function readGlance(run: string): Promise<Glance> {
+  const [details, samples] = await Promise.all([readRun(run), readSamples(run, [CHANNEL], POINTS)]);
+  return { ...drawSpark(samples), lanes: nameRunLanes(details) };
+}
+
+/** Read once a run and length; a run that is still recorded grows. */
+export function keepGlance(run: string, ticks: number): Promise<Glance> {
+  const key = `${run}.${ticks}`;
+  const known = kept.get(key);
+  if (known) return known;
+  const made = readGlance(run);
+  made.catch(() => kept.delete(key));
+  kept.set(key, made);
+  const oldest = kept.keys().next().value;
+  if (kept.size > MOST_KEPT && oldest !== undefined) kept.delete(oldest);
+  return made;
+}

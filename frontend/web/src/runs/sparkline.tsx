@@ -1,0 +1,35 @@
+import { inkOf } from "../plots/inks";
+import { text } from "../text/en";
+import { formatNumber, toDegrees } from "../units";
+import { type Glance, HEIGHT, WIDTH } from "./spark";
+
+/** The position error of every lane over the whole run; nothing until it is read. */
+export function Sparkline({ glance }: { glance: Glance | null }) {
+  const label = glance
+    ? text.runs.sparkline(glance.lanes.join(", "), formatNumber(toDegrees(glance.peak), 2, 3))
+    : text.runs.noSparkline;
+  return (
+    <svg
+      class="sparkline"
+      viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+      preserveAspectRatio="none"
+      role="img"
+      aria-label={label}
+    >
+      {glance && <path class="spark-zero" d={`M0 ${glance.zero}H${WIDTH}`} />}
+      {glance?.paths
+        .map((path, index) => {
+          const ink = inkOf(index + 1);
+          return (
+            <path
+              key={ink.colour}
+              class={`ink-${ink.colour}`}
+              d={path}
+              stroke-dasharray={ink.dash.join(" ") || undefined}
+            />
+          );
+        })
+        .reverse()}
+    </svg>
+  );
+}

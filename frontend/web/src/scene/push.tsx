@@ -1,0 +1,134 @@
+import { signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { addLoad } from "../api/client";
+import { Problem } from "../controls/problem";
+import { perform } from "../state/actions";
+import { samples } from "../state/session";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
+import { angleSeen, pullOf } from "./ray";
+import { cameraNow } from "./viewer";
+
+export const isPushing = signal(false);
+
+const PULSE_S = 0.15;
+const KEY_PULSE_S = 0.3;
+const KEY_NM = 1;
+const LEAST_NM = 0.05;
+
+interface Grip {
+  x: number;
+  y: number;
+  /** Angle of the pointer against the link when it was taken. */
+  taken: number;
+}
+
+const linkAngle = () => samples.ring.newest("position_rad");
+const pull = signal<{ from: Grip; x: number; y: number; torque: number } | null>(null);
+
+function push(torque: number, seconds: number): Promise<boolean> {
+  return perform("scene.push", () =>
+    addLoad({ kind: "pulse", torque_nm: [torque, 0, 0], duration_s: seconds }),
+  );
+}
+
+function pointerAngle(layer: HTMLElement, event: { clientX: number; clientY: number }) {
+  const box = layer.getBoundingClientRect();
+  const camera = cameraNow();
+  if (camera === null) return null;
+  const right = ((event.clientX - box.left) / box.width) * 2 - 1;
+  const up = 1 - ((event.clientY - box.top) / box.height) * 2;
+  return angleSeen(camera, right, up);
+}
+
+/** One pulse after the other, never two at once, while the link is held; each ends by itself. */
+async function keepPulling(): Promise<void> {
+  while (pull.peek() !== null) {
+    const torque = pull.peek()?.torque ?? 0;
+    if (Math.abs(torque) > LEAST_NM && !(await push(torque, PULSE_S))) break;
+    await new Promise((resolve) => setTimeout(resolve, 1000 * PULSE_S));
+  }
+}
+
+function Band() {
+  const now = pull.value;
+  if (now === null) return null;
+  return (
+    <svg class="push-band" aria-hidden="true">
+      <line x1={now.from.x} y1={now.from.y} x2={now.x} y2={now.y} />
+      <circle cx={now.from.x} cy={now.from.y} r="5" />
+      <text x={now.x + 14} y={now.y - 10}>
+        {text.scene.pulling(formatNumber(now.torque, 2, 1))}
+      </text>
+    </svg>
+  );
+}
+
+/** Lies over the 3D view while the link may be taken: a drag is a spring that pulls at it. */
+export function PushLayer() {
+  const layer = useRef<HTMLButtonElement>(null);
+  useEffect(() => {
+    layer.current?.focus({ preventScroll: true });
+    return () => {
+      pull.value = null;
+    };
+  }, []);
+  const follow = (event: PointerEvent, from: Grip) => {
+    const host = layer.current as HTMLElement;
+    const angle = pointerAngle(host, event);
+    if (angle === null) return;
+    const box = host.getBoundingClientRect();
+    pull.value = {
+      from,
+      x: event.clientX - box.left,
+      y: event.clientY - box.top,
+      torque: pullOf(angle, linkAngle(), from.taken),
+    };
+  };
+  const take = (event: PointerEvent) => {
+    const host = layer.current as HTMLElement;
+    const angle = pointerAngle(host, event);
+    if (angle === null) return;
+    host.setPointerCapture(event.pointerId);
+    const box = host.getBoundingClientRect();
+    follow(event, {
+      x: event.clientX - box.left,
+      y: event.clientY - box.top,
+      taken: angle - linkAngle(),
+    });
+    void keepPulling();
+  };
+  const release = () => {
+    pull.value = null;
+  };
+  const answer = (event: KeyboardEvent) => {
+    const torque = { ArrowLeft: -KEY_NM, ArrowRight: KEY_NM }[event.key];
+    if (torque !== undefined && !event.repeat) void push(torque, KEY_PULSE_S);
+    else if (event.key === "Escape") isPushing.value = false;
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return (
+    <>
+      <button
+        ref={layer}
+        type="button"
+        class="push-layer"
+        aria-label={text.scene.pushLayer}
+        onPointerDown={take}
+        onPointerMove={(event) => {
+          const from = pull.peek()?.from;
+          if (from) follow(event, from);
+        }}
+        onPointerUp={release}
+        onPointerCancel={release}
+        onKeyDown={answer}
+      />
+      <Band />
+      <div class="push-problem">
+        <Problem control="scene.push" />
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,52 @@
+/** Where a point of the picture lies on the actuator. */
+
+/** A camera as three.js keeps it: column-major matrix to its world, vertical angle in degrees. */
+export interface Camera {
+  fov: number;
+  aspect: number;
+  matrixWorld: { elements: readonly number[] };
+}
+
+type Vector = readonly [number, number, number];
+
+/** The plane in which the link turns: where its front lies on the axis, in the scene's lengths. */
+const LINK_PLANE = 0.85;
+
+/** three.js has y up and looks the other way along the scene's axis. */
+const toScene = ([x, y, z]: Vector): Vector => [-z, -x, y];
+
+function turn(elements: readonly number[], [x, y, z]: Vector): Vector {
+  const row = (index: number) =>
+    (elements[index] as number) * x +
+    (elements[index + 4] as number) * y +
+    (elements[index + 8] as number) * z;
+  return [row(0), row(1), row(2)];
+}
+
+/**
+ * The angle, as q counts it, at which the sight through a point of the picture meets the plane of
+ * the link. right, up: −1 … 1 from edge to edge. Null where it does not meet it.
+ */
+export function angleSeen(camera: Camera, right: number, up: number): number | null {
+  const { elements } = camera.matrixWorld;
+  const reach = Math.tan((camera.fov * Math.PI) / 360);
+  const sight = toScene(turn(elements, [right * camera.aspect * reach, up * reach, -1]));
+  const from = toScene([elements[12] as number, elements[13] as number, elements[14] as number]);
+  const distance = (LINK_PLANE - from[0]) / sight[0];
+  if (!Number.isFinite(distance) || distance <= 0) return null;
+  const y = from[1] + distance * sight[1];
+  const z = from[2] + distance * sight[2];
+  return Math.atan2(y, -z);
+}
+
+/** An angle brought to −π … π. */
+export const wrap = (angle: number): number => Math.atan2(Math.sin(angle), Math.cos(angle));
+
+const SPRING_NM_PER_RAD = 2.5;
+const MOST_NM = 1.5;
+
+/** What the spring between the pointer and the point where the link was taken pulls with, N·m. */
+export function pullOf(pointer: number, link: number, taken: number): number {
+  const torque = SPRING_NM_PER_RAD * wrap(pointer - link - taken);
+  return Math.max(-MOST_NM, Math.min(MOST_NM, torque));
+}

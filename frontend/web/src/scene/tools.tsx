@@ -1,0 +1,66 @@
+import { isPrivate } from "../api/client";
+import { session } from "../state/session";
+import { text } from "../text/en";
+import { isPushing, PushLayer } from "./push";
+import { CAMERA_NAMES, isLow, setCamera, toggleLow } from "./viewer";
+
+const words = text.scene;
+
+function PushButton() {
+  const canPush = session.value?.bench === null && !isPrivate;
+  if (!canPush) return null;
+  return (
+    <button
+      type="button"
+      class="tool"
+      aria-pressed={isPushing.value}
+      title={words.pushHint}
+      onClick={() => {
+        isPushing.value = !isPushing.peek();
+      }}
+    >
+      <svg viewBox="0 0 12 12" aria-hidden="true">
+        <path d="M3.4 6.2V2.3a.8.8 0 0 1 1.6 0v2.6-3.6a.8.8 0 0 1 1.6 0v3.6-2.8a.8.8 0 0 1 1.6 0v3-1.6a.8.8 0 0 1 1.6 0v4.2c0 2.4-1.4 3.8-3.5 3.8-1.7 0-2.6-.8-3.4-2.3L1.4 7.1c-.5-1 .8-1.7 1.4-.9z" />
+      </svg>
+      {words.push}
+    </button>
+  );
+}
+
+/** Cameras, pushing and the cost of drawing, at the foot of the 3D view. */
+export function SceneTools() {
+  return (
+    <>
+      {isPushing.value && <PushLayer />}
+      <div class="scene-tools" role="toolbar" aria-label={words.tools}>
+        {CAMERA_NAMES.map((name) => (
+          <button
+            key={name}
+            type="button"
+            class="tool"
+            aria-label={words.cameraHint(words.cameras[name])}
+            onClick={() => setCamera(name)}
+          >
+            {words.cameras[name]}
+          </button>
+        ))}
+        <span class="scene-tools-end">
+          <PushButton />
+          <button
+            type="button"
+            class="tool is-icon"
+            aria-pressed={isLow.value}
+            aria-label={words.low}
+            title={`${words.low}: ${words.lowHint}`}
+            onClick={toggleLow}
+          >
+            <svg viewBox="0 0 12 12" aria-hidden="true">
+              <path d="M1 8h2v3H1zM4 6h2v5H4z" />
+              <path d="M7.5 4.5v6h1v-6zM10.2 2v8.5h1V2z" opacity="0.45" />
+            </svg>
+          </button>
+        </span>
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,15 @@
+/** The tools of the 3D view. */
+export const sceneText = {
+  scene: {
+    tools: "3D view",
+    camera: "Camera",
+    cameras: { start: "Whole", front: "Front", side: "Side", spring: "Spring" },
+    cameraHint: (name: string) => `Camera: ${name}`,
+    push: "Push",
+    pushHint: "Take the link with the mouse and pull: a spring pushes it towards the pointer",
+    pushLayer: "Drag to push the link; arrows left and right push by 1 N·m, Esc ends",
+    pulling: (torque: string) => `${torque} N·m`,
+    low: "Low graphics",
+    lowHint: "Fewer parts, coarser, 15 pictures a second: for computers without a graphics card",
+  },
+} as const;

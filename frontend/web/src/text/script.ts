@@ -1,0 +1,30 @@
+/** From clicks to scripts. */
+export const scriptText = {
+  script: {
+    open: "Calls as code",
+    openHint: "What you did here, as Python and curl (P)",
+    title: "Calls",
+    count: (total: number) => (total === 1 ? "1 call" : `${total} calls`),
+    empty: "Press anything: the call behind it appears here.",
+    list: "Calls of this page, newest last",
+    language: "Language",
+    languages: { python: "Python", curl: "curl" },
+    at: (time: string) => `at ${time}`,
+    refused: (status: number) => `refused, ${status}`,
+    unreached: "not reached",
+    copyOne: (what: string) => `Copy ${what}`,
+    copy: "Copy",
+    copyAll: "Copy all",
+    clear: "Clear",
+    close: "Close",
+    copied: "Copied",
+    notCopied: "This browser does not let the page copy: save it instead.",
+    experiment: "Copy this experiment as a script",
+    experimentHint:
+      "A Python file that does again, in a private session, what was done since the run began",
+    save: "Save .py",
+    saveHint: "The same as a file",
+    fileName: "experiment.py",
+    experimentTitle: (laws: string) => `${laws} in the lab`,
+  },
+} as const;

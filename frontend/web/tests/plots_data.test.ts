@@ -1,0 +1,136 @@
+import { describe, expect, it } from "vitest";
+import { writeCsv } from "../src/plots/csv";
+import { decimate, emptyPoints, extentOf, samplesPerBucket } from "../src/plots/decimation";
+import { measureBetween, measureStep } from "../src/plots/statistics";
+import { SampleRing, type Stretch } from "../src/stream/ring";
+
+function ringOf(values: readonly number[], channel = "position_error_rad"): SampleRing {
+  const ring = new SampleRing(1000, [channel]);
+  const header = { run: 1, firstTick: 0, stride: 10, missed: 0, lanes: 1 };
+  ring.append({ ...header, count: values.length, values: new Float32Array(values) }, 0.001);
+  return ring;
+}
+
+const all = (ring: SampleRing, first = 0): Stretch =>
+  ring.stretch("position_error_rad", 1, first, ring.length) as Stretch;
+
+function decimated(values: readonly number[], perBucket: number, first = 0) {
+  const points = emptyPoints();
+  decimate(all(ringOf(values), first), perBucket, 1, points);
+  const { x, y, count } = points;
+  return Array.from({ length: count }, (_, index) => [x[index], y[index]]);
+}
+
+const GAP = [Number.NaN, Number.NaN];
+
+describe("decimation", () => {
+  it("keeps every sample where there is room", () => {
+    expect(decimated([1, 5, 2], 1).map(([, y]) => y)).toEqual([1, 5, 2]);
+    expect(samplesPerBucket(400, 480)).toBe(1);
+    expect(samplesPerBucket(12_001, 480)).toBe(26);
+  });
+
+  it("keeps the smallest and the largest of each bucket, real samples in the order of time", () => {
+    const points = decimated([0, 9, 1, 2, 5, 4, -7, 3], 4);
+    expect(points).toEqual([
+      [0, 0],
+      [0.01, 9],
+      [0.04, 5],
+      [0.06, -7],
+    ]);
+  });
+
+  it("cuts the same buckets wherever it begins", () => {
+    const values = Array.from({ length: 40 }, (_, index) => Math.sin(index * 1.7));
+    const whole = decimated(values, 8);
+    expect(decimated(values, 8, 5).slice(-8)).toEqual(whole.slice(-8));
+  });
+
+  it("leaves a gap where there is no number", () => {
+    const none = Number.NaN;
+    expect(decimated([1, none, none, none, none, none, 4, 4, 5], 3)).toEqual([
+      [0, 1],
+      GAP,
+      GAP,
+      [0.06, 4],
+      [0.08, 5],
+    ]);
+    expect(decimated([none, none, none], 3)).toEqual([GAP]);
+  });
+
+  it("finds the extent past what is no number", () => {
+    const points = { x: new Float64Array(3), y: new Float64Array([Number.NaN, -4, 3]), count: 3 };
+    expect(extentOf([points])).toEqual([-4, 3]);
+    expect(extentOf([{ ...points, count: 1 }])).toEqual([null, null]);
+    expect(extentOf([])).toEqual([null, null]);
+  });
+});
+
+describe("between two cursors", () => {
+  const ring = ringOf([3, -4, Number.NaN, 12, 100]);
+  const measure = (a: number, b: number, factor = 1) =>
+    measureBetween(ring, "position_error_rad", 1, [a, b], factor);
+
+  it("are the samples themselves, not what lies between them", () => {
+    expect(measure(0, 3)).toEqual({
+      ...{ a: 3, b: 12, delta: 9, min: -4, max: 12 },
+      rms: Math.sqrt((9 + 16 + 144) / 3),
+    });
+  });
+
+  it("does not matter which is left, but for the sign of the difference", () => {
+    expect(measure(3, 0)).toMatchObject({ delta: -9, min: -4, max: 12 });
+  });
+
+  it("is in the unit on screen", () => {
+    expect(measure(0, 1, 2)).toMatchObject({ a: 6, b: -8, delta: -14, min: -8, max: 6 });
+  });
+
+  it("is no number where there is none", () => {
+    expect(measure(2, 2)).toEqual({
+      ...{ a: Number.NaN, b: Number.NaN, delta: Number.NaN },
+      ...{ min: Number.NaN, max: Number.NaN, rms: Number.NaN },
+    });
+  });
+});
+
+describe("a step", () => {
+  // 100 Hz: quiet, 4 at 1.00 s, gone 0.20 s later, quiet until 3 s.
+  const values = Array.from({ length: 300 }, (_, i) => (i >= 100 && i < 120 ? -4 : 0.01));
+  const step = (from: number, to: number) =>
+    measureStep(ringOf(values), "position_error_rad", 1, from, to);
+
+  it("has its peak, its rms and when the error was small again", () => {
+    const metrics = step(1, 2);
+    expect(metrics?.peak).toBe(4);
+    expect(metrics?.rms).toBeCloseTo(Math.sqrt((20 * 16 + 80 * 1e-4) / 100), 6);
+    expect(metrics?.recoveryS).toBeCloseTo(0.2, 6);
+  });
+
+  it("has not recovered before it was small for half a second", () => {
+    expect(step(1, 1.5)?.recoveryS).toBeNull();
+  });
+
+  it("is nothing where its beginning is not held", () => {
+    expect(step(-5, 2)).toBeNull();
+    expect(step(9, 10)).toBeNull();
+  });
+});
+
+describe("CSV", () => {
+  it("has the window only, names with units, and nothing where there is no number", () => {
+    const csv = writeCsv(
+      ringOf([0.5, Number.NaN, 0.1, 7]),
+      { from: 0, to: 0.02 },
+      [{ channel: "position_error_rad", lane: 1 }],
+      ["NDOBC"],
+    );
+    expect(csv.split("\r\n")).toEqual([
+      '"time_s [s]","NDOBC.position_error_rad [rad]"',
+      "0,0.5",
+      "0.01,",
+      "0.02,0.100000001",
+      "",
+    ]);
+  });
+});

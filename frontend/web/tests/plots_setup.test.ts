@@ -1,0 +1,147 @@
+import { describe, expect, it } from "vitest";
+import { CHANNELS_BY_UNIT } from "../src/plots/channels";
+import { shareColours } from "../src/plots/inks";
+import { framesToPass } from "../src/plots/pace";
+import { readSetups } from "../src/plots/setups";
+import { keepInside, liveSpan, zoomSpan } from "../src/plots/spans";
+import { drawSvg } from "../src/plots/svg";
+import { placeTicks } from "../src/plots/ticks";
+import { composeContent, tracesOf } from "../src/plots/traces";
+import { SampleRing } from "../src/stream/ring";
+
+describe("what the browser kept of the plots", () => {
+  it("comes back", () => {
+    const stored = JSON.stringify([
+      { preset: "torque", channels: ["torque2_nm"] },
+      { preset: "own", channels: ["velocity_rad_per_s"] },
+    ]);
+    expect(readSetups(stored)).toEqual([
+      { key: "torque", preset: "torque", channels: ["torque2_nm"] },
+      { key: "own1", preset: "own", channels: ["velocity_rad_per_s"] },
+    ]);
+  });
+
+  it("is taken as far as it makes sense", () => {
+    expect(readSetups(null)).toBeNull();
+    expect(readSetups("{")).toBeNull();
+    expect(readSetups('"position"')).toBeNull();
+    const odd = [
+      { preset: "no such plot", channels: ["no such channel"] },
+      { preset: "toString" },
+      { preset: "error", channels: ["position_error_rad", "torque1_nm", 7] },
+      null,
+    ];
+    expect(readSetups(JSON.stringify(odd))).toEqual([
+      { key: "error", preset: "error", channels: ["position_error_rad"] },
+    ]);
+  });
+});
+
+describe("the curves of a plot", () => {
+  const disturbance = ["estimate_link_nm", "estimate_motor1_nm", "disturbance_link_nm"] as const;
+
+  it("are a colour a channel for one lane, the truth dashed in the colour of its estimate", () => {
+    const traces = tracesOf(composeContent(disturbance, ["NDOBC"]), new Set(), 1);
+    const [link, truth, motor] = traces;
+    expect(traces).toHaveLength(3);
+    expect(truth?.colour).toBe(link?.colour);
+    expect(truth?.dash).not.toEqual([]);
+    expect(truth?.follows).toBe(link?.key);
+    expect(motor?.colour).not.toBe(link?.colour);
+  });
+
+  it("are an ink a lane for several, of the quantities chosen, told apart by signs", () => {
+    const lanes = ["NDOBC", "FL"];
+    const content = composeContent(["torque1_nm", "torque2_nm"], lanes);
+    expect(tracesOf(content, new Set(["torque1_nm"]), 2).map(({ label }) => label)).toEqual(lanes);
+    const both = tracesOf(content, new Set(["torque1_nm", "torque2_nm"]), 2);
+    expect(new Set(both.map(({ label }) => label)).size).toBe(4);
+    expect(both[0]?.colour).toBe(both[2]?.colour);
+    expect(both[0]?.sign).not.toBe(both[2]?.sign);
+  });
+
+  it("have a reference once, and a limit on both sides", () => {
+    const position = composeContent(["position_rad", "position_reference_rad"], ["A", "B"]);
+    expect(position.common).toHaveLength(1);
+    const deflection = composeContent(["deflection_rad", "deflection_limit_rad"], ["A"]);
+    const factors = tracesOf(deflection, new Set(), 1).map(({ factor }) => Math.sign(factor));
+    expect(factors).toEqual([1, 1, -1]);
+  });
+
+  it("never share a colour until all are in use", () => {
+    const looks = shareColours(["blue", "blue", "blue", "green", "green", "blue"]);
+    expect(new Set(looks.slice(0, 5).map(({ colour }) => colour)).size).toBe(5);
+    expect(looks[5]?.dash).not.toEqual([]);
+  });
+
+  it("have one unit a plot, and every channel stands under one", () => {
+    const names = CHANNELS_BY_UNIT.flatMap(({ channels }) => channels);
+    expect(new Set(names).size).toBe(names.length);
+    expect(names).toHaveLength(27);
+  });
+});
+
+describe("the span of time", () => {
+  it("zooms around a time that stays in its place, down to 50 ms and up to 60 s", () => {
+    expect(zoomSpan({ from: 10, to: 30 }, 0.5, 15)).toEqual({ from: 12.5, to: 22.5 });
+    const near = zoomSpan({ from: 0, to: 0.06 }, 0.01, 0.03);
+    expect(near.to - near.from).toBeCloseTo(0.05, 9);
+    const far = zoomSpan({ from: 0, to: 50 }, 10, 25);
+    expect(far.to - far.from).toBeCloseTo(60, 9);
+  });
+
+  it("keeps samples in sight", () => {
+    expect(keepInside({ from: -30, to: -10 }, 0, 100)).toEqual({ from: -10, to: 10 });
+    expect(keepInside({ from: 95, to: 115 }, 0, 100)).toEqual({ from: 90, to: 110 });
+    expect(keepInside({ from: 5, to: 15 }, 0, 100)).toEqual({ from: 5, to: 15 });
+    expect(keepInside({ from: 5, to: 15 }, Number.NaN, Number.NaN)).toEqual({ from: 5, to: 15 });
+  });
+
+  it("begins at zero and follows the newest sample", () => {
+    expect(liveSpan(new SampleRing(1, []), 20)).toEqual({ from: 0, to: 20 });
+  });
+});
+
+describe("frames", () => {
+  it("are not taken from a view that is drawn quickly", () => {
+    expect(framesToPass(16, 16)).toBe(0);
+  });
+
+  it("go to the plots where the view is slow, which still is drawn twice a second", () => {
+    const passed = framesToPass(155, 35);
+    expect((155 + passed * 35) / (passed + 1)).toBeLessThanOrEqual(50.1);
+    expect(155 + passed * 35).toBeLessThanOrEqual(500);
+    expect(framesToPass(600, 200)).toBe(1);
+  });
+});
+
+describe("a plot as a drawing", () => {
+  it("has ticks at round numbers", () => {
+    expect(placeTicks({ from: -1.2, to: 4.1 }, 5)).toEqual([0, 2, 4]);
+  });
+
+  it("has its words made safe and its gaps kept", () => {
+    const colours = new Proxy({}, { get: () => "#000" }) as Parameters<
+      typeof drawSvg
+    >[0]["colours"];
+    const [trace] = tracesOf(composeContent(["position_error_rad"], ["A"]), new Set(), 1);
+    if (trace === undefined) throw new Error("there is no curve");
+    const points = {
+      x: new Float64Array([0, 1, 2, 3]),
+      y: new Float64Array([0, Number.NaN, 1, 1]),
+      count: 4,
+    };
+    const svg = drawSvg({
+      title: "a < b & c",
+      x: { label: "Time (s)", from: 0, to: 3 },
+      y: { label: "deg", from: 0, to: 1 },
+      curves: [{ trace, points }],
+      bounds: [],
+      events: [{ time: 1, label: '"on"' }],
+      colours,
+    });
+    expect(svg).toContain("a &lt; b &amp; c");
+    expect(svg).toContain("&quot;on&quot;");
+    expect(svg).toMatch(/d="M74 368M651.33 62L940 62"/);
+  });
+});

@@ -1,0 +1,100 @@
+"""Gains without fear: poles placed on the page, judged before they are applied, and undone."""
+
+import re
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def panel(page: Page, lab: Lab) -> Locator:
+    lab.load_figure()
+    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    page.goto(lab.url)
+    page.get_by_role("button", name="Place poles").click()
+    panel = page.get_by_role("dialog", name="Design")
+    expect(panel.get_by_role("status", name="Verdict: Good")).to_be_visible(timeout=20_000)
+    return panel
+
+
+def drag(page: Page, pole: Locator, dx: float, dy: float) -> None:
+    box = pole.bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + dx, y + dy, steps=4)
+    page.mouse.up()
+
+
+def real_parts(lab: Lab, group: str = "position") -> list[float]:
+    gains = lab.read()["configuration"]["gains"]
+    return [root["re"] for root in gains[f"{group}_roots_rad_per_s"]]
+
+
+def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
+    page: Page, lab: Lab, panel: Locator
+) -> None:
+    expect(panel.get_by_role("button", name="Apply")).to_be_disabled()
+    drag(page, panel.get_by_role("slider", name="Position pole 4 of 4"), 20, 0)
+    expect(panel.get_by_role("row", name=re.compile("FL error"))).not_to_contain_text("12.1°12.1°")
+    assert real_parts(lab) == pytest.approx([-60.0] * 4, abs=0.1)
+    panel.get_by_role("button", name="Apply").click()
+    expect(panel.get_by_role("button", name="Undo, 1 step kept")).to_be_visible()
+    assert max(real_parts(lab)) == pytest.approx(-44.6, abs=2.0)
+    panel.get_by_role("spinbutton", name="Stiffness bandwidth").fill("30")
+    panel.get_by_role("button", name="Apply").click()
+    panel.get_by_role("button", name="Undo, 2 steps kept").click()
+    expect(panel.get_by_role("button", name="Undo, 1 step kept")).to_be_visible()
+    assert real_parts(lab, "stiffness") == pytest.approx([-40, -40])
+    panel.get_by_role("button", name="Undo, 1 step kept").click()
+    expect(panel.get_by_role("button", name="Undo", exact=True)).to_be_disabled()
+    assert real_parts(lab) == pytest.approx([-60.0] * 4, abs=0.1)
+
+
+def test_an_unstable_choice_says_why_and_cannot_be_applied(page: Page, panel: Locator) -> None:
+    drag(page, panel.get_by_role("slider", name="Position pole 4 of 4"), 100, -60)
+    verdict = panel.get_by_role("status", name="Verdict: Not this one")
+    expect(verdict).to_contain_text("Hurwitz")
+    expect(panel.get_by_role("button", name="Apply")).to_be_disabled()
+    panel.get_by_role("button", name="Discard").click()
+    expect(panel.get_by_role("status", name="Verdict: Good")).to_be_visible()
+
+
+def test_too_fast_poles_are_told_to_end_in_a_fault(panel: Locator) -> None:
+    panel.get_by_role("spinbutton", name="Position bandwidth").fill("90")
+    expect(panel.get_by_role("status", name="Verdict: Not this one")).to_contain_text("fault")
+    expect(panel.get_by_role("row", name=re.compile("Peak u₁"))).to_contain_text("beyond the limit")
+
+
+def test_a_pole_is_moved_with_the_keyboard_and_the_pair_goes_together(panel: Locator) -> None:
+    pole = panel.get_by_role("slider", name="Position pole 1 of 4")
+    pole.focus()
+    pole.press("Shift+ArrowLeft")
+    expect(pole).to_have_attribute("aria-valuetext", "−70 rad/s")
+    pole.press("Shift+ArrowUp")
+    expect(pole).to_have_attribute("aria-valuetext", "−70 + 10j rad/s")
+    partners = panel.get_by_role("slider", name=re.compile("Position pole"))
+    values = [partners.nth(i).get_attribute("aria-valuetext") for i in range(4)]
+    assert values.count("−70 − 10j rad/s") == 1
+    pole.press("Escape")
+    expect(panel).to_be_hidden()
+
+
+def test_the_observer_is_set_beside_the_poles(lab: Lab, panel: Locator) -> None:
+    panel.get_by_role("spinbutton", name="Observer bandwidth").fill("40")
+    panel.get_by_role("button", name=re.compile("^Apply")).click()
+    expect(panel.get_by_role("button", name="Undo, 1 step kept")).to_be_visible()
+    assert lab.read()["configuration"]["observer"]["bandwidth_rad_per_s"] == [40, 40, 40]
+
+
+def test_the_panel_fits_the_screen(page: Page, panel: Locator) -> None:
+    box = panel.bounding_box()
+    assert box is not None
+    assert box["x"] >= 0
+    assert box["y"] + box["height"] <= 720
+    assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")

@@ -1,0 +1,77 @@
+"""What helps to understand: the tour, the equations, and the paper's claims checked."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+LONG_MS = 60_000
+
+
+def test_the_tour_is_offered_once_and_goes_by_keyboard(page: Page, lab: Lab) -> None:
+    page.goto(lab.url)
+    tour = page.get_by_role("region", name="Tour of the lab")
+    expect(tour.get_by_role("heading")).to_have_text("Welcome to the lab")
+    tour.get_by_role("button", name="Take the tour").press("Enter")
+    titles = ["The actuator", "What happens", "Hang 3 kg", "FL or NDOBC", "Gains without fear"]
+    for title in titles:
+        expect(tour.get_by_role("heading")).to_have_text(title)
+        page.keyboard.press("ArrowRight")
+    expect(tour).to_be_hidden()
+    page.reload()
+    expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
+    expect(tour).to_be_hidden()
+
+
+def test_the_tour_is_skipped_and_taken_again(page: Page, lab: Lab) -> None:
+    page.goto(lab.url)
+    tour = page.get_by_role("region", name="Tour of the lab")
+    tour.get_by_role("button", name="Skip").click()
+    expect(tour).to_be_hidden()
+    page.get_by_role("button", name="Learn").click()
+    panel = page.get_by_role("dialog", name="Learn")
+    panel.get_by_role("button", name="Take the tour").click()
+    expect(panel).to_be_hidden()
+    expect(tour.get_by_role("heading")).to_have_text("The actuator")
+    page.keyboard.press("Escape")
+    expect(tour).to_be_hidden()
+
+
+def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, lab: Lab) -> None:
+    page.goto(lab.url)
+    name = "Equation of the control laws"
+    page.get_by_role("button", name=name).click()
+    card = page.get_by_role("dialog", name=name)
+    expect(card.locator("math").first).to_be_attached(timeout=LONG_MS)
+    expect(card).to_contain_text("Eq 24")
+    expect(card.get_by_text("as printed").first).to_be_visible()
+    fonts = "document.fonts.ready.then(f => f.check('16px KaTeX_Math'))"
+    assert page.evaluate(fonts)
+    page.keyboard.press("Escape")
+    expect(card).to_be_hidden()
+    for topic in ("position", "stiffness", "the torques"):
+        expect(page.get_by_role("button", name=f"Equation of {topic}").first).to_be_visible()
+
+
+@pytest.mark.parametrize("figure", ["4A", "4B", "5"])
+def test_a_figure_is_run_apart_and_laid_beside_the_papers_claim(
+    page: Page, lab: Lab, figure: str
+) -> None:
+    before = lab.read()["run"]
+    page.goto(lab.url)
+    page.get_by_role("button", name="Learn").click()
+    panel = page.get_by_role("dialog", name="Learn")
+    panel.get_by_role("button", name=f"Check Fig. {figure}").click()
+    result = panel.get_by_role("status", name=re.compile(f"Fig. {figure}"))
+    expect(result.get_by_text("The claim holds.")).to_be_visible(timeout=LONG_MS)
+    expect(result).to_contain_text("after")
+    steady = result.get_by_role("row", name=re.compile("rms 8–20 s"))
+    fl, ndobc = (float(cell) for cell in steady.get_by_role("cell").all_inner_texts())
+    assert 11.0 < fl < 12.5
+    assert ndobc == pytest.approx(0.0013, abs=0.0002)
+    assert lab.read()["run"] == before
+    assert [s["session"] for s in lab.client.get("/api/v1/sessions").json()] == ["lab"]

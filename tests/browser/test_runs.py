@@ -1,0 +1,236 @@
+"""The recorded runs in a real browser: found, replayed, compared, branched, deleted, taken back."""
+
+import re
+from collections.abc import Iterator
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from playwright.sync_api import FrameLocator, Page, Route, expect
+
+from tests.lab import Lab, run_lab
+
+pytestmark = pytest.mark.browser
+
+PATIENCE_MS = 60_000
+SECONDS = 7
+BOTH, STIFF = "Both laws at 15 N·m/rad", "Stiff and alone"
+
+
+def record(lab: Lab, name: str, figure: str, rivals: list[str], tags: list[str]) -> str:
+    """A run of a figure of the paper with its load at 5 s, recorded from t = 0."""
+    lab.load_figure(figure, load=True)
+    lab.client.post(lab.session + "/pause").raise_for_status()
+    lab.client.post(lab.session + "/reset").raise_for_status()
+    lanes = {"rivals": [{"law": law} for law in rivals]}
+    lab.client.put(lab.session + "/lanes", json=lanes).raise_for_status()
+    wanted = {"name": name, "tags": tags, "notes": ""}
+    answer = lab.client.post(lab.session + "/recording", json=wanted).raise_for_status().json()
+    lab.jump(SECONDS)
+    lab.client.delete(lab.session + "/recording").raise_for_status()
+    return answer["recording"]["run_id"]
+
+
+def wait_until_complete(page: Page, lab: Lab, run: str) -> None:
+    for _ in range(PATIENCE_MS // 100):
+        if lab.client.get(f"/api/v1/runs/{run}").json().get("state") == "complete":
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError(f"run {run} was not finished")
+
+
+@pytest.fixture(scope="module")
+def own_lab() -> Iterator[Lab]:
+    """A lab whose runs nobody else records."""
+    with run_lab() as lab:
+        yield lab
+
+
+@pytest.fixture
+def runs(own_lab: Lab, page: Page) -> Iterator[tuple[str, str]]:
+    """Two runs, the older first; both are gone afterwards."""
+    pair = (
+        record(own_lab, BOTH, "4a", ["fl"], ["class"]),
+        record(own_lab, STIFF, "4b", [], []),
+    )
+    for run in pair:
+        wait_until_complete(page, own_lab, run)
+    yield pair
+    for run in pair:
+        own_lab.client.delete(f"/api/v1/runs/{run}")
+
+
+def open_list(page: Page, lab: Lab) -> None:
+    page.goto(lab.url + "/?runs=all")
+    expect(page.get_by_role("heading", name=re.compile("^Runs"))).to_be_visible()
+
+
+def find_replay(page: Page) -> FrameLocator:
+    return page.frame_locator("iframe[title^='Replay of']")
+
+
+def read_moment(page: Page) -> float:
+    return float(parse_qs(urlsplit(page.url).query).get("t", ["0"])[0])
+
+
+def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, own_lab: Lab) -> None:
+    own_lab.load_figure()
+    page.goto(own_lab.url)
+    expect(page.get_by_role("button", name="Record", exact=True)).to_be_enabled()
+    page.keyboard.press("o")
+    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
+    page.get_by_role("link", name="Back to the lab").click()
+    page.get_by_role("button", name="Record", exact=True).click()
+    page.get_by_role("button", name=re.compile("^Recording 0:01")).click()
+    page.get_by_role("button", name="Runs", exact=True).click()
+    row = page.get_by_role("list", name="Recorded runs").get_by_role("listitem").first
+    expect(row.get_by_role("link", name="NDOBC")).to_be_visible()
+    expect(row.get_by_role("img", name=re.compile("Position error of NDOBC"))).to_be_visible()
+    row.get_by_role("button", name=re.compile("^Delete")).click()
+    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
+
+
+def test_runs_are_found_by_word_and_tag_newest_first(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    open_list(page, own_lab)
+    names = page.get_by_role("list", name="Recorded runs").get_by_role("heading")
+    expect(names).to_have_text([STIFF, BOTH])
+    curves = page.get_by_role("img", name=re.compile(r"Position error of NDOBC, FL: at most 12"))
+    expect(curves).to_be_visible()
+    search = page.get_by_role("searchbox", name="Search")
+    search.fill("alone")
+    expect(names).to_have_text([STIFF])
+    search.fill("nothing of this kind")
+    page.get_by_role("button", name="Show all runs").click()
+    expect(names).to_have_text([STIFF, BOTH])
+
+    tags = page.get_by_role("list", name=f"Tags of {STIFF}")
+    tags.get_by_role("button", name="+ tag").click()
+    tags.get_by_role("textbox", name="New tag").fill("stiff")
+    page.keyboard.press("Enter")
+    expect(tags).to_contain_text("stiff")
+    page.get_by_role("combobox", name="Tag").select_option("stiff")
+    expect(names).to_have_text([STIFF])
+    tags.get_by_role("button", name="Remove tag stiff").click()
+    expect(names).to_have_count(0)
+    assert own_lab.client.get(f"/api/v1/runs/{runs[1]}").json()["tags"] == []
+
+
+def test_a_link_opens_the_same_run_at_the_same_moment(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    page.goto(f"{own_lab.url}/?run={runs[0]}&t=5.25")
+    time = find_replay(page).get_by_role("status", name="Time")
+    expect(time).to_have_text("5.25 s", timeout=PATIENCE_MS)
+    find_replay(page).get_by_role("slider", name="Time").fill("2.5")
+    expect(page.get_by_role("button", name="Branch at 2.5 s")).to_be_visible()
+    page.wait_for_url(re.compile(r"t=2\.5\b"))
+
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page.get_by_role("button", name="Copy link").click()
+    expect(page.get_by_role("status").filter(has_text="Copied")).to_be_attached()
+    page.goto(page.evaluate("() => navigator.clipboard.readText()"))
+    expect(time).to_have_text("2.50 s", timeout=PATIENCE_MS)
+    assert read_moment(page) == 2.5
+
+
+def test_a_run_is_renamed_and_written_about(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    page.goto(f"{own_lab.url}/?run={runs[1]}")
+    name = page.get_by_role("textbox", name="Name")
+    expect(name).to_have_value(STIFF)
+    name.fill("Group 3")
+    name.press("Enter")
+    notes = page.get_by_role("textbox", name="Notes")
+    notes.fill("no step at the load")
+    notes.press("Enter")
+    page.get_by_role("link", name="All runs").click()
+    row = page.get_by_role("listitem").filter(has=page.get_by_role("link", name="Group 3"))
+    expect(row).to_contain_text("no step at the load")
+    page.go_back()
+    expect(name).to_have_value("Group 3")
+
+
+def test_a_branch_is_a_private_session_that_stands_at_the_moment(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    page.goto(f"{own_lab.url}/?run={runs[0]}&t=6")
+    page.get_by_role("button", name="Branch at 6 s").click()
+    expect(page.get_by_text("Private session.")).to_be_visible(timeout=PATIENCE_MS)
+    session = parse_qs(urlsplit(page.url).query)["session"][0]
+    path = f"/api/v1/sessions/{session}"
+    state = own_lab.client.get(path).json()
+    assert (state["tick"], state["status"]) == (6000, "paused")
+    page.get_by_role("button", name=re.compile("Remove 3 kg")).click()
+    expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
+    assert own_lab.client.get(path).json()["loads"] == []
+    assert own_lab.read()["session"] == "lab"
+    page.get_by_role("link", name="Back to the shared lab").click()
+    expect(page.get_by_text("Private session.")).to_have_count(0)
+    own_lab.client.delete(path)
+
+
+def test_a_run_of_a_bench_cannot_be_branched_and_the_page_says_why(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    def tell_bench(route: Route) -> None:
+        answer = route.fetch()
+        route.fulfill(response=answer, json=answer.json() | {"plant": "emulated"})
+
+    page.route(f"**/api/v1/runs/{runs[0]}", tell_bench)
+    page.goto(f"{own_lab.url}/?run={runs[0]}")
+    expect(page.get_by_text("this one was recorded on a bench")).to_be_visible()
+    expect(page.get_by_role("button", name=re.compile("^Branch"))).to_have_count(0)
+
+
+def test_runs_are_laid_over_one_another_from_their_load_on(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    open_list(page, own_lab)
+    overlay = page.get_by_role("button", name="Overlay runs")
+    expect(overlay).to_be_disabled()
+    for name in (BOTH, STIFF):
+        page.get_by_role("checkbox", name=f"Choose {name}").check()
+    page.get_by_role("button", name="Overlay 2 runs").click()
+    page.wait_for_url(re.compile("overlay="))
+    for title in ("Position error", "Stiffness error"):
+        plot = page.get_by_role("region", name=title, exact=True)
+        expect(plot.locator("canvas")).to_be_visible()
+    rows = page.get_by_role("table", name="Since the load came on").get_by_role("rowheader")
+    expect(rows).to_have_text([f"{BOTH} · NDOBC", f"{BOTH} · FL", STIFF])
+    metrics = own_lab.client.get(f"/api/v1/runs/{runs[0]}/metrics?start_s=5").json()["lanes"]
+    peak = metrics["lane2"]["peak_position_error_rad"] * 57.29578
+    row = page.get_by_role("row", name=f"{BOTH} · FL")
+    expect(row.get_by_role("cell").nth(1)).to_have_text(f"{peak:.1f}")
+    entry = page.get_by_role("button", name=f"{BOTH} · FL")
+    entry.click()
+    expect(entry).to_have_attribute("aria-pressed", "false")
+
+
+def test_a_deleted_run_is_taken_back_at_once_or_from_the_trash(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    open_list(page, own_lab)
+    names = page.get_by_role("list", name="Recorded runs").get_by_role("heading")
+    delete = page.get_by_role("button", name=f"Delete {STIFF}")
+    delete.click()
+    expect(names).to_have_text([BOTH])
+    page.get_by_role("status").get_by_role("button", name="Undo").click()
+    expect(names).to_have_text([STIFF, BOTH])
+    delete.click()
+    expect(names).to_have_text([BOTH])
+    page.get_by_role("button", name="Trash").click()
+    page.get_by_role("button", name=f"Restore {STIFF}").first.click()
+    page.get_by_role("button", name="Trash").click()
+    expect(names).to_have_text([STIFF, BOTH])
+
+
+def test_a_run_is_exported_in_every_format(page: Page, own_lab: Lab, runs: tuple[str, str]) -> None:
+    page.goto(f"{own_lab.url}/?run={runs[1]}")
+    for kind in ("CSV", "Parquet", "MAT", "MCAP", "HTML"):
+        page.get_by_text("Export", exact=True).click()
+        with page.expect_download() as download:
+            page.get_by_role("link", name=re.compile(f"^{kind}")).click()
+        assert download.value.suggested_filename.endswith("." + kind.lower())
+        assert download.value.path().stat().st_size > 1000

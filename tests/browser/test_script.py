@@ -1,0 +1,129 @@
+"""From clicks to scripts: the calls behind the page, and the script that repeats an experiment."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.test_page import open_page
+from tests.lab import Lab, run_lab
+
+pytestmark = pytest.mark.browser
+
+LONGEST_SCRIPT_S = 60
+
+
+def open_drawer(page: Page) -> Locator:
+    page.get_by_role("button", name="Calls as code").click()
+    return page.get_by_role("region", name="Calls", exact=True)
+
+
+def read_clipboard(page: Page) -> str:
+    return page.evaluate("() => navigator.clipboard.readText()")
+
+
+def run_script(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    path = folder / "experiment.py"
+    path.write_text(code, encoding="utf-8")
+    return subprocess.run(
+        [sys.executable, str(path)],
+        capture_output=True,
+        text=True,
+        timeout=LONGEST_SCRIPT_S,
+        check=False,
+    )
+
+
+@pytest.fixture(autouse=True)
+def clipboard(page: Page) -> None:
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+
+
+def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    drawer = open_drawer(page)
+    expect(drawer).to_contain_text("Press anything")
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    calls = drawer.get_by_role("listitem")
+    expect(calls).to_have_count(1)
+    address = f"{lab.url}/api/v1/sessions/lab/loads"
+    python = f'httpx.post("{address}", json={{"kind": "paper"}})'
+    expect(calls.first).to_contain_text(python)
+    page.get_by_role("radio", name="FL", exact=True).check(force=True)
+    expect(calls.last).to_contain_text('json={"law": "fl"}')
+    calls.first.get_by_role("button", name="Copy POST sessions/lab/loads").click()
+    expect(calls.first.get_by_role("status")).to_have_text("Copied")
+    assert read_clipboard(page) == python
+
+    drawer.get_by_role("radio", name="curl").check(force=True)
+    expect(calls.first).to_contain_text(f"curl -X POST '{address}' -H 'Content-Type:")
+    field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
+    field.fill("99")
+    field.press("Enter")
+    expect(calls.last).to_contain_text("refused, 422")
+    page.get_by_role("button", name="Copy all").click()
+    assert read_clipboard(page).count("curl -X") == 3
+
+
+def test_the_secret_is_never_shown(page: Page) -> None:
+    with run_lab(secret="correct horse battery") as lab:
+        page.goto(lab.url)
+        field = page.get_by_label(re.compile("secret", re.I)).first
+        field.fill("correct horse battery")
+        field.press("Enter")
+        expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
+        drawer = open_drawer(page)
+        page.get_by_role("button", name="Pause", exact=True).click()
+        expect(drawer.get_by_role("listitem")).to_have_count(1)
+        expect(page.get_by_text("correct horse")).to_have_count(0)
+
+
+def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(
+    page: Page, lab: Lab, tmp_path: Path
+) -> None:
+    open_page(page, lab)
+    field = page.get_by_role("spinbutton", name="Stiffness", exact=True).first
+    field.fill("40")
+    field.press("Enter")
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    page.get_by_role("switch", name=re.compile("^Compare with")).click()
+    expect(page.get_by_role("table", name=re.compile("controller does better"))).to_be_visible()
+    page.get_by_role("button", name=re.compile("Remove 3 kg")).click()
+    expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
+    page.get_by_role("button", name="Pause", exact=True).click()
+    expect(page.get_by_role("button", name="Run", exact=True)).to_be_visible()
+
+    drawer = open_drawer(page)
+    drawer.get_by_role("button", name="Copy this experiment as a script").click()
+    expect(drawer.get_by_role("status").filter(has_text="Copied")).to_be_attached()
+    before = lab.read()
+    sessions = len(lab.client.get("/api/v1/sessions").json())
+    done = run_script(read_clipboard(page), tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+    told = [
+        f"lane {lane['lane']}, {lane['law']}: rms position error"
+        f" {lane['since_load']['rms_position_error_rad']:.3e} rad"
+        for lane in before["lanes"]
+    ]
+    assert done.stdout.splitlines() == [*told, f"reached {before['time_s']:.3f} s"]
+    assert lab.read() == before
+    assert len(lab.client.get("/api/v1/sessions").json()) == sessions
+    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+
+
+def test_a_script_stops_where_the_lab_refuses(page: Page, lab: Lab, tmp_path: Path) -> None:
+    open_page(page, lab)
+    drawer = open_drawer(page)
+    with page.expect_download() as download:
+        drawer.get_by_role("button", name="Save .py").click()
+    assert download.value.suggested_filename == "experiment.py"
+    code = download.value.path().read_text(encoding="utf-8")
+    broken = code.replace('call("POST", "/reset")', 'call("PUT", "/speed", {"factor": -1})')
+    done = run_script(broken, tmp_path)
+    assert done.returncode == 1
+    assert "/speed was refused" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,74 @@
+"""The 3D view on the page: cameras, pushing the link, low graphics, other lanes as outlines."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+LONG_MS = 60_000
+CAMERA = """() => {
+    const viser = document.querySelector("iframe").contentWindow.__viserMutable;
+    const { x, y, z } = viser?.camera?.position ?? {};
+    return [x, y, z];
+}"""
+IS_READY = "() => !!document.querySelector('iframe')?.contentWindow?.__viserMutable?.camera"
+
+
+def open_view(page: Page, lab: Lab) -> None:
+    lab.load_figure()
+    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    page.goto(lab.url)
+    page.wait_for_function(IS_READY, timeout=LONG_MS)
+    page.wait_for_timeout(500)
+
+
+def test_the_camera_goes_to_a_preset_of_this_page_only(page: Page, lab: Lab) -> None:
+    open_view(page, lab)
+    page.get_by_role("button", name="Camera: Side").click()
+    page.wait_for_function(f"() => ({CAMERA})()[0] < -11", timeout=LONG_MS)
+    page.get_by_role("button", name="Camera: Front").click()
+    page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
+
+
+def test_the_link_is_pushed_with_the_mouse_and_by_keys(page: Page, lab: Lab) -> None:
+    open_view(page, lab)
+    page.get_by_role("button", name="Camera: Front").click()
+    page.wait_for_timeout(800)
+    page.get_by_role("button", name="Push").click()
+    layer = page.get_by_role("button", name=re.compile("Drag to push"))
+    box = layer.bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.7
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 110, y - 60, steps=4)
+    page.wait_for_timeout(600)
+    page.mouse.up()
+    labels = [event["label"] for event in lab.read()["events"]]
+    assert sum("Pulse" in label for label in labels) >= 2
+    page.wait_for_timeout(500)
+    assert not [load for load in lab.read()["loads"] if load["active"]]
+    before = len(lab.read()["events"])
+    layer.press("ArrowRight")
+    page.wait_for_timeout(400)
+    assert len(lab.read()["events"]) > before
+    layer.press("Escape")
+    expect(layer).to_be_hidden()
+
+
+def test_low_graphics_are_remembered(page: Page, lab: Lab) -> None:
+    open_view(page, lab)
+    switch = page.get_by_role("button", name="Low graphics")
+    full = page.frame_locator("iframe").locator("canvas").first.bounding_box()
+    switch.click()
+    expect(switch).to_have_attribute("aria-pressed", "true")
+    page.wait_for_timeout(500)
+    pixels = "() => document.querySelector('iframe').contentWindow.innerWidth"
+    assert full is not None
+    assert page.evaluate(pixels) < 0.7 * full["width"]
+    page.reload()
+    expect(switch).to_have_attribute("aria-pressed", "true")
