@@ -1,6 +1,6 @@
 import { useRef } from "preact/hooks";
+import { text } from "../text/replay";
 import type { Run } from "./data";
-import { text } from "./text";
 
 const { about } = text;
 const MOST_ENTRIES = 200;

@@ -1,10 +1,10 @@
 import { useMemo } from "preact/hooks";
+import { text } from "../text/replay";
 import { Header } from "./about";
 import { definePlots, makeTimeAxis } from "./curves";
 import type { Recording } from "./data";
 import { Numbers } from "./numbers";
 import { Plot } from "./plot";
-import { text } from "./text";
 import { Transport } from "./transport";
 import { View } from "./view";
 

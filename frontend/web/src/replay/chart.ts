@@ -2,12 +2,12 @@
 import uPlot from "uplot";
 import { palette } from "../plots/palette";
 import { niceRange } from "../plots/range";
+import { text } from "../text/replay";
 import { formatNumber } from "../units";
 import { range, seek, showAll, showRange, timeS } from "./clock";
 import type { Curve } from "./curves";
 import type { RunEvent } from "./data";
 import { drawEventLabels, drawEvents } from "./marks";
-import { text } from "./text";
 
 const Y_AXIS_PX = 50;
 const X_AXIS_PX = 24;

@@ -1,9 +1,9 @@
 /** Which channels are drawn where, for the lanes of a run. A new plot is a new entry here. */
 import type { PlotColour } from "../plots/definitions";
 import { inkOf } from "../plots/inks";
+import { text } from "../text/replay";
 import { DEGREES_PER_RADIAN } from "../units";
 import type { Recording } from "./data";
-import { text } from "./text";
 
 export interface Curve {
   key: string;

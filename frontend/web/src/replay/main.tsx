@@ -4,11 +4,11 @@ import "../theme.css";
 import "../plots/plots.css";
 import "./replay.css";
 import { render } from "preact";
+import { text } from "../text/replay";
 import { App } from "./app";
 import { seek, setUpClock, timeS } from "./clock";
 import { readRecording } from "./data";
 import { answerKey } from "./keys";
-import { text } from "./text";
 
 declare global {
   interface Window {

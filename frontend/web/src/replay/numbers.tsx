@@ -1,9 +1,9 @@
 import { inkOf } from "../plots/inks";
+import { text } from "../text/replay";
 import { formatNumber, toDegrees } from "../units";
 import { isPlaying, seek } from "./clock";
 import type { Recording, Run } from "./data";
 import { Swatch } from "./plot";
-import { text } from "./text";
 
 const { numbers } = text;
 

@@ -2,12 +2,12 @@ import { effect } from "@preact/signals";
 import type { RefObject } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { palette } from "../plots/palette";
+import { text } from "../text/replay";
 import { formatNumber } from "../units";
 import { Chart, type ChartContent } from "./chart";
 import { range, timeS } from "./clock";
 import type { Curve, ReplayPlot } from "./curves";
 import type { RunEvent } from "./data";
-import { text } from "./text";
 
 export interface PlotProps {
   plot: ReplayPlot;

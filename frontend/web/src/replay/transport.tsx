@@ -1,5 +1,6 @@
 import { useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
+import { text } from "../text/replay";
 import {
   isPlaying,
   isWhole,
@@ -13,7 +14,6 @@ import {
   zoom,
 } from "./clock";
 import type { Recording } from "./data";
-import { text } from "./text";
 
 const { transport } = text;
 const ZOOM_FACTOR = 0.5;

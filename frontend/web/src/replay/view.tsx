@@ -1,11 +1,11 @@
 import { effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { theme } from "../state/preferences";
+import { text } from "../text/replay";
 import { timeS } from "./clock";
 import type { Recording } from "./data";
 import { answerKey } from "./keys";
 import { Scene } from "./scene";
-import { text } from "./text";
 
 const FASTEST_MS = 1000 / 30;
 
