@@ -99,21 +99,6 @@ def test_the_3d_view_shows_the_mechanism(page: Page, lab: Lab) -> None:
     expect(canvas).to_be_visible(timeout=PATIENCE_MS)
 
 
-def test_a_lost_server_is_told_and_the_page_recovers_by_itself(page: Page) -> None:
-    with run_lab() as lab:
-        port = int(lab.url.rpartition(":")[2])
-        open_page(page, lab)
-        wait_for_samples(page, after_s=8.0)
-        end = page.evaluate(LAST_TIME)
-    expect(page.get_by_role("alert").get_by_text("connection is lost")).to_be_visible(
-        timeout=PATIENCE_MS
-    )
-    with run_lab(port=port) as lab:
-        wait_for_samples(page, before_s=end)
-        before = page.evaluate(LAST_TIME)
-        wait_for_samples(page, before + 0.5)
-
-
 def test_a_lab_with_a_secret_asks_for_it_once(page: Page) -> None:
     with run_lab(secret="correct horse battery") as lab:
         page.goto(lab.url)

@@ -99,6 +99,7 @@ export function RunRow({ run }: { run: RunSummary }) {
         <p class="run-when">
           {formatMoment(run.created)} · {formatDuration(run.duration_s)}
           {run.notes !== "" && <span class="run-notes"> · {run.notes}</span>}
+          {run.message !== "" && <span class="run-notes"> · {run.message}</span>}
         </p>
         {!isDeleted && <Tags run={run} />}
       </div>

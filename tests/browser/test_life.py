@@ -1,0 +1,85 @@
+"""A page through what happens to it: a second page, a reload, a server that goes and comes."""
+
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.test_page import LAST_TIME, open_page, wait_for_samples
+from tests.lab import Lab, run_lab
+
+pytestmark = pytest.mark.browser
+
+PATIENCE_MS = 60_000
+OLDEST_TIME = "() => window.svsa.series('position_error_rad').time[0]"
+
+
+@pytest.fixture(autouse=True)
+def fresh(lab: Lab) -> None:
+    lab.load_figure()
+    lab.client.delete(lab.session + "/recording")
+    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+
+
+def test_two_pages_show_one_session_and_keep_their_own_look(browser: Browser, lab: Lab) -> None:
+    first, second = browser.new_page(), browser.new_page()
+    open_page(first, lab)
+    open_page(second, lab)
+    first.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    expect(second.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    second.get_by_role("switch", name=re.compile("^Compare with")).click()
+    expect(first.get_by_role("switch", name=re.compile("^Compare with"))).to_be_checked()
+    second.get_by_role("radio", name="5 s").check(force=True)
+    expect(first.get_by_role("radio", name="20 s")).to_be_checked()
+    second.get_by_role("button", name="Pause", exact=True).click()
+    expect(first.get_by_role("button", name="Run", exact=True)).to_be_visible()
+    ends = [page.evaluate(LAST_TIME) for page in (first, second)]
+    assert ends[0] == ends[1] > 0
+    first.close()
+    second.get_by_role("button", name="Run", exact=True).click()
+    wait_for_samples(second, ends[1])
+    second.close()
+
+
+def test_a_reload_in_the_middle_of_a_run_loses_nothing(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    lab.jump(6)
+    lab.client.post(lab.session + "/start").raise_for_status()
+    page.get_by_role("radio", name="10 s").check(force=True)
+    page.get_by_role("button", name="Record", exact=True).click()
+    expect(page.get_by_role("button", name=re.compile("^Recording"))).to_be_visible()
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    before = page.evaluate(LAST_TIME)
+    page.reload()
+    expect(page.get_by_role("button", name=re.compile("^Recording"))).to_be_visible()
+    expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    expect(page.get_by_role("radio", name="10 s")).to_be_checked()
+    wait_for_samples(page, before)
+    assert page.evaluate(OLDEST_TIME) < before - 5.0
+    expect(page.get_by_role("button", name=re.compile("3 kg load on")).first).to_be_visible()
+
+
+def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
+    page: Page, tmp_path: Path
+) -> None:
+    with run_lab(data=str(tmp_path)) as lab:
+        port = int(lab.url.rpartition(":")[2])
+        open_page(page, lab)
+        lab.client.post(lab.session + "/recording", json={"name": "Cut"}).raise_for_status()
+        lab.jump(8)
+        wait_for_samples(page, after_s=7.9)
+        end = page.evaluate(LAST_TIME)
+        lab.process.kill()
+        lost = page.get_by_role("alert").get_by_text("connection is lost")
+        expect(lost).to_be_visible(timeout=PATIENCE_MS)
+    with run_lab(port=port, data=str(tmp_path)) as lab:
+        wait_for_samples(page, before_s=end)
+        wait_for_samples(page, page.evaluate(LAST_TIME) + 0.5)
+        expect(lost).to_be_hidden()
+        page.get_by_role("button", name="Runs", exact=True).click()
+        row = page.get_by_role("list", name="Recorded runs").get_by_role("listitem").first
+        expect(row.get_by_role("link", name="Cut")).to_be_visible()
+        expect(row).to_contain_text("cut off")
+        assert lab.client.get("/api/v1/runs").json()["runs"][0]["duration_s"] > 7
