@@ -24,6 +24,8 @@ def shared_lab() -> Iterator[Lab]:
 
 @pytest.fixture
 def lab(shared_lab: Lab) -> Lab:
-    """The shared lab, begun anew on Figure 4A without its load."""
+    """The shared lab, begun anew on Figure 4A: one lane, no load, no recording."""
+    shared_lab.client.delete(shared_lab.session + "/recording")
+    shared_lab.client.put(shared_lab.session + "/lanes", json={"rivals": []}).raise_for_status()
     shared_lab.load_figure()
     return shared_lab

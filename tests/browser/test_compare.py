@@ -25,13 +25,6 @@ HAS_LANE_2 = """() => {
 }"""
 
 
-@pytest.fixture(autouse=True)
-def alone(lab: Lab) -> None:
-    """One lane and no recording, whatever a test before left."""
-    lab.client.delete(lab.session + "/recording")
-    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
-
-
 def find_switch(page: Page) -> Locator:
     return page.get_by_role("switch", name=re.compile("^Compare with"))
 

@@ -15,13 +15,6 @@ PATIENCE_MS = 60_000
 OLDEST_TIME = "() => window.svsa.series('position_error_rad').time[0]"
 
 
-@pytest.fixture(autouse=True)
-def fresh(lab: Lab) -> None:
-    lab.load_figure()
-    lab.client.delete(lab.session + "/recording")
-    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
-
-
 def test_two_pages_show_one_session_and_keep_their_own_look(browser: Browser, lab: Lab) -> None:
     first, second = browser.new_page(), browser.new_page()
     open_page(first, lab)

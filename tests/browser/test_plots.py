@@ -17,14 +17,6 @@ NEWEST = "() => window.svsa.series('position_error_rad').time.at(-1)"
 STREAMED = "channel => window.svsa.channels().includes(channel)"
 
 
-@pytest.fixture(autouse=True)
-def alone(lab: Lab) -> None:
-    """One lane, without loads, running at normal speed."""
-    lab.client.delete(lab.session + "/recording")
-    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
-    lab.load_figure()
-
-
 def find_plot(page: Page, name: str) -> Locator:
     plots = page.get_by_role("region", name="Plots", exact=True)
     return plots.get_by_role("region", name=name, exact=True)

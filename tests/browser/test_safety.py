@@ -11,13 +11,6 @@ from tests.lab import Lab, run_lab
 pytestmark = pytest.mark.browser
 
 
-@pytest.fixture(autouse=True)
-def alone(lab: Lab) -> None:
-    """One lane and no recording, whatever a test before left."""
-    lab.client.delete(lab.session + "/recording")
-    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
-
-
 def wait_for_status(page: Page, lab: Lab, status: str) -> None:
     for _ in range(50):
         if lab.read()["status"] == status:

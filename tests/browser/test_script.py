@@ -112,7 +112,6 @@ def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(
     assert done.stdout.splitlines() == [*told, f"reached {before['time_s']:.3f} s"]
     assert lab.read() == before
     assert len(lab.client.get("/api/v1/sessions").json()) == sessions
-    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
 
 
 def test_a_script_stops_where_the_lab_refuses(page: Page, lab: Lab, tmp_path: Path) -> None:

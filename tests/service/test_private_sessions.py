@@ -17,8 +17,8 @@ SESSIONS = "/api/v1/sessions"
 
 @pytest.fixture(scope="module")
 def small_lab() -> Iterator[Lab]:
-    """A lab with room for two private sessions, which end after 2 s without use."""
-    with run_lab(most_sessions="2", idle_s="2") as lab:
+    """A lab with room for two private sessions, which end after 1 s without use."""
+    with run_lab(most_sessions="2", idle_s="1") as lab:
         yield lab
 
 

@@ -17,11 +17,11 @@ class Batch:
     """One binary message, decoded as the documentation says."""
 
     def __init__(self, message: bytes, channels: int) -> None:
-        magic, self.run, self.first, self.stride, count, self.missed, _ = HEADER.unpack(
-            message[:32]
-        )
+        magic, *numbers = HEADER.unpack(message[:32])
         assert magic == b"SVSA"
-        self.rows = np.frombuffer(message[32:], "<f4").reshape(count, channels)
+        self.run, self.first, self.stride, count, self.missed, lanes = numbers
+        samples = np.frombuffer(message[32:], "<f4").reshape(count, lanes, channels)
+        self.rows = samples[:, 0]
         self.ticks = self.first + self.stride * np.arange(count)
         self.size = len(message)
 
@@ -114,14 +114,16 @@ def test_changes_are_told_to_every_client(lab: Lab) -> None:
 
 
 def test_a_slow_client_gets_the_newest_and_is_told_and_slows_nobody(lab: Lab) -> None:
-    everything = "?rate_hz=1000&channels=" + ",".join(lab.read()["sample"])
+    rivals = [{"law": law} for law in ("fl", "ndobc", "fl")]
+    lab.client.put(lab.session + "/lanes", json={"rivals": rivals}).raise_for_status()
+    everything = "?rate_hz=1000&lanes=all&channels=" + ",".join(lab.read()["sample"])
     slow, slow_hello = open_stream(lab, everything, max_queue=1)
     quick, quick_hello = open_stream(lab, "?rate_hz=200")
     with slow, quick:
         lab.client.put(lab.session + "/speed", json={"factor": 1})
         begin = time.monotonic()
         batches = []
-        while time.monotonic() - begin < 12:
+        while time.monotonic() - begin < 5:
             batches += read_batches(quick, quick_hello, 30)
         assert all(batch.missed == 0 for batch in batches)
         ticks = np.concatenate([batch.ticks for batch in batches])

@@ -4,6 +4,7 @@ import { session } from "../state/session";
 import { text } from "../text/en";
 import { onFrame, shareOf } from "./frame";
 import { isLoad } from "./marks";
+import { shownRing } from "./span";
 import { StepNumbers } from "./stepnumbers";
 
 const LABEL_GAP_PX = 6;
@@ -81,10 +82,28 @@ function place(list: HTMLElement): void {
   }
 }
 
+/** The events whose samples are there to look at. */
+function keptEvents(): SessionEvent[] {
+  const oldest = shownRing().oldestTime;
+  return (session.value?.events ?? []).filter((event) => !(event.time_s < oldest));
+}
+
+/** A key for each event, also for two of one kind at one tick, as while a session is paused. */
+function keysOf(events: readonly SessionEvent[]): string[] {
+  const seen = new Map<string, number>();
+  return events.map(({ tick, kind, label }) => {
+    const name = `${tick}.${kind}.${label}`;
+    const count = seen.get(name) ?? 0;
+    seen.set(name, count + 1);
+    return `${name}.${count}`;
+  });
+}
+
 /** The events in view, above the plots. */
 export function EventMarks() {
   const list = useRef<HTMLUListElement>(null);
-  const events = session.value?.events ?? [];
+  const events = keptEvents();
+  const keys = keysOf(events);
   useEffect(() => {
     const put = () => list.current && place(list.current);
     put();
@@ -95,7 +114,7 @@ export function EventMarks() {
     <ul class="marks" ref={list} aria-label={text.plots.events}>
       {events.map((event, index) => (
         <Mark
-          key={`${event.tick}.${event.kind}.${event.label}.${index}`}
+          key={keys[index]}
           event={event}
           untilS={
             events.slice(index + 1).find(({ time_s }) => time_s > event.time_s)?.time_s ?? Infinity
