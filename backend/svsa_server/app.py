@@ -15,7 +15,7 @@ from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
 from svsa_server.routes import bench, design, lab, loads, recordings, runs, sessions, settings
-from svsa_server.scene_bridge import SceneBridge
+from svsa_server.scenes import Scenes
 from svsa_server.viser_proxy import ViserProxy
 
 _DESCRIPTION = (
@@ -60,13 +60,14 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)
-    scene = await asyncio.to_thread(SceneBridge)
-    proxy = ViserProxy(scene.port)
+    scenes = Scenes(laboratory)
+    await scenes.open(shared.name)
+    proxy = ViserProxy(scenes.open)
     routes = list(app.router.routes)
     app.router.routes.extend(proxy.routes)
     tasks = [
         asyncio.create_task(laboratory.run()),
-        asyncio.create_task(scene.run(laboratory.read_pose)),
+        asyncio.create_task(scenes.run()),
     ]
     try:
         yield
@@ -78,4 +79,4 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         laboratory.close()
         await app.state.recordings.close()
         await proxy.close()
-        await asyncio.to_thread(scene.stop)
+        await scenes.close()

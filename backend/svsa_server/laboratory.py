@@ -8,19 +8,15 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-
 from svsa.errors import StateError
 from svsa.experiment.paper import get_figure
 from svsa.hardware.bench import read_bench
-from svsa.plant.disturbances import Load, get_hung_mass
+from svsa.plant.disturbances import Load
 from svsa.rig.control import RigControl, RigError
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.realtime.session import BenchSession, Hands
 from svsa.runtime.session import Session
-from svsa.signals import CHANNEL_INDEX
-from svsa_scene import ActuatorPose, RivalPose
 from svsa_server.errors import UnknownError
 
 WAKE_PERIOD_S = 1.0 / 60.0
@@ -136,46 +132,6 @@ class Laboratory:
         self.sessions.pop(name).close()
         del self._last_use[name]
 
-    def read_pose(self) -> ActuatorPose | None:
-        """The shared session's newest sample as the 3D view needs it; None before the first."""
-        session = self.sessions[SHARED_SESSION]
-        newest = session.history.read_newest()
-        if newest is None:
-            return None
-
-        def read(channel: str) -> float:
-            """A bench does not know its disturbance: nothing is drawn of it."""
-            return float(np.nan_to_num(newest[CHANNEL_INDEX[channel]]))
-
-        return ActuatorPose(
-            position_rad=read("position_rad"),
-            position_reference_rad=read("position_reference_rad"),
-            motor1_position_rad=read("motor1_position_rad"),
-            motor2_position_rad=read("motor2_position_rad"),
-            lever_ratio=read("lever_ratio"),
-            stiffness_nm_per_rad=read("stiffness_nm_per_rad"),
-            torque1_nm=read("torque1_nm"),
-            torque2_nm=read("torque2_nm"),
-            disturbance_link_nm=read("disturbance_link_nm"),
-            disturbance_motor1_nm=read("disturbance_motor1_nm"),
-            disturbance_motor2_nm=read("disturbance_motor2_nm"),
-            rivals=_read_rivals(session),
-            load_mass_kg=_find_hung_mass(session),
-            deflection_limit_rad=read("deflection_limit_rad"),
-        )
-
-
-def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
-    """Where the links of the other lanes are; a bench's twin is called so."""
-    poses = []
-    for number, lane in enumerate(session.run.configuration.lanes[1:], start=1):
-        newest = session.history.read_newest(number)
-        if newest is not None:
-            name = lane.law.upper() if session.plant == "simulated" else "twin"
-            position = float(np.nan_to_num(newest[CHANNEL_INDEX["position_rad"]]))
-            poses.append(RivalPose(name, position))
-    return tuple(poses)
-
 
 def build_shared_session(bench: Path | None) -> Session:
     """The session that everyone shares: Figure 4A running with the load in your hand, or a bench.
@@ -221,10 +177,3 @@ def find_hands(bench: Path) -> Hands:
 def build_name() -> str:
     """A name that nobody guesses for a private session."""
     return f"private-{secrets.token_hex(4)}"
-
-
-def _find_hung_mass(session: Session) -> float:
-    tick = session.run.tick
-    return sum(
-        get_hung_mass(load) for _, load, start, end in session.run.loads if start <= tick < end
-    )

@@ -27,6 +27,7 @@ def build_replay(record: Record) -> str:
             "recorded": header.created,
             "session": header.session,
             "seed": header.seed,
+            "plant": header.plant,
             "notes": header.notes,
             "configuration": header.configuration,
             "commands": [command for _, command in record.commands],

@@ -50,6 +50,7 @@ class RunSummary(BaseModel):
         description="failed: it ended early, message says why; damaged: it cannot be read"
     )
     message: str
+    plant: PlantKind = Field(description="What lane 1 was; only a simulated run can be branched")
     lanes: list[str]
     period_s: float
     first_tick: int
@@ -80,7 +81,6 @@ class RunCommand(BaseModel):
 class RunDetails(RunSummary):
     """A run with everything that decided its samples."""
 
-    plant: PlantKind = Field(description="What lane 1 was; only a simulated run can be branched")
     seed: int
     configuration: dict[str, Any] = Field(description="At tick 0")
     channels: list[Channel]

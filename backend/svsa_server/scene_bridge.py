@@ -1,15 +1,11 @@
-"""The 3D view beside the server: viser on loopback, fed with the pose of the running session."""
+"""A 3D view beside the server: viser on loopback, at the pose of a session."""
 
-import asyncio
 import contextlib
 import io
-from collections.abc import Callable
 
 import viser
 
 from svsa_scene import ActuatorPose, ActuatorScene
-
-UPDATE_RATE_HZ = 30.0
 
 
 class _LoopbackViser(viser.ViserServer):
@@ -20,7 +16,7 @@ class _LoopbackViser(viser.ViserServer):
 
 
 class SceneBridge:
-    """Starts viser on 127.0.0.1 at a free port and keeps its scene at the session's pose."""
+    """Starts viser on 127.0.0.1 at a free port, with the actuator as its scene."""
 
     def __init__(self) -> None:
         with contextlib.redirect_stdout(io.StringIO()):
@@ -42,23 +38,13 @@ class SceneBridge:
         """Light or dark background for viewers that do not choose one by `?darkMode`."""
         self._scene.set_theme(dark)
 
-    async def run(self, read_pose: Callable[[], ActuatorPose | None]) -> None:
-        """Show `read_pose()` 30 times a second until cancelled or stopped.
-
-        Nothing is read or sent while nobody watches, nor while there is no pose.
-        """
-        loop = asyncio.get_running_loop()
-        due = loop.time()
-        while not self._stopped:
-            if self.viewers:
-                pose = read_pose()
-                if pose is not None:
-                    self._scene.update(pose)
-            due = max(due + 1.0 / UPDATE_RATE_HZ, loop.time())
-            await asyncio.sleep(due - loop.time())
+    def show(self, pose: ActuatorPose) -> None:
+        """Move the actuator to the pose, in every browser that shows it."""
+        self._scene.update(pose)
 
     def stop(self) -> None:
         """Close viser and its connections. Takes up to a second; may be called again."""
         if not self._stopped:
             self._stopped = True
-            self._viser.stop()
+            with contextlib.redirect_stdout(io.StringIO()):
+                self._viser.stop()

@@ -1,4 +1,4 @@
-"""viser under the server's own address, at /viser/.
+"""viser under the server's own address, at /viser/{session}/.
 
 The page is passed through with two changes: its reconnect does not wait for the focus that a
 frame rarely has, and viser's panels are hidden. Of what a browser sends, only its camera gets
@@ -10,6 +10,7 @@ import contextlib
 import gzip
 import hashlib
 import math
+from collections.abc import Awaitable, Callable
 from typing import NamedTuple
 
 import httpx
@@ -22,6 +23,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from websockets.asyncio.client import ClientConnection
 from websockets.typing import Subprotocol
 
+from svsa.errors import SvsaError
 from svsa_server.access import is_same_origin
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
@@ -98,24 +100,25 @@ class _Ending(NamedTuple):
 
 
 class ViserProxy:
-    """Routes under /viser/ to the viser server on a loopback port."""
+    """Routes under /viser/ to the viser servers on loopback ports.
 
-    def __init__(self, port: int) -> None:
-        self._authority = f"127.0.0.1:{port}"
-        self._http = httpx.AsyncClient(
-            base_url=f"http://{self._authority}", trust_env=False, timeout=_CONNECT_TIMEOUT_S
-        )
+    find_port: the port for a session's name, or `SvsaError` where there is no such session.
+    """
+
+    def __init__(self, find_port: Callable[[str], Awaitable[int]]) -> None:
+        self._find_port = find_port
+        self._http = httpx.AsyncClient(trust_env=False, timeout=_CONNECT_TIMEOUT_S)
         self._page: _Page | None = None
 
     @property
     def routes(self) -> list[BaseRoute]:
         """Routes for the application: the page, its files and the WebSocket."""
         return [
-            Route("/viser", self._redirect, methods=["GET"]),
-            WebSocketRoute("/viser", self._relay),
-            Route("/viser/", self._serve_page, methods=["GET"]),
-            WebSocketRoute("/viser/", self._relay),
-            Route("/viser/{path:path}", self._serve_file, methods=["GET"]),
+            Route("/viser/{session}", self._redirect, methods=["GET"]),
+            WebSocketRoute("/viser/{session}", self._relay),
+            Route("/viser/{session}/", self._serve_page, methods=["GET"]),
+            WebSocketRoute("/viser/{session}/", self._relay),
+            Route("/viser/{session}/{path:path}", self._serve_file, methods=["GET"]),
         ]
 
     async def close(self) -> None:
@@ -124,12 +127,12 @@ class ViserProxy:
 
     async def _redirect(self, request: Request) -> Response:
         query = f"?{request.url.query}" if request.url.query else ""
-        return RedirectResponse(f"{request.scope.get('root_path', '')}/viser/{query}")
+        return RedirectResponse(f"{request.url.path}/{query}")
 
     async def _serve_page(self, request: Request) -> Response:
         if self._page is None:
             try:
-                self._page = await self._load_page()
+                self._page = await self._load_page(request)
             except httpx.HTTPError:
                 return Response("The 3D view is not running.", 503, media_type="text/plain")
         headers = {
@@ -145,8 +148,8 @@ class ViserProxy:
             return Response(self._page.compressed, headers=headers, media_type="text/html")
         return Response(self._page.plain, headers=headers, media_type="text/html")
 
-    async def _load_page(self) -> _Page:
-        answer = await self._http.get("/", headers={"Accept-Encoding": "identity"})
+    async def _load_page(self, request: Request) -> _Page:
+        answer = await self._fetch(request, "/")
         answer.raise_for_status()
         plain = answer.content.replace(b"<head>", b"<head>" + _INJECTED, 1)
         etag = f'"{hashlib.sha256(plain).hexdigest()[:32]}"'
@@ -154,14 +157,16 @@ class ViserProxy:
 
     async def _serve_file(self, request: Request) -> Response:
         try:
-            answer = await self._http.get(
-                httpx.URL(path="/" + request.path_params["path"]),
-                headers={"Accept-Encoding": "identity"},
-            )
+            answer = await self._fetch(request, "/" + request.path_params["path"])
         except httpx.HTTPError:
             return Response("The 3D view is not running.", 503, media_type="text/plain")
         headers = {k: answer.headers[k] for k in _KEPT_HEADERS if k in answer.headers}
         return Response(answer.content, answer.status_code, headers=headers)
+
+    async def _fetch(self, request: Request, path: str) -> httpx.Response:
+        port = await self._find_port(request.path_params["session"])
+        address = httpx.URL(scheme="http", host="127.0.0.1", port=port, path=path)
+        return await self._http.get(address, headers={"Accept-Encoding": "identity"})
 
     async def _relay(self, websocket: WebSocket) -> None:
         offered = websocket.scope.get("subprotocols", [])
@@ -170,8 +175,9 @@ class ViserProxy:
             await websocket.close(1008)
             return
         try:
+            port = await self._find_port(websocket.path_params["session"])
             viser = await websockets.connect(
-                f"ws://{self._authority}/",
+                f"ws://127.0.0.1:{port}/",
                 subprotocols=[Subprotocol(protocol)],
                 compression=None,
                 proxy=None,
@@ -179,7 +185,7 @@ class ViserProxy:
                 max_queue=4,
                 open_timeout=_CONNECT_TIMEOUT_S,
             )
-        except (OSError, TimeoutError, websockets.WebSocketException):
+        except (SvsaError, OSError, TimeoutError, websockets.WebSocketException):
             await websocket.close(1013)
             return
         async with viser:

@@ -59,14 +59,14 @@ def test_a_name_that_was_pointed_at_this_machine_is_refused(lab: Lab) -> None:
     assert lab.client.get(lab.session, headers={"Host": "evil.example"}).status_code == 403
 
 
-@pytest.mark.parametrize("path", ["/api/v1/sessions", "/docs", "/openapi.json", "/viser/"])
+@pytest.mark.parametrize("path", ["/api/v1/sessions", "/docs", "/openapi.json", "/viser/lab/"])
 def test_nothing_but_the_empty_page_is_seen_without_the_secret(guarded_lab: Lab, path: str) -> None:
     answer = httpx.get(guarded_lab.url + path, trust_env=False)
     assert answer.status_code == 401
     assert "secret" in answer.json()["message"]
 
 
-@pytest.mark.parametrize("path", ["/api/v1/sessions/lab/stream", "/viser/"])
+@pytest.mark.parametrize("path", ["/api/v1/sessions/lab/stream", "/viser/lab/"])
 def test_websockets_need_the_secret(guarded_lab: Lab, path: str) -> None:
     address = guarded_lab.url.replace("http", "ws", 1) + path
     with pytest.raises(InvalidStatus) as refusal:

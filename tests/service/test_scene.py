@@ -5,6 +5,7 @@ import contextlib
 import math
 from collections.abc import AsyncIterator, Callable
 from typing import Any
+from unittest.mock import patch
 
 import httpx
 import msgspec
@@ -16,9 +17,13 @@ import zstandard
 from starlette.applications import Starlette
 from websockets.asyncio.client import ClientConnection
 
+from svsa.experiment.paper import get_figure
+from svsa.runtime.session import Session
 from svsa_scene import ActuatorPose
 from svsa_scene.linkage import RADIUS, compute_linkage
+from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.scene_bridge import SceneBridge
+from svsa_server.scenes import Scenes
 from svsa_server.viser_proxy import ViserProxy, filter_browser_message
 
 SUBPROTOCOL = websockets.Subprotocol(f"viser-v{viser.__version__}")
@@ -69,17 +74,23 @@ def make_pose(position_rad: float = 0.0, **changes: float) -> ActuatorPose:
 class Lab:
     """A running server with the 3D view, and how to reach it."""
 
-    def __init__(self, port: int, bridge: SceneBridge) -> None:
-        self.http = f"http://127.0.0.1:{port}"
-        self.bridge = bridge
-        self.pose = make_pose()
+    def __init__(self, laboratory: Laboratory, scenes: Scenes) -> None:
+        self.http = ""
+        self.laboratory = laboratory
+        self.scenes = scenes
+        self.poses = {"lab": make_pose()}
         self.reads = 0
 
-    def read_pose(self) -> ActuatorPose:
-        self.reads += 1
-        return self.pose
+    @property
+    def bridge(self) -> SceneBridge:
+        """viser of the shared session."""
+        return self.scenes.views["lab"].bridge
 
-    def connect(self, origin: str | None = None, path: str = "/viser/") -> Any:
+    def read_pose(self, session: Session) -> ActuatorPose | None:
+        self.reads += 1
+        return self.poses.get(session.name)
+
+    def connect(self, origin: str | None = None, path: str = "/viser/lab/") -> Any:
         return websockets.connect(
             self.http.replace("http", "ws") + path,
             subprotocols=[SUBPROTOCOL],
@@ -92,8 +103,10 @@ class Lab:
 
 @contextlib.asynccontextmanager
 async def running_lab() -> AsyncIterator[Lab]:
-    bridge = await asyncio.to_thread(SceneBridge)
-    proxy = ViserProxy(bridge.port)
+    laboratory = Laboratory(build_shared_session(None), most_sessions=2, idle_s=60.0)
+    scenes = Scenes(laboratory)
+    await scenes.open("lab")
+    proxy = ViserProxy(scenes.open)
     app = Starlette(routes=proxy.routes)
     server = uvicorn.Server(
         uvicorn.Config(app, host="127.0.0.1", port=0, log_level="warning", lifespan="off")
@@ -101,14 +114,17 @@ async def running_lab() -> AsyncIterator[Lab]:
     serving = asyncio.create_task(server.serve())
     while not server.started:
         await asyncio.sleep(0.01)
-    lab = Lab(server.servers[0].sockets[0].getsockname()[1], bridge)
-    showing = asyncio.create_task(bridge.run(lab.read_pose))
+    lab = Lab(laboratory, scenes)
+    lab.http = f"http://127.0.0.1:{server.servers[0].sockets[0].getsockname()[1]}"
+    showing = asyncio.create_task(scenes.run())
     try:
-        yield lab
+        with patch("svsa_server.scenes.read_pose", lab.read_pose):
+            yield lab
     finally:
         showing.cancel()
         await asyncio.gather(showing, return_exceptions=True)
-        await asyncio.to_thread(bridge.stop)
+        await scenes.close()
+        laboratory.close()
         server.should_exit = True
         await serving
         await proxy.close()
@@ -146,12 +162,14 @@ async def wait_for(condition: Callable[[], bool]) -> None:
 def test_page_is_served_with_focus_injected_and_compressed_on_request() -> None:
     async def check(lab: Lab) -> None:
         async with httpx.AsyncClient(base_url=lab.http, trust_env=False) as client:
-            plain = await client.get("/viser/", headers={"Accept-Encoding": "identity"})
-            packed = await client.get("/viser/", headers={"Accept-Encoding": "gzip"})
-            again = await client.get("/viser/", headers={"If-None-Match": plain.headers["etag"]})
-            short = await client.get("/viser?darkMode")
-            absent = await client.get("/viser/absent.js")
-            outside = await client.get("/viser/%2e%2e/%2e%2e/__init__.py")
+            plain = await client.get("/viser/lab/", headers={"Accept-Encoding": "identity"})
+            packed = await client.get("/viser/lab/", headers={"Accept-Encoding": "gzip"})
+            again = await client.get(
+                "/viser/lab/", headers={"If-None-Match": plain.headers["etag"]}
+            )
+            short = await client.get("/viser/lab?darkMode")
+            absent = await client.get("/viser/lab/absent.js")
+            outside = await client.get("/viser/lab/%2e%2e/%2e%2e/__init__.py")
         assert plain.status_code == 200
         assert "document.hasFocus=()=>true" in plain.text
         assert plain.headers["content-type"].startswith("text/html")
@@ -160,13 +178,13 @@ def test_page_is_served_with_focus_injected_and_compressed_on_request() -> None:
         assert packed.text == plain.text
         assert int(packed.headers["content-length"]) < len(plain.content)
         assert (again.status_code, again.content) == (304, b"")
-        assert short.headers["location"] == "/viser/?darkMode"
+        assert short.headers["location"] == "/viser/lab/?darkMode"
         assert absent.status_code == outside.status_code == 404
 
     run_in_lab(check)
 
 
-@pytest.mark.parametrize("path", ["/viser/", "/viser"])
+@pytest.mark.parametrize("path", ["/viser/lab/", "/viser/lab"])
 def test_websocket_shows_the_scene_and_follows_the_pose(path: str) -> None:
     async def check(lab: Lab) -> None:
         async with lab.connect(path=path) as browser:
@@ -174,7 +192,7 @@ def test_websocket_shows_the_scene_and_follows_the_pose(path: str) -> None:
             await receive_until(browser, lambda m: m.get("name") == LINK)
             await browser.send(msgspec.msgpack.encode(CAMERA))
             await wait_for(lambda: lab.reads > 0)
-            lab.pose = make_pose(1.0)
+            lab.poses["lab"] = make_pose(1.0)
             turned = await receive_until(
                 browser,
                 lambda m: (
@@ -183,6 +201,44 @@ def test_websocket_shows_the_scene_and_follows_the_pose(path: str) -> None:
             )
             assert turned["wxyz"] == pytest.approx([math.cos(0.5), 0, 0, math.sin(0.5)])
         await wait_for(lambda: lab.bridge.viewers == 0)
+
+    run_in_lab(check)
+
+
+def test_a_private_session_has_a_view_of_its_own_that_ends_with_it() -> None:
+    async def check(lab: Lab) -> None:
+        private = lab.laboratory.create(get_figure("4a").build_configuration()).name
+        lab.poses[private] = make_pose(-1.0)
+        async with lab.connect() as shared, lab.connect(path=f"/viser/{private}/") as own:
+            assert set(lab.scenes.views) == {"lab", private}
+            await own.send(msgspec.msgpack.encode(CAMERA))
+            turned = await receive_until(
+                own, lambda m: m["type"] == "SetOrientationMessage" and m["name"] == LINK
+            )
+            assert turned["wxyz"][3] < 0
+            await receive_until(shared, lambda m: m.get("name") == LINK)
+            lab.laboratory.end(private)
+            with pytest.raises(websockets.ConnectionClosed):
+                await receive_until(own, lambda _: False)
+        assert set(lab.scenes.views) == {"lab"}
+        with pytest.raises(websockets.InvalidStatus):
+            async with lab.connect(path=f"/viser/{private}/"):
+                pass
+
+    run_in_lab(check)
+
+
+def test_a_private_view_that_nobody_looks_at_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("svsa_server.scenes.IDLE_S", 0.2)
+
+    async def check(lab: Lab) -> None:
+        private = lab.laboratory.create(get_figure("4a").build_configuration()).name
+        async with lab.connect(path=f"/viser/{private}/") as own:
+            await own.send(msgspec.msgpack.encode(CAMERA))
+            await wait_for(lambda: lab.scenes.views[private].bridge.viewers == 1)
+            await asyncio.sleep(0.5)
+            assert private in lab.scenes.views
+        await wait_for(lambda: set(lab.scenes.views) == {"lab"})
 
     run_in_lab(check)
 
@@ -214,7 +270,7 @@ def test_only_the_camera_of_a_browser_reaches_viser(monkeypatch: pytest.MonkeyPa
             await browser.send(msgspec.msgpack.encode(CAMERA))
             await other.send(msgspec.msgpack.encode(CAMERA))
             await wait_for(lambda: lab.bridge.viewers == 2)
-            lab.pose = make_pose(0.5)
+            lab.poses["lab"] = make_pose(0.5)
             await receive_until(
                 other, lambda m: m["type"] == "SetOrientationMessage" and m["name"] == LINK
             )
@@ -246,7 +302,7 @@ def test_other_sites_and_other_protocols_are_refused() -> None:
         assert refused.value.response.status_code == 403
         with pytest.raises(websockets.InvalidStatus):
             async with websockets.connect(
-                lab.http.replace("http", "ws") + "/viser/", compression=None, proxy=None
+                lab.http.replace("http", "ws") + "/viser/lab/", compression=None, proxy=None
             ):
                 pass
         async with lab.connect(origin=lab.http) as browser:
@@ -277,7 +333,7 @@ def test_browser_is_told_when_viser_goes_away() -> None:
             assert closed.value.rcvd is not None
             assert closed.value.rcvd.code == 1001
         async with httpx.AsyncClient(base_url=lab.http, trust_env=False) as client:
-            assert (await client.get("/viser/")).status_code == 503
+            assert (await client.get("/viser/lab/")).status_code == 503
 
     run_in_lab(check)
 

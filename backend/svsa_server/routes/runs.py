@@ -69,7 +69,6 @@ def read_run(runs: Runs, run: RunId) -> RunDetails:
     entry, record = runs.get(run), runs.open(run)
     return RunDetails(
         **_list_values(entry),
-        plant=record.header.plant,
         seed=record.header.seed,
         configuration=record.header.configuration,
         channels=list(record.header.channels),

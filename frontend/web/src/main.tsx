@@ -2,6 +2,7 @@ import "uplot/dist/uPlot.min.css";
 import "./theme.css";
 import "./layout/layout.css";
 import "./layout/statusbar.css";
+import "./layout/plantmark.css";
 import "./layout/comparison.css";
 import "./plots/plots.css";
 import "./plots/stage.css";

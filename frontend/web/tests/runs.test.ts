@@ -39,7 +39,7 @@ beforeAll(async () => {
   });
   ({ readPlace, writePlace } = await import("../src/runs/place"));
   ({ findOnset } = await import("../src/runs/onset"));
-  ({ nameRunLanes } = await import("../src/runs/lanenames"));
+  ({ nameRunLanes } = await import("../src/lanenames"));
   ({ overlayInk } = await import("../src/runs/overlaid"));
   ({ drawSpark } = await import("../src/runs/spark"));
 });

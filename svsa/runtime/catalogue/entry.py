@@ -8,6 +8,7 @@ import msgspec
 
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.runtime.metrics import Metrics
+from svsa.runtime.recording.header import PlantKind
 
 RunState = Literal["recording", "complete", "failed", "damaged", "missing"]
 SORTS = ("created", "name", "session", "duration_s", "bytes")
@@ -40,6 +41,7 @@ class RunEntry:
     notes: str = ""
     session: str = ""
     version: str = ""
+    plant: PlantKind = "simulated"
     state: RunState = "recording"
     message: str = ""
     lanes: tuple[str, ...] = ()

@@ -1970,6 +1970,12 @@ export interface components {
             state: "recording" | "complete" | "failed" | "damaged" | "missing";
             /** Message */
             message: string;
+            /**
+             * Plant
+             * @description What lane 1 was; only a simulated run can be branched
+             * @enum {string}
+             */
+            plant: "simulated" | "emulated" | "bench";
             /** Lanes */
             lanes: string[];
             /** Period S */
@@ -1992,12 +1998,6 @@ export interface components {
              * @description When it went into the trash, UTC
              */
             deleted: string | null;
-            /**
-             * Plant
-             * @description What lane 1 was; only a simulated run can be branched
-             * @enum {string}
-             */
-            plant: "simulated" | "emulated" | "bench";
             /** Seed */
             seed: number;
             /**
@@ -2173,6 +2173,12 @@ export interface components {
             state: "recording" | "complete" | "failed" | "damaged" | "missing";
             /** Message */
             message: string;
+            /**
+             * Plant
+             * @description What lane 1 was; only a simulated run can be branched
+             * @enum {string}
+             */
+            plant: "simulated" | "emulated" | "bench";
             /** Lanes */
             lanes: string[];
             /** Period S */

@@ -1,17 +1,16 @@
-/** EMULATED or REAL BENCH, in words, wherever a student may look. */
+/** Where a student may look, what the session moves: EMULATED or REAL BENCH. */
 import { effect } from "@preact/signals";
 import emulatedIcon from "../icons/emulated.svg";
 import realIcon from "../icons/real.svg";
 import { mark } from "../state/bench";
 import { text } from "../text/en";
+import { PlantMark } from "./plantmark";
 
 const ICONS = { emulated: emulatedIcon, real: realIcon } as const;
 
-/** In a corner of something; nothing for a simulation. */
+/** That of the session, in a corner of something. */
 export function CornerMark() {
-  const kind = mark.value;
-  if (kind === null) return null;
-  return <strong class={`corner-mark is-${kind}`}>{text.mark[kind].name}</strong>;
+  return <PlantMark kind={mark.value} />;
 }
 
 /** Keeps the title and the icon of the browser's tab. */

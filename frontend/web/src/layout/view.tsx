@@ -1,4 +1,4 @@
-import { isPrivate } from "../api/client";
+import { sessionName } from "../api/client";
 import { answerKey } from "../keys/keys";
 import { SceneTools } from "../scene/tools";
 import { enterView, isLow } from "../scene/viewer";
@@ -10,14 +10,13 @@ import { CornerMark } from "./marks";
 /** The actuator in 3D, served by viser; made anew after each lost connection. */
 export function View() {
   const connection = connectionCount.value;
-  if (isPrivate) return <p class="view is-private">{text.private.view}</p>;
   return (
     <div class={`view ${isLow.value ? "is-low" : ""}`}>
       {connection > 0 && (
         <iframe
           key={connection}
           title={text.view}
-          src={theme.value === "dark" ? "viser/?darkMode" : "viser/"}
+          src={`viser/${sessionName}/${theme.value === "dark" ? "?darkMode" : ""}`}
           onLoad={({ currentTarget }) => {
             currentTarget.contentWindow?.addEventListener("keydown", answerKey, true);
             enterView(currentTarget);

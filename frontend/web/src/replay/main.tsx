@@ -1,6 +1,7 @@
 /** The page of an exported run; `window.svsaReplay` lets a console or a test move it. */
 import "uplot/dist/uPlot.min.css";
 import "../theme.css";
+import "../layout/plantmark.css";
 import "../plots/plots.css";
 import "./replay.css";
 import { render } from "preact";

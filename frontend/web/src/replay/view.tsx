@@ -1,9 +1,10 @@
 import { effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { PlantMark } from "../layout/plantmark";
 import { theme } from "../state/preferences";
 import { text } from "../text/replay";
 import { timeS } from "./clock";
-import type { Recording } from "./data";
+import { findMark, type Recording } from "./data";
 import { answerKey } from "./keys";
 import { Scene } from "./scene";
 
@@ -54,6 +55,7 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
   return (
     <section class={`view is-${state}`} aria-label={text.view}>
       <iframe ref={frame} title={text.view} />
+      <PlantMark kind={findMark(run)} />
       {state === "failed" && <p class="view-problem">{text.noView}</p>}
       <ul class="view-legend">
         {run.lanes.map((lane, index) => (

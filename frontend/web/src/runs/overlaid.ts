@@ -1,10 +1,10 @@
 /** Several runs on one axis of time, on which 0 is the load's onset. */
 import { readMetrics, readRun, readSamples } from "../api/runs";
 import type { Metrics, RunSamples } from "../api/types";
+import { nameRunLanes } from "../lanenames";
 import type { Ink, PlotColour } from "../plots/definitions";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
-import { nameRunLanes } from "./lanenames";
 import { findOnset } from "./onset";
 import { nameOf } from "./words";
 

@@ -1,5 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import type { RunSummary } from "../api/types";
+import { markOf, PlantMark } from "../layout/plantmark";
 import { inkOf } from "../plots/inks";
 import { Swatch } from "../plots/legend";
 import { text } from "../text/en";
@@ -95,6 +96,7 @@ export function RunRow({ run }: { run: RunSummary }) {
             <PlaceLink to={{ kind: "run", run: run.id, timeS: 0 }}>{name}</PlaceLink>
           )}
           <State run={run} />
+          <PlantMark kind={markOf(run.plant)} />
         </h3>
         <p class="run-when">
           {formatMoment(run.created)} · {formatDuration(run.duration_s)}

@@ -1,7 +1,7 @@
 /** The position error of a run, small: one path a lane, on one scale. */
 import { readRun, readSamples } from "../api/runs";
 import type { RunSamples } from "../api/types";
-import { nameRunLanes } from "./lanenames";
+import { nameRunLanes } from "../lanenames";
 
 export const WIDTH = 300;
 export const HEIGHT = 44;

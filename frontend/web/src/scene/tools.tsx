@@ -1,4 +1,3 @@
-import { isPrivate } from "../api/client";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { isPushing, PushLayer } from "./push";
@@ -7,8 +6,7 @@ import { CAMERA_NAMES, isLow, setCamera, toggleLow } from "./viewer";
 const words = text.scene;
 
 function PushButton() {
-  const canPush = session.value?.bench === null && !isPrivate;
-  if (!canPush) return null;
+  if (session.value?.bench !== null) return null;
   return (
     <button
       type="button"

@@ -1,10 +1,9 @@
 /** The bench of the session, and what stands for it on every screen. */
 import { computed } from "@preact/signals";
+import type { Mark } from "../layout/plantmark";
 import { session } from "./session";
 
 export const bench = computed(() => session.value?.bench ?? null);
-
-export type Mark = "emulated" | "real";
 
 /** Null for a simulation, which needs no mark. */
 export const mark = computed<Mark | null>(() => {

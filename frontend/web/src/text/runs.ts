@@ -107,6 +107,5 @@ export const runsText = {
     title: "Private session.",
     text: "Only this page shows it. It ends by itself when nobody uses it.",
     back: "Back to the shared lab",
-    view: "The 3D view shows the shared lab only. The plots are those of this private session.",
   },
 } as const;

@@ -1,13 +1,27 @@
-/** What the lanes of a recorded run are called: by the laws that controlled them. */
-import type { Law, RunDetails } from "../api/types";
-import { nameLanes } from "../state/lanes";
-import { text } from "../text/en";
+/** What lanes are called: by the laws that control them. */
+import type { Law, RunDetails } from "./api/types";
+import { text } from "./text/en";
 
-type Origin = Pick<RunDetails, "configuration" | "commands" | "lanes" | "plant" | "first_tick">;
+export type LaneOrigin = Pick<
+  RunDetails,
+  "configuration" | "commands" | "lanes" | "plant" | "first_tick"
+>;
 type Rivals = readonly { law: Law }[];
 
+/** The laws by name; where two lanes have one law, with the number of the lane. A bench's
+ * first two lanes are the bench itself and its simulated twin. */
+export function nameLanes(laws: readonly Law[], isBench = false): string[] {
+  return laws.map((law, index) => {
+    if (isBench && index < text.compare.bench.length) {
+      return `${text.compare.bench[index]} ${text.controller[law]}`;
+    }
+    const isAlone = laws.filter((one) => one === law).length === 1;
+    return isAlone ? text.controller[law] : text.compare.numbered(text.controller[law], index + 1);
+  });
+}
+
 /** The laws when the recording began; lanes do not change while it goes on. */
-export function lawsAtStart(run: Origin): Law[] {
+function lawsAtStart(run: LaneOrigin): Law[] {
   let law = run.configuration.law as Law;
   let rivals = (run.configuration.rivals ?? []) as Rivals;
   for (const { tick, command } of run.commands) {
@@ -19,13 +33,14 @@ export function lawsAtStart(run: Origin): Law[] {
 }
 
 /** Lane 1 has another law after every change of the controller. */
-function lawsLater(run: Origin): Law[] {
+function lawsLater(run: LaneOrigin): Law[] {
   return run.commands
     .filter(({ tick, command }) => tick > run.first_tick && command.kind === "controller")
     .map(({ command }) => command.argument as Law);
 }
 
-export function nameRunLanes(run: Origin): string[] {
+/** The lanes of a recorded run. */
+export function nameRunLanes(run: LaneOrigin): string[] {
   const laws = lawsAtStart(run);
   if (laws.length !== run.lanes.length) return [...run.lanes];
   const [first = "", ...others] = nameLanes(laws, run.plant !== "simulated");

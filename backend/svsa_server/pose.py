@@ -1,0 +1,55 @@
+"""What the 3D view shows of a session."""
+
+import numpy as np
+
+from svsa.plant.disturbances import get_hung_mass
+from svsa.runtime.session import Session
+from svsa.signals import CHANNEL_INDEX
+from svsa_scene import ActuatorPose, RivalPose
+
+
+def read_pose(session: Session) -> ActuatorPose | None:
+    """The session's newest sample as the 3D view needs it; None before the first."""
+    newest = session.history.read_newest()
+    if newest is None:
+        return None
+
+    def read(channel: str) -> float:
+        """A bench does not know its disturbance: nothing is drawn of it."""
+        return float(np.nan_to_num(newest[CHANNEL_INDEX[channel]]))
+
+    return ActuatorPose(
+        position_rad=read("position_rad"),
+        position_reference_rad=read("position_reference_rad"),
+        motor1_position_rad=read("motor1_position_rad"),
+        motor2_position_rad=read("motor2_position_rad"),
+        lever_ratio=read("lever_ratio"),
+        stiffness_nm_per_rad=read("stiffness_nm_per_rad"),
+        torque1_nm=read("torque1_nm"),
+        torque2_nm=read("torque2_nm"),
+        disturbance_link_nm=read("disturbance_link_nm"),
+        disturbance_motor1_nm=read("disturbance_motor1_nm"),
+        disturbance_motor2_nm=read("disturbance_motor2_nm"),
+        rivals=_read_rivals(session),
+        load_mass_kg=_find_hung_mass(session),
+        deflection_limit_rad=read("deflection_limit_rad"),
+    )
+
+
+def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
+    """Where the links of the other lanes are; a bench's twin is called so."""
+    poses = []
+    for number, lane in enumerate(session.run.configuration.lanes[1:], start=1):
+        newest = session.history.read_newest(number)
+        if newest is not None:
+            name = lane.law.upper() if session.plant == "simulated" else "twin"
+            position = float(np.nan_to_num(newest[CHANNEL_INDEX["position_rad"]]))
+            poses.append(RivalPose(name, position))
+    return tuple(poses)
+
+
+def _find_hung_mass(session: Session) -> float:
+    tick = session.run.tick
+    return sum(
+        get_hung_mass(load) for _, load, start, end in session.run.loads if start <= tick < end
+    )
