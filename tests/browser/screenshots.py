@@ -1,38 +1,108 @@
 """Pictures of the page for the README: `make screenshots` starts a lab and takes them."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
+from typing import Literal
 
 from PIL import Image
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 from tests.browser.conftest import ARGUMENTS, find_chromium
-from tests.lab import run_lab
+from tests.lab import Lab, run_lab
 
 FOLDER = Path(__file__).parents[2] / "frontend" / "screenshots"
 COLORS = 256
+SETTLE_MS = 3000
+
+
+def compare(lab: Lab, seconds: float = 9.0) -> None:
+    """FL beside NDOBC, so long into Figure 4A."""
+    lab.load_figure()
+    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]}).raise_for_status()
+    lab.jump(seconds)
+    lab.client.post(lab.session + "/start").raise_for_status()
+
+
+def hang_load(page: Page) -> None:
+    """Hang 3 kg and wait until it is seen what that did."""
+    page.wait_for_timeout(2 * SETTLE_MS)
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    page.wait_for_timeout(4000)
+
+
+def show_dashboard(page: Page, lab: Lab) -> None:
+    """FL beside NDOBC 4 s after the 3 kg load."""
+    compare(lab)
+    page.goto(lab.url)
+    hang_load(page)
+
+
+def show_cursors(page: Page, lab: Lab) -> None:
+    """The same, measured between two cursors."""
+    show_dashboard(page, lab)
+    page.get_by_role("button", name="Cursors").click()
+
+
+def show_design(page: Page, lab: Lab) -> None:
+    """Poles on the s-plane with what they would do."""
+    compare(lab)
+    page.goto(lab.url)
+    page.get_by_role("button", name="Place poles").click()
+    page.get_by_role("spinbutton", name=re.compile("^Position")).first.fill("45")
+    page.keyboard.press("Enter")
+
+
+def show_overlay(page: Page, lab: Lab) -> None:
+    """Two recorded runs laid over one another from their load on."""
+    for stiffness in (15, 60):
+        compare(lab, 3)
+        reference = {"kind": "constant", "stiffness_nm_per_rad": stiffness}
+        lab.client.put(lab.session + "/stiffness", json=reference).raise_for_status()
+        lab.client.post(lab.session + "/pause").raise_for_status()
+        name = {"name": f"{stiffness} N·m/rad"}
+        lab.client.post(lab.session + "/recording", json=name).raise_for_status()
+        lab.jump(3)
+        lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
+        lab.jump(4)
+        lab.client.delete(lab.session + "/recording").raise_for_status()
+    page.goto(lab.url + "/?runs=all")
+    choices = page.get_by_role("checkbox", name=re.compile("^Choose"))
+    choices.nth(1).wait_for()
+    for choice in choices.all():
+        choice.check()
+    page.get_by_role("button", name=re.compile("^Overlay")).click()
+
+
+def take(
+    browser: Browser,
+    lab: Lab,
+    name: str,
+    show: Callable[[Page, Lab], None],
+    schemes: tuple[Literal["light", "dark"], ...] = ("light",),
+) -> None:
+    """A picture in each colour scheme, small enough for version control."""
+    for scheme in schemes:
+        context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme=scheme)
+        page = context.new_page()
+        page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+        show(page, lab)
+        page.wait_for_timeout(SETTLE_MS)
+        path = FOLDER / f"{name}-{scheme}.png"
+        page.screenshot(path=path)
+        context.close()
+        Image.open(path).convert("RGB").quantize(COLORS).save(path, optimize=True)
 
 
 def take_screenshots() -> None:
-    """FL beside NDOBC 4 s after the 3 kg load, light and dark."""
+    """Every picture of the README."""
     FOLDER.mkdir(exist_ok=True)
     with run_lab() as lab, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=find_chromium(), args=ARGUMENTS)
-        for scheme in ("light", "dark"):
-            lab.load_figure()
-            lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
-            context = browser.new_context(
-                viewport={"width": 1280, "height": 720}, color_scheme=scheme
-            )
-            page = context.new_page()
-            page.goto(lab.url)
-            page.wait_for_timeout(12_000)
-            page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
-            page.wait_for_timeout(4_000)
-            path = FOLDER / f"dashboard-{scheme}.png"
-            page.screenshot(path=path)
-            context.close()
-            Image.open(path).convert("RGB").quantize(COLORS).save(path, optimize=True)
+        take(browser, lab, "dashboard", show_dashboard, ("light", "dark"))
+        take(browser, lab, "cursors", show_cursors)
+        take(browser, lab, "design", show_design)
+        take(browser, lab, "overlay", show_overlay)
         browser.close()
 
 
