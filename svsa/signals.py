@@ -104,3 +104,20 @@ CHANNELS = (
 
 CHANNEL_NAMES = tuple(channel.name for channel in CHANNELS)
 CHANNEL_INDEX = {channel.name: index for index, channel in enumerate(CHANNELS)}
+
+PLOTTED = (
+    "position_reference_rad",
+    "position_rad",
+    "position_error_rad",
+    "stiffness_reference_nm_per_rad",
+    "stiffness_nm_per_rad",
+    "torque1_nm",
+    "torque2_nm",
+    "disturbance_link_nm",
+    "disturbance_motor1_nm",
+    "disturbance_motor2_nm",
+    "estimate_link_nm",
+    "estimate_motor1_nm",
+    "estimate_motor2_nm",
+)
+"""Names of the channels that a stream, a replay and an extract of a run hold by default."""

@@ -17,7 +17,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from svsa.errors import ParameterError, Violation
 from svsa.runtime.session import Session
-from svsa.signals import CHANNEL_INDEX, CHANNELS
+from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.schemas import StreamRequest
 from svsa_server.state import build_progress, build_state
 
@@ -27,22 +27,6 @@ SLOW_AFTER_S = 0.5
 HEADER = struct.Struct("<4sIQIIII")
 MAGIC = b"SVSA"
 
-DEFAULT_CHANNELS = (
-    "position_reference_rad",
-    "position_rad",
-    "position_error_rad",
-    "stiffness_reference_nm_per_rad",
-    "stiffness_nm_per_rad",
-    "torque1_nm",
-    "torque2_nm",
-    "disturbance_link_nm",
-    "disturbance_motor1_nm",
-    "disturbance_motor2_nm",
-    "estimate_link_nm",
-    "estimate_motor1_nm",
-    "estimate_motor2_nm",
-)
-
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
     """rate_hz, history_s, lanes and channels of an address; raises `ParameterError`.
@@ -50,7 +34,7 @@ def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str
     lanes: "all", or numbers from 1 with commas; lane 1 if left out.
     """
     numbers: dict[str, Any] = {}
-    channels = DEFAULT_CHANNELS
+    channels = PLOTTED
     for name, text in query.items():
         if name == "channels":
             channels = tuple(dict.fromkeys(text.split(",")))

@@ -25,6 +25,7 @@ from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.scene_bridge import SceneBridge
 from svsa_server.scenes import Scenes
 from svsa_server.viser_proxy import ViserProxy, filter_browser_message
+from tests.service.poses import make_pose
 
 SUBPROTOCOL = websockets.Subprotocol(f"viser-v{viser.__version__}")
 LINK = "/a/l"
@@ -52,23 +53,6 @@ FORGED: list[dict[str, Any]] = [
     {**CAMERA, "position": [0.0, math.inf, 0.0]},
     {**CAMERA, "position": "xyz"},
 ]
-
-
-def make_pose(position_rad: float = 0.0, **changes: float) -> ActuatorPose:
-    values = {
-        "position_rad": position_rad,
-        "position_reference_rad": position_rad,
-        "motor1_position_rad": position_rad,
-        "motor2_position_rad": 0.0,
-        "lever_ratio": 0.54,
-        "stiffness_nm_per_rad": 15.0,
-        "torque1_nm": 0.0,
-        "torque2_nm": 0.0,
-        "disturbance_link_nm": 0.0,
-        "load_mass_kg": 0.0,
-        "deflection_limit_rad": 0.5,
-    }
-    return ActuatorPose(**{**values, **changes})
 
 
 class Lab:

@@ -9,8 +9,9 @@ from typing import Any
 import pytest
 import viser
 
-from svsa_scene import ActuatorPose, ActuatorScene, RivalPose
+from svsa_scene import ActuatorScene, RivalPose
 from svsa_scene.arrows import compute_arrow_length
+from tests.service.poses import make_pose
 
 
 @pytest.fixture
@@ -19,23 +20,6 @@ def server() -> Iterator[viser.ViserServer]:
         server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     yield server
     server.stop()
-
-
-def make_pose(**changes: Any) -> ActuatorPose:
-    values: dict[str, Any] = {
-        "position_rad": 0.0,
-        "position_reference_rad": 0.0,
-        "motor1_position_rad": 0.0,
-        "motor2_position_rad": 0.0,
-        "lever_ratio": 0.54,
-        "stiffness_nm_per_rad": 15.0,
-        "torque1_nm": 0.0,
-        "torque2_nm": 0.0,
-        "disturbance_link_nm": 0.0,
-        "load_mass_kg": 0.0,
-        "deflection_limit_rad": 0.5,
-    }
-    return ActuatorPose(**(values | changes))
 
 
 def get_node(server: viser.ViserServer, name: str) -> Any:

@@ -14,9 +14,9 @@ from svsa.runtime.catalogue.runs import Catalogue
 from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runtime.recording.decimation import decimate
 from svsa.runtime.recording.reader import Record
+from svsa.signals import PLOTTED
 from svsa_server.replay_export import build_replay
 from svsa_server.run_schemas import RunMetrics, RunSamples
-from svsa_server.stream import DEFAULT_CHANNELS
 
 MOST_POINTS = 20_000
 REPLAY_AGE_S = 600
@@ -112,7 +112,7 @@ def _measure(values: np.ndarray, period_s: float) -> Metrics | None:
 def _choose_channels(record: Record, channels: str | None) -> list[str]:
     there = record.header.channel_names
     if channels is None:
-        return [name for name in DEFAULT_CHANNELS if name in there] or list(there)
+        return [name for name in PLOTTED if name in there] or list(there)
     names = list(dict.fromkeys(name.strip() for name in channels.split(",")))
     for name in names:
         if name not in there:

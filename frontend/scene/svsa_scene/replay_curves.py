@@ -7,26 +7,12 @@ import numpy as np
 import numpy.typing as npt
 
 from svsa.runtime.command import KINDS
+from svsa.signals import PLOTTED
 from svsa_scene.replay_packing import ArrayPack
 
 Array = npt.NDArray[np.float64]
 
 MOST_POINTS = 9000
-DRAWN = (
-    "position_rad",
-    "position_reference_rad",
-    "position_error_rad",
-    "stiffness_nm_per_rad",
-    "stiffness_reference_nm_per_rad",
-    "torque1_nm",
-    "torque2_nm",
-    "disturbance_link_nm",
-    "disturbance_motor1_nm",
-    "disturbance_motor2_nm",
-    "estimate_link_nm",
-    "estimate_motor1_nm",
-    "estimate_motor2_nm",
-)
 
 
 class Event(NamedTuple):
@@ -66,7 +52,7 @@ def pack_curves(
                 pack.add(decimate(samples[:, lane, channels.index(name)], stride))
                 for lane in range(samples.shape[1])
             ]
-            for name in DRAWN
+            for name in PLOTTED
             if name in channels
         },
     }

@@ -10,7 +10,7 @@ export const FONT = "11px system-ui, sans-serif";
 /** Steps of a time axis, s. */
 export const TIME_STEPS_S = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 
-const plainAxis = (): uPlot.Axis => ({
+export const plainAxis = (): uPlot.Axis => ({
   stroke: () => palette.peek().axis,
   grid: { stroke: () => palette.peek().grid, width: 1 },
   ticks: { show: false },

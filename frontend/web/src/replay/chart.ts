@@ -1,18 +1,16 @@
 /** One uPlot of the replay: curves that stand still, a line at the present time. */
 import uPlot from "uplot";
+import { plainAxis, valueAxis } from "../plots/axes";
 import { palette } from "../plots/palette";
 import { niceRange } from "../plots/range";
 import { text } from "../text/replay";
-import { formatNumber } from "../units";
 import { range, seek, showAll, showRange, timeS } from "./clock";
 import type { Curve } from "./curves";
 import type { RunEvent } from "./data";
 import { drawEventLabels, drawEvents } from "./marks";
 
-const Y_AXIS_PX = 50;
 const X_AXIS_PX = 24;
 const LABELS_PX = 17;
-const FONT = "11px system-ui, sans-serif";
 const SMALLEST_DRAG_PX = 4;
 
 export interface ChartContent {
@@ -132,29 +130,11 @@ function select(plot: uPlot): void {
   showRange(plot.posToVal(left, "x"), plot.posToVal(left + width, "x"));
 }
 
-const axis = (): uPlot.Axis => ({
-  stroke: () => palette.peek().axis,
-  grid: { stroke: () => palette.peek().grid, width: 1 },
-  ticks: { show: false },
-  font: FONT,
-  gap: 4,
-});
-
 const timeAxis = (isLast: boolean): uPlot.Axis => ({
-  ...axis(),
+  ...plainAxis(),
   size: isLast ? X_AXIS_PX : 0,
   space: 70,
   values: (_, splits) => splits.map((value) => (isLast ? text.plots.timeTick(value) : "")),
-});
-
-const valueAxis = (): uPlot.Axis => ({
-  ...axis(),
-  size: Y_AXIS_PX,
-  space: 17,
-  values: (_, splits, __, ___, step) => {
-    const decimals = (String(Number(step.toPrecision(3))).split(".")[1] ?? "").length;
-    return splits.map((value) => formatNumber(Number(value.toFixed(decimals)), 12, decimals));
-  },
 });
 
 function drawnCurve(curve: Curve): uPlot.Series {

@@ -1,13 +1,11 @@
 /** One uPlot of an overlay: curves with times of their own, a line where the load came on. */
 import uPlot from "uplot";
+import { plainAxis, valueAxis } from "../plots/axes";
 import { palette } from "../plots/palette";
 import { niceRange } from "../plots/range";
 import { text } from "../text/en";
-import { formatNumber } from "../units";
 import type { Overlaid, OverlayChannel } from "./overlaid";
 
-const Y_AXIS_PX = 54;
-const FONT = "11px system-ui, sans-serif";
 const SMALLEST_DRAG_PX = 4;
 const SPANS: Record<OverlayChannel, number> = {
   position_error_rad: 0.004,
@@ -39,12 +37,12 @@ export class OverlayChart {
         },
         axes: [
           {
-            ...axis(),
+            ...plainAxis(),
             size: 26,
             space: 70,
             values: (_, splits) => splits.map(text.overlay.timeTick),
           },
-          { ...axis(), size: Y_AXIS_PX, space: 24, values: writeValues },
+          valueAxis(),
         ],
         series: [{}, ...curves.map(drawn)],
         hooks: { drawClear: [drawOnset], setScale: [followTime] },
@@ -98,20 +96,6 @@ function drawOnset(plot: uPlot): void {
   context.lineTo(x, bbox.top + bbox.height);
   context.stroke();
   context.restore();
-}
-
-const axis = (): uPlot.Axis => ({
-  stroke: () => palette.peek().axis,
-  grid: { stroke: () => palette.peek().grid, width: 1 },
-  ticks: { show: false },
-  font: FONT,
-  gap: 4,
-});
-
-function writeValues(_: uPlot, splits: number[]): string[] {
-  const step = Math.abs((splits[1] ?? 1) - (splits[0] ?? 0));
-  const decimals = (String(Number(step.toPrecision(3))).split(".")[1] ?? "").length;
-  return splits.map((value) => formatNumber(Number(value.toFixed(decimals)), 12, decimals));
 }
 
 function drawn(curve: Overlaid): uPlot.Series {
