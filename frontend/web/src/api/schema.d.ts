@@ -272,6 +272,33 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/control": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Take Control
+         * @description Only the client that SVSA-Client names may command from now on; all may pause and stop.
+         *
+         *     Where another client is in control, only with `take_over`. Control ends by itself some time
+         *     after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
+         */
+        put: operations["take_control_api_v1_sessions__session__control_put"];
+        post?: never;
+        /**
+         * Give Control Back
+         * @description Everybody may command again.
+         */
+        delete: operations["give_control_back_api_v1_sessions__session__control_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/bench/arm": {
         parameters: {
             query?: never;
@@ -1025,6 +1052,11 @@ export interface components {
              * @description Somebody must watch while it runs
              */
             operator_required: boolean;
+            /**
+             * Dead Man
+             * @description It runs only while somebody holds the switch: any message on the stream of whoever may command, every 0.1 s
+             */
+            dead_man: boolean;
             loop: components["schemas"]["LoopState"];
         };
         /**
@@ -1165,6 +1197,44 @@ export interface components {
              * @default 1
              */
             transition_s: number;
+        };
+        /**
+         * ControlRequest
+         * @description Takes control of a session.
+         */
+        ControlRequest: {
+            /**
+             * By
+             * @description Who is in control, as everybody is told
+             */
+            by: string;
+            /**
+             * Take Over
+             * @description Whoever is in control loses it
+             * @default false
+             */
+            take_over: boolean;
+        };
+        /**
+         * ControlState
+         * @description Who may command a session; everybody may watch, pause and stop it.
+         */
+        ControlState: {
+            /**
+             * Holder
+             * @description Who is in control; null: everybody may command
+             */
+            holder: string | null;
+            /**
+             * Mine
+             * @description Whether it is the client that this answer is for
+             */
+            mine: boolean;
+            /**
+             * Watching
+             * @description Streams of the session that are open
+             */
+            watching: number;
         };
         /**
          * ControllerRequest
@@ -2339,6 +2409,7 @@ export interface components {
             bench: components["schemas"]["BenchState"] | null;
             /** Session */
             session: string;
+            control: components["schemas"]["ControlState"];
             /** Rate Hz */
             rate_hz: number;
             configuration: components["schemas"]["ConfigurationState"];
@@ -2682,7 +2753,10 @@ export interface operations {
     list_sessions_api_v1_sessions_get: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -2706,7 +2780,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2757,7 +2831,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2780,7 +2854,10 @@ export interface operations {
     read_session_api_v1_sessions__session__get: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2807,7 +2884,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2830,7 +2907,10 @@ export interface operations {
     end_session_api_v1_sessions__session__delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2855,7 +2935,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2878,7 +2958,10 @@ export interface operations {
     start_api_v1_sessions__session__start_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2905,7 +2988,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2928,7 +3011,10 @@ export interface operations {
     pause_api_v1_sessions__session__pause_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2955,7 +3041,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2978,7 +3064,10 @@ export interface operations {
     stop_at_once_api_v1_sessions__session__emergency_stop_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3005,7 +3094,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3028,7 +3117,10 @@ export interface operations {
     reset_api_v1_sessions__session__reset_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3055,7 +3147,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3078,7 +3170,10 @@ export interface operations {
     step_api_v1_sessions__session__step_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3109,7 +3204,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3132,7 +3227,10 @@ export interface operations {
     set_speed_api_v1_sessions__session__speed_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3163,7 +3261,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3186,7 +3284,10 @@ export interface operations {
     load_experiment_api_v1_sessions__session__experiment_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3217,7 +3318,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3237,10 +3338,70 @@ export interface operations {
             };
         };
     };
-    arm_api_v1_sessions__session__bench_arm_post: {
+    take_control_api_v1_sessions__session__control_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ControlRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    give_control_back_api_v1_sessions__session__control_delete: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3267,7 +3428,60 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    arm_api_v1_sessions__session__bench_arm_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3290,7 +3504,10 @@ export interface operations {
     confirm_home_api_v1_sessions__session__bench_home_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3321,7 +3538,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3344,7 +3561,10 @@ export interface operations {
     clear_fault_api_v1_sessions__session__bench_clear_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3371,7 +3591,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3394,7 +3614,10 @@ export interface operations {
     set_position_api_v1_sessions__session__position_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3425,7 +3648,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3448,7 +3671,10 @@ export interface operations {
     set_stiffness_api_v1_sessions__session__stiffness_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3479,7 +3705,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3502,7 +3728,10 @@ export interface operations {
     set_controller_api_v1_sessions__session__controller_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3533,7 +3762,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3556,7 +3785,10 @@ export interface operations {
     set_gains_api_v1_sessions__session__gains_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3587,7 +3819,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3610,7 +3842,10 @@ export interface operations {
     set_observer_api_v1_sessions__session__observer_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3641,7 +3876,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3664,7 +3899,10 @@ export interface operations {
     change_actuator_api_v1_sessions__session__actuator_patch: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3695,7 +3933,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3718,7 +3956,10 @@ export interface operations {
     change_nominal_api_v1_sessions__session__nominal_patch: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3749,7 +3990,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3772,7 +4013,10 @@ export interface operations {
     set_effects_api_v1_sessions__session__effects_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3803,7 +4047,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3826,7 +4070,10 @@ export interface operations {
     set_lanes_api_v1_sessions__session__lanes_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3857,7 +4104,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3880,7 +4127,10 @@ export interface operations {
     predict_design_api_v1_sessions__session__predict_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3911,7 +4161,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3934,7 +4184,10 @@ export interface operations {
     apply_load_api_v1_sessions__session__loads_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3965,7 +4218,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3988,7 +4241,10 @@ export interface operations {
     clear_loads_api_v1_sessions__session__loads_delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4015,7 +4271,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4038,7 +4294,10 @@ export interface operations {
     remove_load_api_v1_sessions__session__loads__load_id__delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 load_id: number;
                 /** @description Name of the session */
@@ -4066,7 +4325,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4089,7 +4348,10 @@ export interface operations {
     start_recording_api_v1_sessions__session__recording_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4120,7 +4382,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4143,7 +4405,10 @@ export interface operations {
     stop_recording_api_v1_sessions__session__recording_delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4170,7 +4435,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4223,7 +4488,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4272,7 +4537,7 @@ export interface operations {
                     "text/html": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4321,7 +4586,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4380,7 +4645,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4435,7 +4700,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4485,7 +4750,7 @@ export interface operations {
                     "text/html": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4508,7 +4773,10 @@ export interface operations {
     read_origin_api_v1_sessions__session__origin_get: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4535,7 +4803,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4585,7 +4853,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4643,7 +4911,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4693,7 +4961,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4743,7 +5011,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4797,7 +5065,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4847,7 +5115,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4900,7 +5168,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
