@@ -47,7 +47,7 @@ def list_changing() -> list[tuple[str, str]]:
     return [
         (method, route.path.partition("{session}")[2])
         for route in list_session_routes(build_app().router.routes)
-        for method in sorted(route.methods & CHANGING)
+        for method in sorted((route.methods or set()) & CHANGING)
     ]
 
 

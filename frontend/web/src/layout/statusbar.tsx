@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import type { BenchState, SessionState } from "../api/types";
+import { ControlCell } from "../control/cell";
 import { StopButton } from "../safety/stopbutton";
 import { isLive, missedSamples, phase, session } from "../state/session";
 import { text } from "../text/en";
@@ -115,6 +116,7 @@ export function StatusBar() {
           (state.bench ? <BenchLoop bench={state.bench} /> : <SimulatedLoop state={state} />)}
         {state && <RecordingCell state={state} />}
         <Connection />
+        {state && <ControlCell />}
       </dl>
       <StopButton />
     </section>
