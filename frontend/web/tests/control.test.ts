@@ -97,28 +97,40 @@ describe("the dead-man's switch", () => {
     expect(isHeld.value, "there is nothing to hold").toBe(false);
   });
 
-  it("remembers that it was let go in a run, until it is held again", async () => {
-    const { hold, letGo, wasLetGo, session } = await load();
+  it("remembers what ended a run, until it is held again or runs again", async () => {
+    const { hold, letGo, ended, watchHold, session } = await load();
+    watchHold();
     hold("key");
     letGo("key");
-    expect(wasLetGo.value).toBe(false);
+    expect(ended.value).toBeNull();
     hold("key");
     session.value = { bench: { dead_man: true, status: "run" } };
     letGo("key");
-    expect(wasLetGo.value).toBe(true);
+    expect(ended.value).toBe("letGo");
     hold("key");
-    expect(wasLetGo.value).toBe(false);
+    expect(ended.value).toBeNull();
+    vi.advanceTimersByTime(400);
+    expect(ended.value).toBeNull();
+    const now = vi.spyOn(performance, "now").mockReturnValue(performance.now() + 500);
+    vi.advanceTimersByTime(40);
+    expect(ended.value).toBeNull();
+    session.value = { bench: { dead_man: true, status: "ramp" } };
+    expect(ended.value).toBe("late");
+    now.mockRestore();
+    session.value = { bench: { dead_man: true, status: "run" } };
+    expect(ended.value).toBeNull();
   });
 
   it("is told by what the bench does", async () => {
     const { wordsFor } = await load();
-    expect(wordsFor("off", false, false)).toBe("idle");
-    expect(wordsFor("ready", false, false)).toBe("ready");
-    expect(wordsFor("ready", true, false)).toBe("armed");
-    expect(wordsFor("run", true, false)).toBe("running");
-    expect(wordsFor("run", false, true)).toBe("dropped");
-    expect(wordsFor("ramp", true, true)).toBe("dropped");
-    expect(wordsFor("ready", false, true)).toBe("stopped");
+    expect(wordsFor("off", false, null)).toBe("idle");
+    expect(wordsFor("ready", false, null)).toBe("ready");
+    expect(wordsFor("ready", true, null)).toBe("armed");
+    expect(wordsFor("run", true, null)).toBe("running");
+    expect(wordsFor("run", false, "letGo")).toBe("dropped");
+    expect(wordsFor("ramp", true, "late")).toBe("dropped");
+    expect(wordsFor("ready", false, "letGo")).toBe("letGo");
+    expect(wordsFor("ready", true, "late")).toBe("late");
   });
 });
 

@@ -1,20 +1,27 @@
 /** The dead-man's switch: held by a pointer, a key on its button, or the key D, and how it is told. */
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import type { BenchState } from "../api/types";
 import { mayCommand } from "../state/control";
 import { saySwitchIsHeld, session } from "../state/session";
 
 export type Grip = "pointer" | "button" | "key";
-export type HoldWords = "idle" | "ready" | "armed" | "running" | "dropped" | "stopped";
+/** What ended the last run of this page's holding: its user, or its being too busy to be heard. */
+export type Ended = "letGo" | "late";
+export type HoldWords = "idle" | "ready" | "armed" | "running" | "dropped" | Ended;
 
-/** Well inside the 0.1 s after which the bench ramps to zero. */
 const PERIOD_MS = 40;
+/** Silence after which the bench ramps to zero. */
+const SILENCE_MS = 100;
+/** A run that ends so soon after such a silence of this page has ended for it. */
+const LATE_MS = 1000;
 const grips = new Set<Grip>();
 let timer: ReturnType<typeof setInterval> | undefined;
+let saidAt = 0;
+let lateAt = Number.NEGATIVE_INFINITY;
 
 export const isHeld = signal(false);
-/** Whether it was let go while the bench ran, and has not been held since. */
-export const wasLetGo = signal(false);
+/** Null from the next holding or the next run on. */
+export const ended = signal<Ended | null>(null);
 
 /** Whether holding it would count. */
 export const canHold = (): boolean => mayCommand.peek() && session.peek()?.bench?.dead_man === true;
@@ -24,9 +31,19 @@ export function hold(grip: Grip): void {
   grips.add(grip);
   if (isHeld.peek()) return;
   isHeld.value = true;
-  wasLetGo.value = false;
+  ended.value = null;
   saySwitchIsHeld();
-  timer = setInterval(saySwitchIsHeld, PERIOD_MS);
+  saidAt = performance.now();
+  timer = setInterval(sayAgain, PERIOD_MS);
+}
+
+const isRunning = (): boolean => session.peek()?.bench?.status === "run";
+
+function sayAgain(): void {
+  const now = performance.now();
+  if (now - saidAt > SILENCE_MS) lateAt = now;
+  saidAt = now;
+  saySwitchIsHeld();
 }
 
 export function letGo(grip: Grip): void {
@@ -42,16 +59,19 @@ export function letGoAll(): void {
 function release(): void {
   clearInterval(timer);
   isHeld.value = false;
-  wasLetGo.value = session.peek()?.bench?.status === "run";
+  if (isRunning()) ended.value = "letGo";
 }
 
 /** What to say of it. */
-export function wordsFor(status: BenchState["status"], held: boolean, letGone: boolean): HoldWords {
-  if (status === "run") return held ? "running" : "dropped";
-  if (status === "ramp") return "dropped";
+export function wordsFor(
+  status: BenchState["status"],
+  held: boolean,
+  end: Ended | null,
+): HoldWords {
+  if (status === "run" && held) return "running";
+  if (status === "run" || status === "ramp") return "dropped";
   if (status !== "ready") return "idle";
-  if (held) return "armed";
-  return letGone ? "stopped" : "ready";
+  return end ?? (held ? "armed" : "ready");
 }
 
 /** Whatever takes the page from its user lets go: another window, another tab, a lost connection. */
@@ -63,5 +83,10 @@ export function watchHold(): void {
   });
   effect(() => {
     if (!mayCommand.value || session.value?.bench?.dead_man !== true) letGoAll();
+  });
+  const runs = computed(() => session.value?.bench?.status === "run");
+  effect(() => {
+    if (runs.value) ended.value = null;
+    else if (isHeld.peek() && performance.now() - lateAt < LATE_MS) ended.value = "late";
   });
 }

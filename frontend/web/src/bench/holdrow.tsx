@@ -2,7 +2,7 @@ import { useId } from "preact/hooks";
 import type { BenchState } from "../api/types";
 import { mayCommand, otherHolder } from "../state/control";
 import { text } from "../text/en";
-import { type Grip, hold, isHeld, letGo, wasLetGo, wordsFor } from "./hold";
+import { ended, type Grip, hold, isHeld, letGo, wordsFor } from "./hold";
 
 const words = text.hold;
 const isGripKey = (event: KeyboardEvent): boolean => event.key === " " || event.key === "Enter";
@@ -55,7 +55,7 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
         <strong>
           <span aria-hidden="true">{held ? "●" : "○"}</span> {held ? words.held : words.notHeld}
         </strong>{" "}
-        {other === null ? words.words[wordsFor(status, held, wasLetGo.value)] : words.other(other)}
+        {other === null ? words.words[wordsFor(status, held, ended.value)] : words.other(other)}
       </p>
     </section>
   );
