@@ -62,7 +62,7 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
   }
   const late = text.status.late(formatLapse(loop.lateness_p50_s), formatLapse(loop.lateness_p99_s));
   return (
-    <Cell name={text.status.loop} class="is-loop" hint={text.status.lateHint}>
+    <Cell name={text.status.loop} class="is-loop is-bench" hint={text.status.lateHint}>
       {text.status.rate(loop.rate_hz)}{" "}
       <small>
         {late} · {text.status.skipped(loop.skipped_ticks)}
