@@ -14,7 +14,17 @@ from svsa_server.errors import install_error_handlers
 from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
-from svsa_server.routes import bench, design, lab, loads, recordings, runs, sessions, settings
+from svsa_server.routes import (
+    bench,
+    control,
+    design,
+    lab,
+    loads,
+    recordings,
+    runs,
+    sessions,
+    settings,
+)
 from svsa_server.scenes import Scenes
 from svsa_server.viser_proxy import ViserProxy
 
@@ -44,7 +54,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
     app.add_middleware(AccessGuard, secret=secret)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
-    for part in (lab, sessions, bench, settings, design, loads, recordings, runs):
+    for part in (lab, sessions, control, bench, settings, design, loads, recordings, runs):
         api.include_router(part.router)
     app.include_router(api)
     app.router.routes.extend(build_page_routes())
@@ -56,7 +66,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     """Start the sessions and the 3D view, and end them with the server."""
     config: Settings = app.state.config
     shared = app.state.shared or build_shared_session(None)
-    laboratory = Laboratory(shared, config.most_sessions, config.idle_s)
+    laboratory = Laboratory(shared, config.most_sessions, config.idle_s, config.control_s)
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)

@@ -57,4 +57,8 @@ class BenchState(BaseModel):
     ages_s: tuple[float, float, float] = Field(description="Of motor 1, motor 2, deflection")
     supervised: bool = Field(description="The supervisor's heartbeat is fresh")
     operator_required: bool = Field(description="Somebody must watch while it runs")
+    dead_man: bool = Field(
+        description="It runs only while somebody holds the switch: any message on the stream of"
+        " whoever may command, every 0.1 s"
+    )
     loop: LoopState

@@ -26,6 +26,7 @@ def build_bench_state(session: BenchSession) -> BenchState:
         ages_s=tuple(np.minimum(fields["ages_s"], 1e3).tolist()),
         supervised=session.supervised,
         operator_required=bench.safety.needs_watcher,
+        dead_man=bench.safety.dead_man,
         loop=_build_loop(session),
     )
 

@@ -15,6 +15,8 @@ class Settings(BaseSettings):
     """Deployment: SVSA_SECRET is the shared secret that everyone who uses the lab knows.
 
     SVSA_MOST_SESSIONS: private sessions at once. SVSA_IDLE_S: how long one lives unused, s.
+    SVSA_CONTROL_S: how long control of a session outlives the last stream and call of whoever
+    has it, s.
     SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
     """
 
@@ -23,6 +25,7 @@ class Settings(BaseSettings):
     secret: SecretStr | None = None
     most_sessions: int = Field(default=48, ge=0, le=1000)
     idle_s: float = Field(default=600.0, ge=1)
+    control_s: float = Field(default=15.0, ge=1)
     bench: Path | None = None
 
     @property

@@ -12,6 +12,7 @@ from svsa.checked import explain_problems
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.runtime.catalogue.entry import CatalogueError, UnknownRunError
 from svsa.runtime.recording.header import RecordError
+from svsa_server.control import HeldError
 
 LONGEST_ECHO = 200
 
@@ -52,6 +53,10 @@ def install_error_handlers(app: FastAPI) -> None:
     @app.exception_handler(StateError)
     def refuse_state(_: Request, error: StateError) -> JSONResponse:
         return _answer(409, "not_now", str(error))
+
+    @app.exception_handler(HeldError)
+    def refuse_other(_: Request, error: HeldError) -> JSONResponse:
+        return _answer(409, "held", str(error))
 
     @app.exception_handler(RecordError)
     def refuse_record(_: Request, error: RecordError) -> JSONResponse:

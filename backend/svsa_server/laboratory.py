@@ -17,6 +17,7 @@ from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.realtime.session import BenchSession, Hands
 from svsa.runtime.session import Session
+from svsa_server.control import get_hand
 from svsa_server.errors import UnknownError
 
 WAKE_PERIOD_S = 1.0 / 60.0
@@ -30,13 +31,17 @@ class Laboratory:
     """The sessions by name: the shared one, and private ones that end when nobody uses them.
 
     most_sessions: private ones at once. idle_s: how long a private session lives without a
-    request or a stream, s.
+    request or a stream, s. control_s: how long control of a session outlives what its holder
+    does, s.
     """
 
-    def __init__(self, shared: Session, most_sessions: int, idle_s: float) -> None:
+    def __init__(
+        self, shared: Session, most_sessions: int, idle_s: float, control_s: float
+    ) -> None:
         self.sessions = {shared.name: shared}
         self._most_sessions = most_sessions
         self._idle_s = idle_s
+        self._control_s = control_s
         self._last_use = {shared.name: math.inf}
 
     def get(self, name: str) -> Session:
@@ -92,6 +97,7 @@ class Laboratory:
         """A stream of this session begins (+1) or ends (−1): a watched session is not idle."""
         if name in self.sessions:
             self.sessions[name].watchers += watchers
+            self.sessions[name].version += 1
             self._last_use[name] = max(self._last_use[name], time.monotonic())
 
     async def run(self) -> None:
@@ -99,6 +105,7 @@ class Laboratory:
         while True:
             begin = time.monotonic()
             self._end_idle(begin)
+            self.free_hands(begin)
             for session in list(self.sessions.values()):
                 self._wake(session)
             await asyncio.sleep(max(0.001, begin + WAKE_PERIOD_S - time.monotonic()))
@@ -122,6 +129,12 @@ class Laboratory:
             session.burst(time.monotonic())
             if time.monotonic() >= end:
                 break
+
+    def free_hands(self, now: float) -> None:
+        """End the control of whoever is gone at `now` (monotonic, s), and tell everybody."""
+        for session in self.sessions.values():
+            if get_hand(session).free_if_left(now, self._control_s):
+                session.version += 1
 
     def _end_idle(self, now: float) -> None:
         for name, last in list(self._last_use.items()):

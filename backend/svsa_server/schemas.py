@@ -16,6 +16,7 @@ from svsa.runtime.configuration import MOST_LANES, Lane, Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.session import Event
 from svsa_server.bench_schemas import BenchState
+from svsa_server.control_schemas import ControlState
 
 _Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_PER_S)]
 Pole = _Part | tuple[_Part, _Part]
@@ -251,6 +252,7 @@ class SessionState(SessionProgress):
     """A session: where it is, how well it does, and how it is set."""
 
     session: str
+    control: ControlState
     rate_hz: float
     configuration: ConfigurationState
     loads: list[LoadState]

@@ -13,6 +13,7 @@ from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
+from svsa_server.control import build_control
 from svsa_server.schemas import (
     ConfigurationState,
     GainsState,
@@ -55,6 +56,7 @@ def build_state(session: Session) -> SessionState:
     return SessionState(
         **dict(build_progress(session)),
         session=session.name,
+        control=build_control(session),
         rate_hz=1.0 / run.period_s,
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],

@@ -2,6 +2,9 @@
 
 A batch is 32 bytes, little-endian — u32 magic "SVSA", u32 run, u64 first tick, u32 stride
 in ticks, u32 count, u32 missed samples, u32 lanes — and float32[count][lanes][channels].
+
+Every message of the client holds the dead-man's switch of a bench for 0.1 s, as long as the
+client may command: it is in control, or nobody is.
 """
 
 import asyncio
@@ -18,6 +21,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from svsa.errors import ParameterError, Violation
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
+from svsa_server.control import asking, get_hand, read_client
 from svsa_server.schemas import StreamRequest
 from svsa_server.state import build_progress, build_state
 
@@ -106,26 +110,32 @@ async def stream_session(websocket: WebSocket, session: Session) -> None:
     """Serve one client until it leaves."""
     await websocket.accept()
     try:
-        request, channels = read_stream_request(dict(websocket.query_params))
+        query = dict(websocket.query_params)
+        client = read_client(query.pop("client", None), "client")
+        request, channels = read_stream_request(query)
         cursor = SampleCursor(session, request, channels)
     except ParameterError as error:
         await websocket.send_json({"type": "error", "message": str(error)})
         await websocket.close(1008)
         return
+    asking.set(client)
     sender = asyncio.create_task(_send(websocket, session, cursor, channels))
-    listener = asyncio.create_task(_listen(websocket, session))
-    try:
-        await asyncio.wait({sender, listener}, return_when=asyncio.FIRST_COMPLETED)
-    finally:
-        for task in (sender, listener):
-            task.cancel()
-        await asyncio.gather(sender, listener, return_exceptions=True)
+    listener = asyncio.create_task(_listen(websocket, session, client))
+    with get_hand(session).watched_by(client):
+        try:
+            await asyncio.wait({sender, listener}, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in (sender, listener):
+                task.cancel()
+            await asyncio.gather(sender, listener, return_exceptions=True)
 
 
-async def _listen(websocket: WebSocket, session: Session) -> None:
+async def _listen(websocket: WebSocket, session: Session, client: str | None) -> None:
     """Wait for the client to leave; whatever it says holds the dead-man's switch of a bench."""
+    hand = get_hand(session)
     while (await websocket.receive())["type"] != "websocket.disconnect":
-        session.hear_operator()
+        if hand.admits(client):
+            session.hear_operator()
 
 
 async def _send(

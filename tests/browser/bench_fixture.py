@@ -23,6 +23,7 @@ BENCH: dict[str, Any] = {
     "ages_s": [0.0012, 0.0011, 0.0009],
     "supervised": True,
     "operator_required": False,
+    "dead_man": False,
     "loop": {
         "alive": True,
         "rate_hz": 1000.0,

@@ -87,7 +87,9 @@ class Lab:
 
 @contextlib.asynccontextmanager
 async def running_lab() -> AsyncIterator[Lab]:
-    laboratory = Laboratory(build_shared_session(None), most_sessions=2, idle_s=60.0)
+    laboratory = Laboratory(
+        build_shared_session(None), most_sessions=2, idle_s=60.0, control_s=15.0
+    )
     scenes = Scenes(laboratory)
     await scenes.open("lab")
     proxy = ViserProxy(scenes.open)

@@ -1,26 +1,84 @@
-"""The session that a path names."""
+"""The session that a path names, for a client that may do what it asks there."""
 
+import time
 from typing import Annotated, Any
 
-from fastapi import Depends, Path
+from fastapi import Depends, Header, Path
 from starlette.requests import HTTPConnection
+from starlette.types import Scope
 
+from svsa.errors import ParameterError
 from svsa.runtime.session import Session
+from svsa_server.control import (
+    CHANGING,
+    CLIENT_HEADER,
+    OPEN_TO_ALL,
+    STOPS,
+    asking,
+    get_hand,
+    read_client,
+)
 from svsa_server.errors import ErrorModel
 
 
-def find_session(
+def find_asked(scope: Scope) -> tuple[str | None, str]:
+    """What is asked for: the method, and the path below the session."""
+    return scope.get("method"), scope["route"].path.partition("{session}")[2]
+
+
+async def find_client(
+    connection: HTTPConnection,
+    client: Annotated[
+        str | None,
+        Header(
+            alias=CLIENT_HEADER,
+            description="Who calls: a text that others do not guess; see `PUT …/control`",
+        ),
+    ] = None,
+) -> str | None:
+    """The client that calls, for whom the answer is; None where it does not name itself.
+
+    Raises `ParameterError` for a wrong name, but a stop is not refused for want of one.
+    """
+    name = None
+    try:
+        name = read_client(client, CLIENT_HEADER)
+    except ParameterError:
+        if find_asked(connection.scope) not in STOPS:
+            raise
+    asking.set(name)
+    return name
+
+
+NamedClient = Annotated[str | None, Depends(find_client)]
+
+
+async def find_session(
     connection: HTTPConnection,
     session: Annotated[str, Path(description="Name of the session", examples=["lab"])],
+    client: NamedClient,
 ) -> Session:
-    """The session that the path names; `UnknownError` where there is none."""
-    return connection.app.state.laboratory.get(session)
+    """The session that the path names; `UnknownError` where there is none.
+
+    Every route gets its session here. Raises `HeldError` for a call that changes something
+    while somebody else is in control.
+    """
+    found: Session = connection.app.state.laboratory.get(session)
+    hand = get_hand(found)
+    hand.hear(client, time.monotonic())
+    asked = find_asked(connection.scope)
+    if asked[0] in CHANGING and asked not in OPEN_TO_ALL:
+        hand.check(client, found.name)
+    return found
 
 
 NamedSession = Annotated[Session, Depends(find_session)]
 
 REFUSALS: dict[int | str, dict[str, Any]] = {
     404: {"model": ErrorModel, "description": "No such session, load or run"},
-    409: {"model": ErrorModel, "description": "Not while the session or run is as it is"},
+    409: {
+        "model": ErrorModel,
+        "description": "Not while the session or run is as it is, or somebody else is in control",
+    },
     422: {"model": ErrorModel, "description": "Refused values; nothing was changed"},
 }

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Request, WebSocket
 
 from svsa.experiment.paper import get_figure
-from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
 from svsa_server.schemas import (
     ExperimentRequest,
     SessionRequest,
@@ -20,7 +20,7 @@ router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS)
 
 
 @router.get("")
-async def list_sessions(request: Request) -> list[SessionState]:
+async def list_sessions(request: Request, _: NamedClient) -> list[SessionState]:
     """Every session of this server."""
     return [build_state(session) for session in request.app.state.laboratory.sessions.values()]
 

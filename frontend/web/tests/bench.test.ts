@@ -33,6 +33,8 @@ describe("the states of a bench", () => {
     expect(allowed({ problems: ["No calibration."] })).toEqual([]);
     expect(allowed({ status: "mode" })).toEqual([]);
     expect(allowed({ status: "ready" })).toEqual(["run"]);
+    const deadMan = bench({ status: "ready", dead_man: true });
+    expect([allowedOn(deadMan).run, allowedOn(deadMan, true).run]).toEqual([false, true]);
     expect(allowed({ status: "ready", homing: UNHOMED })).toEqual(["home"]);
     expect(allowed({ status: "run" })).toEqual(["stop"]);
     expect(allowed({ status: "ramp" })).toEqual([]);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { type Focus, findCommand, type KeyPress } from "../src/keys/shortcuts";
+import { endsHold, type Focus, findCommand, type KeyPress } from "../src/keys/shortcuts";
 
 const PLAIN = { shiftKey: false, ctrlKey: false, metaKey: false, altKey: false, repeat: false };
 const press = (key: string, change: Partial<KeyPress> = {}): KeyPress => ({
@@ -29,6 +29,15 @@ describe("keys", () => {
     expect(find("r", "control")).toBe("record");
     expect(find("r", "free", { ctrlKey: true })).toBeNull();
     expect(find("l", "free", { repeat: true })).toBeNull();
+  });
+
+  it("hold a switch, and let go of it where a release might not be heard", () => {
+    expect(find("d")).toBe("hold");
+    expect(find("d", "free", { repeat: true })).toBeNull();
+    expect(find("d", "free", {}, false)).toBeNull();
+    expect(endsHold(press("d"), "free")).toBe(false);
+    expect(endsHold(press("d"), "writing")).toBe(true);
+    expect(endsHold(press("Meta", { metaKey: true }), "free")).toBe(true);
   });
 
   it("can be switched off but for closing the help", () => {

@@ -1,6 +1,7 @@
 /** The public REST API, one function a call. The page has no other door to the server. */
 import { noteCall } from "../script/calls";
 import { LockedError, RefusedError, UnreachableError } from "./errors";
+import { client } from "./identity";
 import type {
   Axis,
   Body,
@@ -23,6 +24,7 @@ const SHARED = "lab";
 export const sessionName = new URLSearchParams(location.search).get("session") ?? SHARED;
 export const isPrivate = sessionName !== SHARED;
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
+const CLIENT_HEADER = "SVSA-Client";
 const LONGEST_WAIT_MS = 6000;
 const LONGEST_STOP_MS = 1500;
 
@@ -35,10 +37,11 @@ export async function request(
   const init: RequestInit = {
     method: method.toUpperCase(),
     cache: "no-store",
+    headers: { [CLIENT_HEADER]: client },
     signal: AbortSignal.timeout(waitMs),
   };
   if (body !== undefined) {
-    init.headers = { "Content-Type": "application/json" };
+    init.headers = { [CLIENT_HEADER]: client, "Content-Type": "application/json" };
     init.body = JSON.stringify(body);
   }
   let response: Response;
@@ -99,6 +102,9 @@ export const addLoad = (load: Load) => call("post", "/loads", load);
 export const removeLoad = (id: number) =>
   request("delete", `${SESSION}/loads/${id}`) as Promise<SessionState>;
 export const removeAllLoads = () => call("delete", "/loads");
+export const takeControl = (by: string, takeOver: boolean) =>
+  call("put", "/control", { by, take_over: takeOver });
+export const giveControlBack = () => call("delete", "/control");
 export const login = (secret: string) => request("post", "login", { secret });
 
 export function streamAddress(rateHz: number, historyS: number, channels: readonly string[]): URL {
@@ -108,5 +114,6 @@ export function streamAddress(rateHz: number, historyS: number, channels: readon
   address.searchParams.set("history_s", String(historyS));
   address.searchParams.set("lanes", "all");
   address.searchParams.set("channels", channels.join(","));
+  address.searchParams.set("client", client);
   return address;
 }

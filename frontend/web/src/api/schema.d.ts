@@ -272,6 +272,33 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/control": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Take Control
+         * @description Only the client that SVSA-Client names may command from now on; all may pause and stop.
+         *
+         *     Where another client is in control, only with `take_over`. Control ends by itself some time
+         *     after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
+         */
+        put: operations["take_control_api_v1_sessions__session__control_put"];
+        post?: never;
+        /**
+         * Give Control Back
+         * @description Everybody may command again.
+         */
+        delete: operations["give_control_back_api_v1_sessions__session__control_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/bench/arm": {
         parameters: {
             query?: never;
@@ -1025,6 +1052,11 @@ export interface components {
              * @description Somebody must watch while it runs
              */
             operator_required: boolean;
+            /**
+             * Dead Man
+             * @description It runs only while somebody holds the switch: any message on the stream of whoever may command, every 0.1 s
+             */
+            dead_man: boolean;
             loop: components["schemas"]["LoopState"];
         };
         /**
@@ -1165,6 +1197,44 @@ export interface components {
              * @default 1
              */
             transition_s: number;
+        };
+        /**
+         * ControlRequest
+         * @description Takes control of a session.
+         */
+        ControlRequest: {
+            /**
+             * By
+             * @description Who is in control, as everybody is told
+             */
+            by: string;
+            /**
+             * Take Over
+             * @description Whoever is in control loses it
+             * @default false
+             */
+            take_over: boolean;
+        };
+        /**
+         * ControlState
+         * @description Who may command a session; everybody may watch, pause and stop it.
+         */
+        ControlState: {
+            /**
+             * Holder
+             * @description Who is in control; null: everybody may command
+             */
+            holder: string | null;
+            /**
+             * Mine
+             * @description Whether it is the client that this answer is for
+             */
+            mine: boolean;
+            /**
+             * Watching
+             * @description Streams of the session that are open
+             */
+            watching: number;
         };
         /**
          * ControllerRequest
@@ -2345,6 +2415,7 @@ export interface components {
             bench: components["schemas"]["BenchState"] | null;
             /** Session */
             session: string;
+            control: components["schemas"]["ControlState"];
             /** Rate Hz */
             rate_hz: number;
             configuration: components["schemas"]["ConfigurationState"];
@@ -2688,7 +2759,10 @@ export interface operations {
     list_sessions_api_v1_sessions_get: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path?: never;
             cookie?: never;
         };
@@ -2712,7 +2786,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2763,7 +2837,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2786,7 +2860,10 @@ export interface operations {
     read_session_api_v1_sessions__session__get: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2813,7 +2890,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2836,7 +2913,10 @@ export interface operations {
     end_session_api_v1_sessions__session__delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2861,7 +2941,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2884,7 +2964,10 @@ export interface operations {
     start_api_v1_sessions__session__start_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2911,7 +2994,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2934,7 +3017,10 @@ export interface operations {
     pause_api_v1_sessions__session__pause_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -2961,7 +3047,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2984,7 +3070,10 @@ export interface operations {
     stop_at_once_api_v1_sessions__session__emergency_stop_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3011,7 +3100,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3034,7 +3123,10 @@ export interface operations {
     reset_api_v1_sessions__session__reset_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3061,7 +3153,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3084,7 +3176,10 @@ export interface operations {
     step_api_v1_sessions__session__step_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3115,7 +3210,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3138,7 +3233,10 @@ export interface operations {
     set_speed_api_v1_sessions__session__speed_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3169,7 +3267,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3192,7 +3290,10 @@ export interface operations {
     load_experiment_api_v1_sessions__session__experiment_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3223,7 +3324,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3243,10 +3344,70 @@ export interface operations {
             };
         };
     };
-    arm_api_v1_sessions__session__bench_arm_post: {
+    take_control_api_v1_sessions__session__control_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ControlRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    give_control_back_api_v1_sessions__session__control_delete: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3273,7 +3434,60 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    arm_api_v1_sessions__session__bench_arm_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3296,7 +3510,10 @@ export interface operations {
     confirm_home_api_v1_sessions__session__bench_home_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3327,7 +3544,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3350,7 +3567,10 @@ export interface operations {
     clear_fault_api_v1_sessions__session__bench_clear_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3377,7 +3597,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3400,7 +3620,10 @@ export interface operations {
     set_position_api_v1_sessions__session__position_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3431,7 +3654,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3454,7 +3677,10 @@ export interface operations {
     set_stiffness_api_v1_sessions__session__stiffness_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3485,7 +3711,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3508,7 +3734,10 @@ export interface operations {
     set_controller_api_v1_sessions__session__controller_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3539,7 +3768,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3562,7 +3791,10 @@ export interface operations {
     set_gains_api_v1_sessions__session__gains_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3593,7 +3825,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3616,7 +3848,10 @@ export interface operations {
     set_observer_api_v1_sessions__session__observer_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3647,7 +3882,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3670,7 +3905,10 @@ export interface operations {
     change_actuator_api_v1_sessions__session__actuator_patch: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3701,7 +3939,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3724,7 +3962,10 @@ export interface operations {
     change_nominal_api_v1_sessions__session__nominal_patch: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3755,7 +3996,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3778,7 +4019,10 @@ export interface operations {
     set_effects_api_v1_sessions__session__effects_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3809,7 +4053,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3832,7 +4076,10 @@ export interface operations {
     set_lanes_api_v1_sessions__session__lanes_put: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3863,7 +4110,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3886,7 +4133,10 @@ export interface operations {
     predict_design_api_v1_sessions__session__predict_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3917,7 +4167,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3940,7 +4190,10 @@ export interface operations {
     apply_load_api_v1_sessions__session__loads_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -3971,7 +4224,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3994,7 +4247,10 @@ export interface operations {
     clear_loads_api_v1_sessions__session__loads_delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4021,7 +4277,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4044,7 +4300,10 @@ export interface operations {
     remove_load_api_v1_sessions__session__loads__load_id__delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 load_id: number;
                 /** @description Name of the session */
@@ -4072,7 +4331,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4095,7 +4354,10 @@ export interface operations {
     start_recording_api_v1_sessions__session__recording_post: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4126,7 +4388,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4149,7 +4411,10 @@ export interface operations {
     stop_recording_api_v1_sessions__session__recording_delete: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4176,7 +4441,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4229,7 +4494,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4278,7 +4543,7 @@ export interface operations {
                     "text/html": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4327,7 +4592,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4386,7 +4651,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4441,7 +4706,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4491,7 +4756,7 @@ export interface operations {
                     "text/html": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4514,7 +4779,10 @@ export interface operations {
     read_origin_api_v1_sessions__session__origin_get: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
             path: {
                 /** @description Name of the session */
                 session: string;
@@ -4541,7 +4809,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4591,7 +4859,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4649,7 +4917,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4699,7 +4967,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4749,7 +5017,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4803,7 +5071,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4853,7 +5121,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -4906,7 +5174,7 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Not while the session or run is as it is */
+            /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
                 headers: {
                     [name: string]: unknown;

@@ -1,8 +1,10 @@
 import { armBench, clearBench, pause, start } from "../api/client";
 import type { BenchState, SessionState } from "../api/types";
 import { perform } from "../state/actions";
+import { mayCommand } from "../state/control";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
+import { isHeld } from "./hold";
 import { type Allowed, allowedOn } from "./status";
 
 interface Action {
@@ -19,24 +21,27 @@ const ACTIONS: readonly Action[] = [
   { name: "clear", label: text.bench.clear, hint: text.bench.clearHint, send: clearBench },
 ];
 
-/** What moves the bench from one state to the next; the next step stands out. */
+/** What moves the bench from one state to the next; the next step stands out. Anybody may stop. */
 export function BenchButtons({ bench }: { bench: BenchState }) {
-  const allowed = allowedOn(bench);
+  const allowed = allowedOn(bench, isHeld.value);
   return (
     <fieldset class="bench-buttons" disabled={!isLive.value} aria-label={text.bench.heading}>
-      {ACTIONS.map(({ name, label, hint, send }) => (
-        <button
-          key={name}
-          type="button"
-          class={`button ${allowed[name] ? "is-primary" : ""}`}
-          disabled={!allowed[name]}
-          title={hint}
-          aria-keyshortcuts={name === "stop" ? "Space" : undefined}
-          onClick={() => void perform("bench", send)}
-        >
-          {label}
-        </button>
-      ))}
+      {ACTIONS.map(({ name, label, hint, send }) => {
+        const isAllowed = allowed[name] && (name === "stop" || mayCommand.value);
+        return (
+          <button
+            key={name}
+            type="button"
+            class={`button ${isAllowed ? "is-primary" : ""}`}
+            disabled={!isAllowed}
+            title={hint}
+            aria-keyshortcuts={name === "stop" ? "Space" : undefined}
+            onClick={() => void perform("bench", send)}
+          >
+            {label}
+          </button>
+        );
+      })}
     </fieldset>
   );
 }

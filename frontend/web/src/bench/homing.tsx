@@ -3,6 +3,7 @@ import { confirmHome } from "../api/client";
 import type { Axis, BenchState } from "../api/types";
 import { Problem } from "../controls/problem";
 import { perform } from "../state/actions";
+import { mayCommand } from "../state/control";
 import { personName, rememberPerson } from "../state/preferences";
 import { text } from "../text/en";
 import { allowedOn } from "./status";
@@ -68,7 +69,9 @@ export function Homing({ bench }: { bench: BenchState }) {
       <p class="instruction" role="status">
         {next === null ? words.allDone : instruction}
       </p>
-      {next !== null && <Confirmation axis={next} isAllowed={allowedOn(bench).home} />}
+      {next !== null && (
+        <Confirmation axis={next} isAllowed={allowedOn(bench).home && mayCommand.value} />
+      )}
       <Problem control="bench.home" />
     </section>
   );

@@ -24,12 +24,12 @@ export interface Allowed {
   home: boolean;
 }
 
-/** What the server will take; it has the last word. */
-export function allowedOn(bench: BenchState): Allowed {
+/** What the server will take; it has the last word. held: the dead-man's switch, which a start needs. */
+export function allowedOn(bench: BenchState, held = false): Allowed {
   const { status } = bench;
   return {
     arm: status === "off" && bench.problems.length === 0,
-    run: status === "ready" && isHomed(bench),
+    run: status === "ready" && isHomed(bench) && (held || !bench.dead_man),
     stop: status === "run",
     clear: status === "fault",
     home: !isHomed(bench) && (status === "off" || status === "ready"),

@@ -5,6 +5,7 @@ import { mark } from "../state/bench";
 import { text } from "../text/en";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
+import { HoldRow } from "./holdrow";
 import { adviceFor, needsDetails, placeOf, STAGES } from "./status";
 
 /** OFF → RUN as one line; the place is told by sign and word, not by colour alone. */
@@ -61,6 +62,7 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
           <span aria-hidden="true">{isOpen ? "▴" : "▾"}</span>
         </button>
       </div>
+      {bench.dead_man && <HoldRow bench={bench} />}
       <Problem control="bench" />
       <div id={id} hidden={!isOpen}>
         {isOpen && <BenchDetails bench={bench} />}

@@ -1,5 +1,5 @@
 import type { SessionState } from "../api/types";
-import { isLive } from "../state/session";
+import { mayCommand } from "../state/control";
 import { text } from "../text/en";
 import { Controller } from "./controller";
 import { Loads } from "./load";
@@ -10,7 +10,7 @@ import { Stiffness } from "./stiffness";
 /** Everything a student sets, in the order of the block diagram. */
 export function Controls({ state }: { state: SessionState }) {
   return (
-    <fieldset class="controls" disabled={!isLive.value} aria-label={text.controls.heading}>
+    <fieldset class="controls" disabled={!mayCommand.value} aria-label={text.controls.heading}>
       <Motion state={state} />
       <Stiffness state={state} />
       <Controller state={state} />

@@ -57,6 +57,7 @@ function Sheet() {
         <Row press={["R"]}>{keys.does.record}</Row>
         <Row press={["L"]}>{keys.does.load}</Row>
         <Row press={["C"]}>{keys.does.compare}</Row>
+        {bench.value?.dead_man && <Row press={["D"]}>{keys.does.hold}</Row>}
         <Row press={["O"]}>{keys.does.runs}</Row>
         <Row press={["P"]}>{keys.does.calls}</Row>
         <Row press={["?"]}>{keys.does.help}</Row>

@@ -2,6 +2,7 @@
 import { signal } from "@preact/signals";
 import { pause } from "../api/client";
 import type { SessionState } from "../api/types";
+import { canHold, hold, letGo } from "../bench/hold";
 import { place, toggleRuns } from "../runs/place";
 import { pressStop } from "../safety/stop";
 import { toggleDrawer } from "../script/drawer";
@@ -15,11 +16,12 @@ import {
 } from "../state/commands";
 import { areKeysOn } from "../state/preferences";
 import { isLive, session } from "../state/session";
-import { type Command, findCommand, focusOf } from "./shortcuts";
+import { type Command, endsHold, findCommand, focusOf } from "./shortcuts";
 
+const HOLD_GRIP = "key";
 export const isHelpOpen = signal(false);
 
-type SessionCommand = Exclude<Command, "stop" | "runs" | "calls" | "help" | "close">;
+type SessionCommand = Exclude<Command, "hold" | "stop" | "runs" | "calls" | "help" | "close">;
 
 /** No key starts a motor: on a bench Space only stops. */
 function answerRun(state: SessionState): Promise<boolean> | undefined {
@@ -45,11 +47,16 @@ async function answerSession(command: SessionCommand): Promise<void> {
 
 /** Answers a key; also given to the document inside the 3D view. */
 export function answerKey(event: KeyboardEvent): void {
-  const command = findCommand(event, focusOf(event.target), areKeysOn.peek());
+  const focus = focusOf(event.target);
+  if (endsHold(event, focus)) letGo(HOLD_GRIP);
+  const command = findCommand(event, focus, areKeysOn.peek());
   if (command === null || (command === "close" && !isHelpOpen.peek())) return;
+  // Inside the 3D view nobody would hear the key being let go.
+  if (command === "hold" && !(canHold() && event.view === window)) return;
   event.preventDefault();
   event.stopPropagation();
   if (command === "stop") void pressStop();
+  else if (command === "hold") hold(HOLD_GRIP);
   else if (command === "runs") toggleRuns();
   else if (command === "calls") toggleDrawer();
   else if (command === "help") isHelpOpen.value = !isHelpOpen.peek();
@@ -59,4 +66,11 @@ export function answerKey(event: KeyboardEvent): void {
 
 export function listenToKeys(): void {
   window.addEventListener("keydown", answerKey, true);
+  window.addEventListener(
+    "keyup",
+    (event) => {
+      if (event.key.toLowerCase() === "d") letGo(HOLD_GRIP);
+    },
+    true,
+  );
 }

@@ -6,6 +6,7 @@ export type Command =
   | "record"
   | "load"
   | "compare"
+  | "hold"
   | "runs"
   | "calls"
   | "help"
@@ -24,6 +25,7 @@ const COMMANDS: Readonly<Record<string, Command>> = {
   r: "record",
   l: "load",
   c: "compare",
+  d: "hold",
   o: "runs",
   p: "calls",
   "?": "help",
@@ -39,6 +41,10 @@ export function findCommand(press: KeyPress, focus: Focus, areKeysOn: boolean): 
   if (press.key === " " && (press.shiftKey || focus === "control")) return null;
   return COMMANDS[press.key.toLowerCase()] ?? null;
 }
+
+/** What lets go of a key that is held: a modifier may swallow its release, a field its meaning. */
+export const endsHold = (press: KeyPress, focus: Focus): boolean =>
+  press.ctrlKey || press.metaKey || press.altKey || focus === "writing";
 
 const WRITING =
   "textarea, select, [contenteditable], input:not([type=range], [type=radio], [type=checkbox])";

@@ -1,4 +1,5 @@
 import { reset, stopRecording } from "../api/client";
+import { ControlBanner } from "../control/banner";
 import { Problem } from "../controls/problem";
 import { StopBanners } from "../safety/stopbanner";
 import { perform } from "../state/actions";
@@ -57,6 +58,7 @@ export function Banners() {
           </button>
         </div>
       )}
+      <ControlBanner />
       <Problem control="session" />
     </div>
   );

@@ -1,5 +1,6 @@
 import type { SessionState } from "../api/types";
 import { toggleRecording } from "../state/commands";
+import { mayCommand } from "../state/control";
 import { text } from "../text/en";
 import { formatSeconds } from "../units";
 
@@ -11,7 +12,7 @@ export function RecordButton({ state }: { state: SessionState }) {
       <button
         type="button"
         class="button record"
-        disabled={recording !== null}
+        disabled={recording !== null || !mayCommand.value}
         title={text.recording.startHint}
         aria-keyshortcuts="r"
         onClick={() => void toggleRecording(state)}
@@ -25,6 +26,7 @@ export function RecordButton({ state }: { state: SessionState }) {
     <button
       type="button"
       class="button record is-recording"
+      disabled={!mayCommand.value}
       title={text.recording.stop}
       aria-keyshortcuts="r"
       onClick={() => void toggleRecording(state)}

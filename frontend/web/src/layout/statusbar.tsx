@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import type { BenchState, SessionState } from "../api/types";
+import { ControlCell } from "../control/cell";
 import { StopButton } from "../safety/stopbutton";
 import { isLive, missedSamples, phase, session } from "../state/session";
 import { text } from "../text/en";
@@ -61,7 +62,7 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
   }
   const late = text.status.late(formatLapse(loop.lateness_p50_s), formatLapse(loop.lateness_p99_s));
   return (
-    <Cell name={text.status.loop} class="is-loop" hint={text.status.lateHint}>
+    <Cell name={text.status.loop} class="is-loop is-bench" hint={text.status.lateHint}>
       {text.status.rate(loop.rate_hz)}{" "}
       <small>
         {late} · {text.status.skipped(loop.skipped_ticks)}
@@ -115,6 +116,7 @@ export function StatusBar() {
           (state.bench ? <BenchLoop bench={state.bench} /> : <SimulatedLoop state={state} />)}
         {state && <RecordingCell state={state} />}
         <Connection />
+        {state && <ControlCell />}
       </dl>
       <StopButton />
     </section>

@@ -3,6 +3,7 @@ import { putSpeed, reset, runFigure, step } from "../api/client";
 import type { Figure, SessionState, Speed } from "../api/types";
 import { perform } from "../state/actions";
 import { toggleRun } from "../state/commands";
+import { mayCommand } from "../state/control";
 import { text } from "../text/en";
 
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
@@ -12,7 +13,7 @@ const STEPS_MS = [1, 10, 100, 1000];
 export function FigurePicker({ state }: { state: SessionState }) {
   const { law } = state.configuration;
   return (
-    <fieldset class="figures">
+    <fieldset class="figures" disabled={!mayCommand.value}>
       <legend>{text.figures.heading}</legend>
       {FIGURES.map((figure) => (
         <button
@@ -36,6 +37,7 @@ function SpeedPicker({ speed }: { speed: Speed }) {
     <label class="select" title={text.transport.speedHint}>
       <span class="select-label">{text.transport.speed}</span>
       <select
+        disabled={!mayCommand.value}
         value={String(speed)}
         onChange={(event) => {
           const chosen = event.currentTarget.value;
@@ -56,14 +58,14 @@ function SpeedPicker({ speed }: { speed: Speed }) {
 
 function Stepper({ state }: { state: SessionState }) {
   const [stepMs, setStepMs] = useState(10);
-  const isPaused = state.status === "paused";
+  const isReady = state.status === "paused" && mayCommand.value;
   const ticks = Math.max(1, Math.round((stepMs / 1000) * state.rate_hz));
   return (
     <div class="stepper">
       <button
         type="button"
         class="button"
-        disabled={!isPaused}
+        disabled={!isReady}
         title={text.transport.stepHint}
         onClick={() => void perform("session", () => step(ticks))}
       >
@@ -71,7 +73,7 @@ function Stepper({ state }: { state: SessionState }) {
       </button>
       <select
         aria-label={text.transport.stepLength}
-        disabled={!isPaused}
+        disabled={!isReady}
         value={String(stepMs)}
         onChange={(event) => setStepMs(Number(event.currentTarget.value))}
       >
@@ -92,7 +94,7 @@ export function Transport({ state }: { state: SessionState }) {
       <button
         type="button"
         class="button is-primary"
-        disabled={state.status === "fault"}
+        disabled={state.status === "fault" || !(isRunning || mayCommand.value)}
         aria-keyshortcuts="Space"
         onClick={() => void toggleRun(state)}
       >
@@ -104,6 +106,7 @@ export function Transport({ state }: { state: SessionState }) {
       <button
         type="button"
         class="button"
+        disabled={!mayCommand.value}
         title={text.transport.resetHint}
         onClick={() => void perform("session", reset)}
       >

@@ -1,5 +1,6 @@
-/** What this browser remembers: theme, span of the plots, keys, and who homes the bench. */
+/** What this browser remembers: theme, span of the plots, keys, and who sits before it. */
 import { effect, signal } from "@preact/signals";
+import { text } from "../text/en";
 import { remember, remembered } from "./storage";
 
 export const WINDOWS_S = [5, 10, 20, 60] as const;
@@ -21,6 +22,18 @@ export const windowS = signal<WindowS>(
 /** Whether single keys command the page; Shift + Esc always does. */
 export const areKeysOn = signal(remembered("svsa.keys") !== "off");
 export const personName = signal(remembered("svsa.name") ?? "");
+
+/** As long as the server takes a name for who is in control. */
+export const LONGEST_NAME = 40;
+
+export function defaultName(): string {
+  const letter = () => String.fromCharCode(65 + Math.floor(26 * Math.random()));
+  return text.control.defaultName(letter() + letter() + letter());
+}
+
+/** A name as the server takes it. */
+export const nameForControl = (name: string): string =>
+  name.trim().slice(0, LONGEST_NAME).trim() || defaultName();
 
 export function chooseKeys(isOn: boolean): void {
   areKeysOn.value = isOn;

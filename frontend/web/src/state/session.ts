@@ -108,6 +108,9 @@ const connection = new StreamConnection(
   },
 );
 
+/** The dead-man's switch of a bench is held; the server takes it for 0.1 s. */
+export const saySwitchIsHeld = (): void => connection.say("held");
+
 export const openStream = (): void => connection.open();
 
 /** Has the stream carry these channels; what is held of them stays, the last 20 s of new ones come. */

@@ -51,6 +51,12 @@ export class StreamConnection {
     if (this.#socket === null) this.open();
   }
 
+  /** Tells the server something now, or not at all: what would wait in line is left out. */
+  say(words: string): void {
+    const socket = this.#socket;
+    if (socket?.readyState === WebSocket.OPEN && socket.bufferedAmount === 0) socket.send(words);
+  }
+
   #receive(data: string | ArrayBuffer): void {
     this.#attempt = 0;
     this.#listenForSilence();

@@ -1,5 +1,6 @@
 /** Every word of the page, by area. */
 import { benchText } from "./bench";
+import { controlText } from "./control";
 import { controlsText } from "./controls";
 import { designText } from "./design";
 import { keysText } from "./keys";
@@ -14,6 +15,7 @@ export const text = {
   ...pageText,
   ...plotsText,
   ...controlsText,
+  ...controlText,
   ...benchText,
   ...designText,
   ...learningText,

@@ -1,0 +1,137 @@
+"""Who is in control of a session: everybody, or the one client that holds its hand.
+
+A client is known by a text of its own choice that others do not guess: the header
+`SVSA-Client` of its calls, `client` in the query of its streams. Others see the holder's name
+only. A hand whose holder neither calls nor has a stream open is free again after a while.
+"""
+
+import contextlib
+from collections import Counter
+from collections.abc import Iterator
+from contextvars import ContextVar
+from typing import NamedTuple
+from urllib.parse import unquote
+from weakref import WeakKeyDictionary
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.runtime.session import Session
+from svsa_server.control_schemas import LONGEST_NAME, ControlState
+
+CLIENT_HEADER = "SVSA-Client"
+# What is open to all whoever holds the hand: it stops, it only asks, or it is the hand itself.
+STOPS = frozenset({("POST", "/pause"), ("POST", "/emergency-stop")})
+OPEN_TO_ALL = STOPS | {("POST", "/predict"), ("PUT", "/control"), ("DELETE", "/control")}
+CHANGING = frozenset({"POST", "PUT", "PATCH", "DELETE"})
+
+asking: ContextVar[str | None] = ContextVar("asking", default=None)
+"""The client for whom this call or stream is answered."""
+
+
+class HeldError(SvsaError):
+    """Somebody else is in control; nothing was changed."""
+
+
+class Holder(NamedTuple):
+    """client: as it names itself to the server. name: as it is shown to everybody."""
+
+    client: str
+    name: str
+
+
+class ControlHand:
+    """The hand of one session. Times are monotonic, s."""
+
+    def __init__(self) -> None:
+        self.holder: Holder | None = None
+        self._heard = 0.0
+        self._streams: Counter[str] = Counter()
+
+    def is_held_by(self, client: str | None) -> bool:
+        """Whether this client is in control."""
+        return self.holder is not None and self.holder.client == client
+
+    def admits(self, client: str | None) -> bool:
+        """Whether this client may command: it is in control, or nobody is."""
+        return self.holder is None or self.is_held_by(client)
+
+    def check(self, client: str | None, session: str) -> None:
+        """Raise `HeldError` unless this client may command; session: its name."""
+        if self.holder is not None and not self.is_held_by(client):
+            name = self.holder.name
+            raise HeldError(
+                f"{name} is in control of session {session}: ask {name}, or take control."
+            )
+
+    def take(self, holder: Holder, take_over: bool, session: str, now: float) -> None:
+        """In control from now on; raises `HeldError` where another is, unless `take_over`."""
+        if not take_over:
+            self.check(holder.client, session)
+        self.holder, self._heard = holder, now
+
+    def give_back(self, client: str | None, session: str) -> None:
+        """Nobody in control; raises `HeldError` where another one is."""
+        self.check(client, session)
+        self.holder = None
+
+    def hear(self, client: str | None, now: float) -> None:
+        """Its client has called, if it is the holder."""
+        if self.is_held_by(client):
+            self._heard = now
+
+    def free_if_left(self, now: float, patience_s: float) -> bool:
+        """Free it where its holder is gone for longer than `patience_s`; whether it did."""
+        if self.holder is None:
+            return False
+        if self._streams[self.holder.client]:
+            self._heard = now
+        is_left = now - self._heard > patience_s
+        if is_left:
+            self.holder = None
+        return is_left
+
+    @contextlib.contextmanager
+    def watched_by(self, client: str | None) -> Iterator[None]:
+        """While a stream of this client is open."""
+        if client is None:
+            yield
+            return
+        self._streams[client] += 1
+        try:
+            yield
+        finally:
+            self._streams[client] -= 1
+            if not self._streams[client]:
+                del self._streams[client]
+
+
+_hands: WeakKeyDictionary[Session, ControlHand] = WeakKeyDictionary()
+
+
+def get_hand(session: Session) -> ControlHand:
+    """The hand of this session."""
+    return _hands.setdefault(session, ControlHand())
+
+
+def build_control(session: Session) -> ControlState:
+    """Who is in control, told to the client that asks."""
+    hand = get_hand(session)
+    return ControlState(
+        holder=hand.holder.name if hand.holder else None,
+        mine=hand.is_held_by(asking.get()),
+        watching=session.watchers,
+    )
+
+
+def read_client(written: str | None, name: str) -> str | None:
+    """A client as it names itself; None where it does not. Raises `ParameterError`.
+
+    written: percent-encoded UTF-8 where it is more than ASCII. name: where it was written.
+    """
+    if written is None:
+        return None
+    with contextlib.suppress(UnicodeDecodeError):
+        client = unquote(written, errors="strict").strip()
+        if 1 <= len(client) <= LONGEST_NAME and client.isprintable():
+            return client
+    bound = f"a text of 1 to {LONGEST_NAME} printable characters, percent-encoded UTF-8"
+    raise ParameterError(Violation(name, written, "", bound))

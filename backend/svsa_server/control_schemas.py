@@ -1,0 +1,34 @@
+"""How the control of a session is asked for, and told."""
+
+from typing import Annotated
+
+from pydantic import AfterValidator, BaseModel, Field
+
+from svsa.checked import Checked, quantity
+
+LONGEST_NAME = 40
+
+
+def _check_printable(name: str) -> str:
+    if not name.strip() or not name.isprintable():
+        raise ValueError("a text that can be read")
+    return name.strip()
+
+
+class ControlRequest(Checked):
+    """Takes control of a session."""
+
+    by: Annotated[str, Field(max_length=LONGEST_NAME), AfterValidator(_check_printable)] = quantity(
+        "", "Who is in control, as everybody is told"
+    )
+    take_over: Annotated[bool, Field(strict=True)] = quantity(
+        "", "Whoever is in control loses it", default=False
+    )
+
+
+class ControlState(BaseModel):
+    """Who may command a session; everybody may watch, pause and stop it."""
+
+    holder: str | None = Field(description="Who is in control; null: everybody may command")
+    mine: bool = Field(description="Whether it is the client that this answer is for")
+    watching: int = Field(description="Streams of the session that are open")

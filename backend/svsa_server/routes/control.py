@@ -1,0 +1,42 @@
+"""Take control of a session, and give it back."""
+
+import time
+from typing import Annotated
+
+from fastapi import APIRouter, Body
+
+from svsa.errors import ParameterError, Violation
+from svsa_server.control import CLIENT_HEADER, Holder, get_hand
+from svsa_server.control_schemas import ControlRequest
+from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
+from svsa_server.schemas import SessionState
+from svsa_server.state import build_state
+
+router = APIRouter(prefix="/sessions/{session}/control", tags=["control"], responses=REFUSALS)
+
+
+@router.put("")
+async def take_control(
+    session: NamedSession,
+    client: NamedClient,
+    request: Annotated[ControlRequest, Body(examples=[{"by": "Ada"}])],
+) -> SessionState:
+    """Only the client that SVSA-Client names may command from now on; all may pause and stop.
+
+    Where another client is in control, only with `take_over`. Control ends by itself some time
+    after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
+    """
+    if client is None:
+        raise ParameterError(Violation(CLIENT_HEADER, None, "", "given, to know you again"))
+    holder = Holder(client, request.by)
+    get_hand(session).take(holder, request.take_over, session.name, time.monotonic())
+    session.version += 1
+    return build_state(session)
+
+
+@router.delete("")
+async def give_control_back(session: NamedSession, client: NamedClient) -> SessionState:
+    """Everybody may command again."""
+    get_hand(session).give_back(client, session.name)
+    session.version += 1
+    return build_state(session)

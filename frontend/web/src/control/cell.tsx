@@ -1,0 +1,51 @@
+import { control, leaveControl, mayCommand, otherHolder, wishControl } from "../state/control";
+import { isLive } from "../state/session";
+import { text } from "../text/en";
+
+const words = text.control;
+
+function Button() {
+  const other = otherHolder.value;
+  const isMine = control.value?.mine === true;
+  const [label, hint] = isMine
+    ? [words.giveBack, words.giveBackHint]
+    : other === null
+      ? [words.take, words.takeHint]
+      : [words.takeOver, words.takeOverHint(other)];
+  return (
+    <button
+      type="button"
+      class="button is-small"
+      disabled={!isLive.value}
+      title={hint}
+      onClick={() => (isMine ? void leaveControl() : wishControl())}
+    >
+      {label}
+    </button>
+  );
+}
+
+/** In the status bar: who is in control, how many watch, and the button that changes it. */
+export function ControlCell() {
+  const now = control.value;
+  if (now === null) return null;
+  const who = now.mine ? words.you : (now.holder ?? words.everyone);
+  const sign = now.holder === null ? "○" : now.mine ? "●" : "▪";
+  return (
+    <div
+      class={`status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
+      title={words.hint}
+    >
+      <div>
+        <dt>{words.heading}</dt>
+        <dd>
+          <span role="status">
+            <span aria-hidden="true">{sign}</span> <span class="control-name">{who}</span>
+          </span>{" "}
+          <small>· {words.watching(now.watching)}</small>
+        </dd>
+      </div>
+      <Button />
+    </div>
+  );
+}

@@ -1,0 +1,243 @@
+"""Two pages on one lab: who is in control; and the dead-man's switch of an emulated rig."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
+
+from svsa.rig.launch import start_rig
+from tests.browser.test_page import open_page
+from tests.lab import Lab, run_lab
+from tests.service.test_bench_session import BenchLab, write_bench
+
+pytestmark = pytest.mark.browser
+
+CONTROL_S = "2"
+ATTEMPTS = 8
+
+
+@pytest.fixture(scope="module")
+def free_lab() -> Iterator[Lab]:
+    """A lab of its own, in which control outlives its holder by 2 s only."""
+    with run_lab(control_s=CONTROL_S) as lab:
+        yield lab
+
+
+@pytest.fixture
+def context(browser: Browser, browser_context_args: dict) -> Iterator[BrowserContext]:
+    """Tabs of one browser, without the 3D view, which is not looked at here."""
+    context = browser.new_context(**browser_context_args)
+    context.route("**/viser/**", lambda route: route.abort())
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def two_pages(context: BrowserContext, free_lab: Lab) -> tuple[Page, Page]:
+    """Two tabs of one browser, with nobody in control."""
+    wait_for_holder(free_lab, None)
+    free_lab.load_figure()
+    pages = context.new_page(), context.new_page()
+    for page in pages:
+        open_page(page, free_lab)
+    return pages
+
+
+def wait_for_holder(lab: Lab, name: str | None) -> None:
+    for _ in range(400):
+        if lab.read()["control"]["holder"] == name:
+            return
+    raise AssertionError(f"{lab.read()['control']} is not {name}")
+
+
+def find_control(page: Page) -> Locator:
+    return page.get_by_role("region", name="Status", exact=True).locator(".is-control")
+
+
+def take(page: Page, name: str) -> None:
+    find_control(page).get_by_role("button", name="Take control").click()
+    question = page.get_by_role("form", name="Control")
+    expect(question.get_by_label("Your name")).to_have_value(re.compile("^Page [A-Z]{3}$"))
+    question.get_by_label("Your name").fill(name)
+    question.get_by_role("button", name="Take control").click()
+    expect(find_control(page)).to_contain_text("You")
+
+
+def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
+    two_pages: tuple[Page, Page], free_lab: Lab
+) -> None:
+    ada, other = two_pages
+    for page in two_pages:
+        expect(find_control(page)).to_contain_text("Everyone")
+        expect(find_control(page)).to_contain_text("2 watching")
+    take(ada, "Ada")
+    expect(find_control(other)).to_contain_text("Ada")
+    banner = other.get_by_role("status").filter(has_text="Ada is in control.")
+    expect(banner).to_be_visible()
+    expect(other.get_by_role("button", name="Fig. 4B")).to_be_disabled()
+    expect(other.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_disabled()
+    expect(other.get_by_role("button", name="Emergency stop")).to_be_enabled()
+
+    other.keyboard.press("l")
+    expect(other.get_by_text("Ada is in control of session lab: ask Ada")).to_be_visible()
+    assert free_lab.read()["loads"] == []
+    other.get_by_role("button", name="Pause", exact=True).click()
+    expect(ada.get_by_role("button", name="Run", exact=True)).to_be_enabled()
+    expect(other.get_by_role("button", name="Run", exact=True)).to_be_disabled()
+    ada.get_by_role("button", name="Run", exact=True).click()
+    expect(other.get_by_role("button", name="Pause", exact=True)).to_be_enabled()
+
+    banner.get_by_role("button", name="Take over").click()
+    question = other.get_by_role("form", name="Control")
+    expect(question).to_contain_text("Take control from Ada?")
+    question.get_by_role("button", name="Cancel").click()
+    expect(find_control(other)).to_contain_text("Ada")
+    find_control(other).get_by_role("button", name="Take over").click()
+    question.get_by_label("Your name").fill("Bob")
+    question.get_by_role("button", name="Take control").click()
+    expect(find_control(other)).to_contain_text("You")
+    expect(find_control(ada)).to_contain_text("Bob")
+    expect(ada.get_by_role("button", name="Fig. 4B")).to_be_disabled()
+
+    find_control(other).get_by_role("button", name="Give back").click()
+    for page in two_pages:
+        expect(find_control(page)).to_contain_text("Everyone")
+        expect(page.get_by_role("button", name="Fig. 4B")).to_be_enabled()
+
+
+def test_a_reload_keeps_control_and_closing_the_page_frees_it(
+    two_pages: tuple[Page, Page], free_lab: Lab
+) -> None:
+    ada, other = two_pages
+    take(ada, "Ada")
+    ada.reload()
+    expect(find_control(ada)).to_contain_text("You")
+    expect(find_control(other)).to_contain_text("Ada")
+    ada.close()
+    expect(find_control(other)).to_contain_text("1 watching")
+    expect(find_control(other)).to_contain_text("Everyone", timeout=15_000)
+    wait_for_holder(free_lab, None)
+
+
+def test_the_name_is_asked_once(two_pages: tuple[Page, Page]) -> None:
+    ada, other = two_pages
+    take(ada, "Ada")
+    find_control(ada).get_by_role("button", name="Give back").click()
+    find_control(ada).get_by_role("button", name="Take control").click()
+    expect(find_control(ada)).to_contain_text("You")
+    expect(find_control(other)).to_contain_text("Ada")
+    find_control(ada).get_by_role("button", name="Give back").click()
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
+    """The emulated rig with a dead-man's switch."""
+    with start_rig(lockstep=False) as rig:
+        path: Path = write_bench(tmp_path_factory.mktemp("bench"), rig)
+        written = path.read_text(encoding="utf-8")
+        path.write_text(written.replace("dead_man = false", "dead_man = true"), encoding="utf-8")
+        with run_lab("--bench", str(path), control_s=CONTROL_S) as lab:
+            yield BenchLab(lab, rig)
+
+
+def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
+    """The page at the list of runs, which leaves a slow machine the time to be punctual."""
+    page = context.new_page()
+    page.goto(bench.lab.url)
+    bench.make_ready()
+    page.get_by_role("button", name="Runs", exact=True).click()
+    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
+    return page
+
+
+def hold_through(page: Page, bench: BenchLab) -> bool:
+    """Run with D held, and on with the pointer; whether it ran until then.
+
+    A page that is too slow once to be heard every 0.1 s ends the run, as it should.
+    """
+    row = page.get_by_role("region", name="Dead-man's switch")
+    button = row.get_by_role("button", name="Hold to run")
+    page.mouse.up()
+    page.keyboard.down("d")
+    expect(button).to_have_attribute("aria-pressed", "true")
+    expect(row).to_contain_text("Held")
+    find_run(page).click()
+    if not runs_on(page, bench):
+        page.keyboard.up("d")
+        return False
+    button.hover()
+    page.mouse.down()
+    page.keyboard.up("d")
+    return runs_on(page, bench)
+
+
+def runs_on(page: Page, bench: BenchLab) -> bool:
+    """Whether it runs for a second and a half from now on."""
+    for _ in range(30):
+        page.wait_for_timeout(50)
+        if bench.status != "run":
+            bench.wait_for("ready")
+            return False
+    return True
+
+
+def find_run(page: Page) -> Locator:
+    bench = page.get_by_role("region", name="Bench", exact=True)
+    return bench.get_by_role("button", name="Run", exact=True)
+
+
+def test_the_bench_runs_only_while_the_switch_is_held(
+    context: BrowserContext, bench: BenchLab
+) -> None:
+    page = open_bench(context, bench)
+    row = page.get_by_role("region", name="Dead-man's switch")
+    button = row.get_by_role("button", name="Hold to run")
+    expect(row).to_contain_text("Not held")
+    expect(find_run(page)).to_be_disabled()
+
+    assert any(hold_through(page, bench) for _ in range(ATTEMPTS))
+    expect(row).to_contain_text("It runs. Let go")
+    page.mouse.up()
+    expect(row).to_contain_text("Not held")
+    bench.wait_for("ready")
+    assert bench.is_at_zero()
+    assert bench.read()["fault"] is None
+    expect(row).to_contain_text("You let go")
+
+    button.focus()
+    page.keyboard.down("Enter")
+    expect(row).to_contain_text("Now press Run")
+    page.evaluate("window.dispatchEvent(new Event('blur'))")
+    expect(row).to_contain_text("Not held")
+    page.keyboard.up("Enter")
+
+
+def test_only_the_switch_of_who_is_in_control_counts(
+    context: BrowserContext, bench: BenchLab
+) -> None:
+    page = open_bench(context, bench)
+    client = {"SVSA-Client": "somebody else"}
+    bench.lab.client.put(
+        bench.lab.session + "/control", json={"by": "Ada"}, headers=client
+    ).raise_for_status()
+    row = page.get_by_role("region", name="Dead-man's switch")
+    expect(row).to_contain_text("only what Ada holds counts")
+    expect(row.get_by_role("button", name="Hold to run")).to_be_disabled()
+    page.keyboard.down("d")
+    expect(row).to_contain_text("Not held")
+    page.keyboard.up("d")
+    page.evaluate(
+        """url => {
+            const socket = new WebSocket(url);
+            socket.onopen = () => setInterval(() => socket.send("held"), 20);
+        }""",
+        bench.lab.stream_url,
+    )
+    page.wait_for_timeout(500)
+    refused = bench.lab.client.post(bench.lab.session + "/start", headers=client)
+    assert "dead-man" in refused.json()["message"]
+    bench.lab.client.delete(bench.lab.session + "/control", headers=client).raise_for_status()
+    bench.ask("/start")
+    bench.wait_for("run")
