@@ -155,7 +155,7 @@ def test_the_work_is_seen_without_scrolling_on_a_running_bench(page: Page, lab: 
         find_bench(page),
         page.get_by_role("button", name="Emergency stop"),
         page.get_by_role("button", name=re.compile("Hang 3 kg")),
-        page.get_by_role("region", name="Disturbance", exact=True),
+        page.get_by_role("region", name="Disturbance plot", exact=True),
         page.locator("iframe"),
     ]
     for part in parts:

@@ -48,7 +48,7 @@ def test_fl_beside_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, lab: 
     assert page.evaluate(ERRORS, [2, steady])[0] > 8 * ONE_DEGREE
     expect(table.get_by_role("row", name=re.compile("NDOBC")).get_by_text("best")).to_have_count(3)
     for plot in ("Position", "Position error", "Stiffness", "Torque", "Disturbance"):
-        legend = page.get_by_role("region", name=plot, exact=True)
+        legend = page.get_by_role("region", name=f"{plot} plot", exact=True)
         expect(legend.get_by_role("button", name=re.compile("^FL"))).to_be_visible()
 
     switch.click()
@@ -65,7 +65,7 @@ def test_everything_for_the_work_is_seen_while_comparing(page: Page, lab: Lab) -
     parts = [
         page.get_by_role("button", name=re.compile("Hang 3 kg")),
         page.get_by_role("table", name=re.compile("controller does better")),
-        page.get_by_role("region", name="Position", exact=True),
+        page.get_by_role("region", name="Position plot", exact=True),
         find_switch(page),
         page.locator("iframe"),
     ]

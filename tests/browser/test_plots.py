@@ -19,7 +19,7 @@ STREAMED = "channel => window.svsa.channels().includes(channel)"
 
 def find_plot(page: Page, name: str) -> Locator:
     plots = page.get_by_role("region", name="Plots", exact=True)
-    return plots.get_by_role("region", name=name, exact=True)
+    return plots.get_by_role("region", name=f"{name} plot", exact=True)
 
 
 def find_axis(page: Page) -> Locator:

@@ -198,7 +198,7 @@ def test_the_run_tells_about_itself(page: Page, exported: Path) -> None:
     watch = open_file(page, exported)
     expect(page).to_have_title("A test run")
     expect(page.get_by_text("9.9.9").first).to_be_visible()
-    page.get_by_role("button", name="Go to 3 kg on").click()
+    page.get_by_role("button", name="Go to 2.00 s 3 kg on").click()
     assert page.evaluate("svsaReplay.time()") == pytest.approx(2.0)
     expect(page.get_by_role("button", name=re.compile("^Go to"))).to_have_count(2)
     row = page.get_by_role("row", name=re.compile("FL"))

@@ -36,16 +36,16 @@ export function ControlCell() {
       class={`status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
       title={words.hint}
     >
-      <div>
-        <dt>{words.heading}</dt>
-        <dd>
-          <span role="status">
-            <span aria-hidden="true">{sign}</span> <span class="control-name">{who}</span>
-          </span>{" "}
-          <small>· {words.watching(now.watching)}</small>
-        </dd>
-      </div>
-      <Button />
+      <dt>{words.heading}</dt>
+      <dd>
+        <span role="status">
+          <span aria-hidden="true">{sign}</span> <span class="control-name">{who}</span>
+        </span>{" "}
+        <small>· {words.watching(now.watching)}</small>
+      </dd>
+      <dd class="control-act">
+        <Button />
+      </dd>
     </div>
   );
 }

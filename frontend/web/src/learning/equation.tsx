@@ -79,7 +79,7 @@ export function EquationButton({ topic }: { topic: Topic }) {
         type="button"
         class="symbol"
         popovertarget={id}
-        aria-label={name}
+        aria-label={`${name}, ${symbol}${index ?? ""}`}
         aria-haspopup="dialog"
         title={name}
       >

@@ -147,7 +147,11 @@ export function Plot({ setup }: { setup: PlotSetup }) {
     setHidden(next);
   };
   return (
-    <section class={`plot ${isPhase ? "is-phase" : ""}`} aria-label={title} data-plot={setup.key}>
+    <section
+      class={`plot ${isPhase ? "is-phase" : ""}`}
+      aria-label={text.plots.plotOf(title)}
+      data-plot={setup.key}
+    >
       <div class="plot-head">
         <h3>
           {title}{" "}

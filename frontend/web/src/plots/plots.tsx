@@ -57,6 +57,7 @@ export function Plots() {
   const isCut = !isLive.value && !isHeld.value;
   return (
     <section class={`plots ${isCut ? "is-frozen" : ""}`} aria-label={text.plots.heading} id="plots">
+      <h2 class="visually-hidden">{text.plots.heading}</h2>
       <Toolbar />
       <div class="plots-scroll">
         {isEmpty ? <p class="plots-none">{text.plots.none}</p> : <Stage />}

@@ -69,7 +69,7 @@ function Events({ run }: { run: Run }) {
           <li key={`${index}.${event.label}`}>
             <button
               type="button"
-              aria-label={text.events.jump(event.label)}
+              aria-label={text.events.jump(text.transport.seconds(event.time_s), event.label)}
               onClick={() => {
                 isPlaying.value = false;
                 seek(event.time_s);

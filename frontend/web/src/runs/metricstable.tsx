@@ -43,7 +43,8 @@ function readColumn(curves: readonly Overlaid[], { read }: Column) {
 export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
   const columns = COLUMNS.map((column) => ({ ...column, ...readColumn(curves, column) }));
   return (
-    <div class="overlay-table">
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+    <section class="overlay-table" tabIndex={0} aria-label={words.table}>
       <table>
         <caption>{words.table}</caption>
         <thead>
@@ -78,6 +79,6 @@ export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
           ))}
         </tbody>
       </table>
-    </div>
+    </section>
   );
 }

@@ -5,13 +5,13 @@ import { text } from "../text/en";
 export function PrivateBanner() {
   if (!isPrivate) return null;
   return (
-    <div class="private-banner">
+    <aside class="private-banner" aria-label={text.private.label}>
       <p>
         <strong>{text.private.title}</strong> {text.private.text}
       </p>
       <a class="button" href={location.pathname}>
         {text.private.back}
       </a>
-    </div>
+    </aside>
   );
 }

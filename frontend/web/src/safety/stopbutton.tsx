@@ -19,13 +19,13 @@ export function StopButton() {
       <button
         type="button"
         class="stop-button"
-        aria-label={text.stop.button}
         aria-keyshortcuts="Shift+Escape"
         title={does}
         onClick={() => void pressStop()}
       >
         <strong>{WORDS[stage]}</strong>
         <small>{text.stop.keys}</small>
+        {stage !== "idle" && <span class="visually-hidden">{text.stop.button}</span>}
       </button>
     </span>
   );

@@ -3,6 +3,7 @@ export const plotsText = {
   channels: ["Link", "Motor 1", "Motor 2"],
   plots: {
     heading: "Plots",
+    plotOf: (title: string) => `${title} plot`,
     tools: "Plot tools",
     window: "Window",
     seconds: (seconds: number) => `${seconds} s`,

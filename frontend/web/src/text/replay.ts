@@ -32,7 +32,11 @@ export const text = {
     degrees: "deg",
     stiffnessUnit: "N·m/rad",
   },
-  events: { heading: "Events", none: "No events", jump: (label: string) => `Go to ${label}` },
+  events: {
+    heading: "Events",
+    none: "No events",
+    jump: (time: string, label: string) => `Go to ${time} ${label}`,
+  },
   about: {
     open: "About this run",
     close: "Close",

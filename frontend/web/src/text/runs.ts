@@ -104,6 +104,7 @@ export const runsText = {
     nothing: "None of these runs can be read.",
   },
   private: {
+    label: "Private session",
     title: "Private session.",
     text: "Only this page shows it. It ends by itself when nobody uses it.",
     back: "Back to the shared lab",

@@ -1,0 +1,179 @@
+"""WCAG 2.2 AA by axe-core: every screen, light and dark, wide and narrow, without a violation."""
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.bench_fixture import PatchedBench
+from tests.browser.test_page import open_page
+from tests.browser.test_replay import open_file, write_page
+from tests.lab import Lab, run_lab
+
+pytestmark = pytest.mark.browser
+
+WEB = Path(__file__).parents[2] / "frontend" / "web"
+AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
+TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
+WIDE, TABLET, PHONE = (1280, 720), (820, 1180), (390, 844)
+# No plot is cut by the end of its list, which axe takes for a control that is too small.
+HIGH = (1280, 1100)
+# The inside of the 3D view is viser's page; the frame itself is checked.
+FIND_VIOLATIONS = """async (tags) => {
+    const options = { runOnly: tags, iframes: false, resultTypes: ["violations"] };
+    const { violations } = await window.axe.run(document, options);
+    return violations.flatMap(({ id, nodes }) =>
+        nodes.map(({ target, failureSummary }) => `${id} ${target.join(" ")}: ${failureSummary}`));
+}"""
+IS_STILL = "() => !document.getAnimations().some((one) => one instanceof CSSTransition)"
+
+
+@pytest.fixture(scope="module")
+def recorded() -> Iterator[Lab]:
+    """A lab with two runs and FL beside NDOBC under the load."""
+    with run_lab() as lab:
+        lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
+        lab.load_figure()
+        for name in ("One", "Another"):
+            lab.client.post(lab.session + "/pause")
+            lab.client.post(lab.session + "/recording", json={"name": name}).raise_for_status()
+            lab.jump(1)
+            lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
+            lab.jump(2)
+            lab.client.delete(lab.session + "/recording").raise_for_status()
+        runs = lab.client.get("/api/v1/runs").json()["runs"]
+        tags = {"tags": ["stiff"], "notes": "With 3 kg."}
+        lab.client.patch(f"/api/v1/runs/{runs[0]['id']}", json=tags).raise_for_status()
+        yield lab
+
+
+@pytest.fixture(autouse=True)
+def without_3d(page: Page) -> None:
+    """The frame of the 3D view stays empty: drawing it takes most of the time, and says nothing."""
+    page.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
+
+
+def expect_no_violation(page: Page, *sizes: tuple[int, int]) -> None:
+    """By axe, in light and in dark, at each size."""
+    found: list[str] = []
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    for width, height in sizes:
+        page.set_viewport_size({"width": width, "height": height})
+        for scheme in ("light", "dark"):
+            page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+            expect(page.locator("html")).to_have_attribute("data-theme", scheme)
+            page.wait_for_function(IS_STILL)
+            texts = page.evaluate(FIND_VIOLATIONS, TAGS)
+            found += [f"{width} px, {scheme}: {text}" for text in texts]
+    assert not found, "\n".join(found)
+
+
+def open_lab(page: Page, lab: Lab) -> None:
+    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    open_page(page, lab)
+
+
+def open_button(name: str) -> Callable[[Page, Lab], None]:
+    def press(page: Page, lab: Lab) -> None:
+        open_lab(page, lab)
+        page.get_by_role("button", name=name, exact=True).click()
+
+    return press
+
+
+def open_equation(page: Page, lab: Lab) -> None:
+    open_button("Equation of the control laws, u")(page, lab)
+    expect(page.locator("math").first).to_be_attached()
+
+
+def open_event(page: Page, lab: Lab) -> None:
+    open_lab(page, lab)
+    page.get_by_role("button", name=re.compile("3 kg load on")).first.focus()
+
+
+def open_calls(page: Page, lab: Lab) -> None:
+    open_button("Calls as code")(page, lab)
+    page.keyboard.press("l")
+    expect(page.get_by_text("httpx.").first).to_be_visible()
+
+
+def open_list(page: Page, lab: Lab) -> None:
+    page.goto(lab.url + "/?runs=all")
+    expect(page.get_by_role("listitem").first).to_be_visible()
+
+
+def open_run(page: Page, lab: Lab) -> None:
+    open_list(page, lab)
+    page.get_by_role("link", name="One", exact=True).click()
+    expect(page.get_by_role("button", name=re.compile("^Branch"))).to_be_visible()
+
+
+def open_overlay(page: Page, lab: Lab) -> None:
+    open_list(page, lab)
+    for choice in page.get_by_role("checkbox", name=re.compile("^Choose")).all():
+        choice.check()
+    page.get_by_role("button", name="Overlay 2 runs").click()
+    expect(page.get_by_role("table")).to_be_visible()
+
+
+def open_trash(page: Page, lab: Lab) -> None:
+    open_list(page, lab)
+    page.get_by_role("button", name="Trash").click()
+
+
+def open_private(page: Page, lab: Lab) -> None:
+    name = lab.client.post("/api/v1/sessions", json={}).json()["session"]
+    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    page.goto(f"{lab.url}/?session={name}")
+    expect(page.get_by_text("Private session.")).to_be_visible()
+
+
+@pytest.mark.parametrize(
+    ("show", "sizes"),
+    [
+        pytest.param(open_lab, (WIDE, TABLET, PHONE), id="lab"),
+        pytest.param(open_page, (WIDE, PHONE), id="tour"),
+        pytest.param(open_button("Keyboard shortcuts"), (WIDE, PHONE), id="keys"),
+        pytest.param(open_button("Learn"), (WIDE, PHONE), id="learn"),
+        pytest.param(open_equation, (WIDE,), id="equation"),
+        pytest.param(open_button("Place poles"), (WIDE, PHONE), id="design"),
+        pytest.param(open_button("Plots"), (WIDE,), id="plots"),
+        pytest.param(open_button("Cursors"), (WIDE,), id="cursors"),
+        pytest.param(open_event, (WIDE,), id="event"),
+        pytest.param(open_calls, (HIGH, PHONE), id="calls"),
+        pytest.param(open_list, (WIDE, PHONE), id="runs"),
+        pytest.param(open_run, (WIDE, PHONE), id="run"),
+        pytest.param(open_overlay, (WIDE, PHONE), id="overlay"),
+        pytest.param(open_trash, (WIDE,), id="trash"),
+        pytest.param(open_private, (WIDE,), id="private"),
+    ],
+)
+def test_a_screen_has_no_violation(
+    page: Page,
+    recorded: Lab,
+    show: Callable[[Page, Lab], None],
+    sizes: tuple[tuple[int, int], ...],
+) -> None:
+    show(page, recorded)
+    expect_no_violation(page, *sizes)
+
+
+@pytest.mark.parametrize("status", ["off", "run"])
+def test_a_bench_has_no_violation(page: Page, lab: Lab, status: str) -> None:
+    PatchedBench(page, status=status, dead_man=True)
+    open_lab(page, lab)
+    expect_no_violation(page, WIDE, PHONE)
+
+
+def test_the_login_has_no_violation(page: Page) -> None:
+    with run_lab(secret="correct horse battery") as lab:
+        page.goto(lab.url)
+        expect(page.get_by_label("Secret")).to_be_visible()
+        expect_no_violation(page, WIDE, PHONE)
+
+
+def test_an_exported_run_has_no_violation(page: Page, tmp_path: Path) -> None:
+    open_file(page, write_page(tmp_path))
+    expect_no_violation(page, WIDE, PHONE)
