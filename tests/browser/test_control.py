@@ -159,13 +159,11 @@ def hold_through(page: Page, bench: BenchLab) -> bool:
     """
     row = page.get_by_role("region", name="Dead-man's switch")
     button = row.get_by_role("button", name="Hold to run")
-    page.mouse.up()
     page.keyboard.down("d")
     expect(button).to_have_attribute("aria-pressed", "true")
     expect(row).to_contain_text("Held")
     find_run(page).click()
     if not runs_on(page, bench):
-        page.keyboard.up("d")
         return False
     button.hover()
     page.mouse.down()
@@ -178,7 +176,10 @@ def runs_on(page: Page, bench: BenchLab) -> bool:
     for _ in range(30):
         page.wait_for_timeout(50)
         if bench.status != "run":
-            bench.wait_for("ready")
+            assert bench.read()["fault"] is None, bench.describe()
+            page.keyboard.up("d")
+            page.mouse.up()
+            bench.make_ready()
             return False
     return True
 
