@@ -5,7 +5,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Error, Playwright
+from playwright.sync_api import BrowserContext, Error, Playwright
 
 ARGUMENTS = [
     "--no-sandbox",
@@ -48,3 +48,12 @@ def browser_type_launch_args(playwright: Playwright) -> dict:
 def browser_context_args() -> dict:
     """The size at which the page has to be usable without scrolling."""
     return {"viewport": {"width": 1280, "height": 720}, "color_scheme": "light"}
+
+
+@pytest.fixture
+def without_3d(context: BrowserContext) -> None:
+    """The frame of the 3D view stays empty, for tests that do not look at it.
+
+    Without a graphics card, drawing it takes most of a test's time.
+    """
+    context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))

@@ -12,7 +12,7 @@ from tests.browser.test_page import open_page
 from tests.browser.test_replay import open_file, write_page
 from tests.lab import Lab, run_lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 WEB = Path(__file__).parents[2] / "frontend" / "web"
 AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
@@ -47,12 +47,6 @@ def recorded() -> Iterator[Lab]:
         tags = {"tags": ["stiff"], "notes": "With 3 kg."}
         lab.client.patch(f"/api/v1/runs/{runs[0]['id']}", json=tags).raise_for_status()
         yield lab
-
-
-@pytest.fixture(autouse=True)
-def without_3d(page: Page) -> None:
-    """The frame of the 3D view stays empty: drawing it takes most of the time, and says nothing."""
-    page.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
 
 
 def expect_no_violation(page: Page, *sizes: tuple[int, int]) -> None:

@@ -9,7 +9,7 @@ from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
 from tests.browser.test_page import open_page
 from tests.lab import Lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 BUTTONS = ("Arm", "Run", "Stop", "Clear fault")
 

@@ -7,7 +7,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.lab import Lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 
 @pytest.fixture

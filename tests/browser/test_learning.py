@@ -7,7 +7,7 @@ from playwright.sync_api import Page, expect
 
 from tests.lab import Lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 LONG_MS = 60_000
 
@@ -73,5 +73,7 @@ def test_a_figure_is_run_apart_and_laid_beside_the_papers_claim(
     fl, ndobc = (float(cell) for cell in steady.get_by_role("cell").all_inner_texts())
     assert 11.0 < fl < 12.5
     assert ndobc == pytest.approx(0.0013, abs=0.0002)
+    page.keyboard.press("Escape")
+    expect(panel).to_be_hidden()
     assert lab.read()["run"] == before
     assert [s["session"] for s in lab.client.get("/api/v1/sessions").json()] == ["lab"]

@@ -11,7 +11,7 @@ from svsa.signals import CHANNEL_NAMES
 from tests.browser.test_page import ONE_DEGREE, open_page, wait_for_samples
 from tests.lab import Lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 NEWEST = "() => window.svsa.series('position_error_rad').time.at(-1)"
 STREAMED = "channel => window.svsa.channels().includes(channel)"

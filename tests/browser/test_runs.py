@@ -9,7 +9,7 @@ from playwright.sync_api import FrameLocator, Page, Route, expect
 
 from tests.lab import Lab, run_lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 PATIENCE_MS = 60_000
 SECONDS = 7

@@ -8,6 +8,7 @@ import "./plots/plots.css";
 import "./plots/stage.css";
 import "./plots/tools.css";
 import "./controls/controls.css";
+import "./panel/panel.css";
 import "./design/design.css";
 import "./learning/learning.css";
 import "./scene/scene.css";

@@ -1,5 +1,6 @@
-import { useEffect, useId, useRef } from "preact/hooks";
+import { useEffect } from "preact/hooks";
 import { Problem } from "../controls/problem";
+import { Panel } from "../panel/panel";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { Bandwidths } from "./bandwidths";
@@ -64,39 +65,25 @@ function Roots() {
   );
 }
 
-function Panel() {
-  const id = useId();
-  const panel = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
-    const before = document.activeElement as HTMLElement | null;
-    panel.current?.show();
-    const stopWatching = watchSurroundings();
-    return () => {
-      stopWatching();
-      before?.focus();
-    };
-  }, []);
+/** Gains without fear: place the poles, see what they would do, then apply. */
+export function DesignPanel() {
+  return isOpen.value ? <Design /> : null;
+}
+
+function Design() {
+  useEffect(watchSurroundings, []);
   return (
-    <dialog
-      ref={panel}
+    <Panel
+      title={words.title}
       class="design"
-      aria-labelledby={id}
-      onKeyDown={(event) => {
-        if (event.key !== "Escape") return;
-        event.stopPropagation();
-        close();
-      }}
-    >
-      <div class="design-head">
-        <h2 id={id}>{words.title}</h2>
+      onClose={close}
+      beside={
         <p class="design-legend" aria-hidden="true">
           <span class="is-position">✕ {words.legend.position}</span>
           <span class="is-stiffness">◇ {words.legend.stiffness}</span>
         </p>
-        <button type="button" class="button" onClick={close}>
-          {words.close}
-        </button>
-      </div>
+      }
+    >
       <div class="design-body">
         <div class="design-place">
           <Plane />
@@ -112,11 +99,6 @@ function Panel() {
           <Buttons />
         </div>
       </div>
-    </dialog>
+    </Panel>
   );
-}
-
-/** Gains without fear: place the poles, see what they would do, then apply. */
-export function DesignPanel() {
-  return isOpen.value ? <Panel /> : null;
 }

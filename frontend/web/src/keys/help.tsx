@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
-import { useEffect, useId, useRef } from "preact/hooks";
+import { useId } from "preact/hooks";
+import { Panel } from "../panel/panel";
 import { bench } from "../state/bench";
 import { areKeysOn, chooseKeys } from "../state/preferences";
 import { text } from "../text/en";
@@ -26,29 +27,15 @@ function Row({ press, children }: RowProps) {
   );
 }
 
-/** Every key of the page. It leaves the page in reach, and gives the focus back when it closes. */
+function close(): void {
+  isHelpOpen.value = false;
+}
+
+/** Every key of the page. */
 function Sheet() {
   const id = useId();
-  const sheet = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
-    const before = document.activeElement as HTMLElement | null;
-    sheet.current?.show();
-    return () => before?.focus();
-  }, []);
   return (
-    <dialog ref={sheet} class="help" aria-labelledby={id}>
-      <div class="help-head">
-        <h2 id={id}>{keys.title}</h2>
-        <button
-          type="button"
-          class="button"
-          onClick={() => {
-            isHelpOpen.value = false;
-          }}
-        >
-          {keys.close}
-        </button>
-      </div>
+    <Panel title={keys.title} class="help" onClose={close}>
       <dl>
         <Row press={[names.shift, names.escape]}>
           <strong>{keys.does.stop}</strong>
@@ -75,7 +62,7 @@ function Sheet() {
       <p class="hint" id={`${id}-hint`}>
         {keys.switchHint}
       </p>
-    </dialog>
+    </Panel>
   );
 }
 

@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import { pause } from "../api/client";
 import type { SessionState } from "../api/types";
 import { canHold, hold, letGo } from "../bench/hold";
+import { closeNewest } from "../panel/escape";
 import { place, toggleRuns } from "../runs/place";
 import { pressStop } from "../safety/stop";
 import { toggleDrawer } from "../script/drawer";
@@ -50,7 +51,7 @@ export function answerKey(event: KeyboardEvent): void {
   const focus = focusOf(event.target);
   if (endsHold(event, focus)) letGo(HOLD_GRIP);
   const command = findCommand(event, focus, areKeysOn.peek());
-  if (command === null || (command === "close" && !isHelpOpen.peek())) return;
+  if (command === null || (command === "close" && !closeNewest())) return;
   // Inside the 3D view nobody would hear the key being let go.
   if (command === "hold" && !(canHold() && event.view === window)) return;
   event.preventDefault();
@@ -60,8 +61,7 @@ export function answerKey(event: KeyboardEvent): void {
   else if (command === "runs") toggleRuns();
   else if (command === "calls") toggleDrawer();
   else if (command === "help") isHelpOpen.value = !isHelpOpen.peek();
-  else if (command === "close") isHelpOpen.value = false;
-  else answered = answered.then(() => answerSession(command));
+  else if (command !== "close") answered = answered.then(() => answerSession(command));
 }
 
 export function listenToKeys(): void {

@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { useId, useLayoutEffect, useRef } from "preact/hooks";
+import { Panel } from "../panel/panel";
 import { text } from "../text/en";
 import { Claims } from "./claims";
 import { EquationCard } from "./equation";
@@ -28,27 +28,14 @@ function EquationList() {
   );
 }
 
-function Panel() {
-  const id = useId();
-  const panel = useRef<HTMLDialogElement>(null);
-  useLayoutEffect(() => {
-    const before = document.activeElement as HTMLElement | null;
-    panel.current?.show();
-    return () => before?.focus();
-  }, []);
+export function LearnPanel() {
+  if (!isOpen.value) return null;
   return (
-    <dialog
-      ref={panel}
+    <Panel
+      title={words.title}
       class="learn"
-      aria-labelledby={id}
-      onKeyDown={(event) => {
-        if (event.key !== "Escape") return;
-        event.stopPropagation();
-        close();
-      }}
-    >
-      <div class="learn-head">
-        <h2 id={id}>{words.title}</h2>
+      onClose={close}
+      beside={
         <button
           type="button"
           class="button"
@@ -59,22 +46,16 @@ function Panel() {
         >
           {text.tour.take}
         </button>
-        <button type="button" class="button" onClick={close}>
-          {words.close}
-        </button>
-      </div>
+      }
+    >
       <div class="learn-body">
         <Claims />
         <div class="learn-equations">
           <EquationList />
         </div>
       </div>
-    </dialog>
+    </Panel>
   );
-}
-
-export function LearnPanel() {
-  return isOpen.value ? <Panel /> : null;
 }
 
 export function LearnButton() {

@@ -1,5 +1,6 @@
 import { signal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { closeOnEscape } from "../panel/escape";
 import { remember, remembered } from "../state/storage";
 import { text } from "../text/en";
 
@@ -95,13 +96,7 @@ function Card({ index }: { index: number }) {
   useEffect(() => {
     if (!isFirst) onward.current?.focus({ preventScroll: true });
   }, [index, isFirst]);
-  useEffect(() => {
-    const leave = (event: KeyboardEvent) => {
-      if (event.key === "Escape" && !event.shiftKey) endTour();
-    };
-    window.addEventListener("keydown", leave);
-    return () => window.removeEventListener("keydown", leave);
-  }, []);
+  useEffect(() => closeOnEscape(endTour), []);
   const turn = (event: KeyboardEvent) => {
     if (event.key === "ArrowRight") go(1);
     if (event.key === "ArrowLeft") go(-1);

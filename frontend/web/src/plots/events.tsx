@@ -1,5 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
+import { closeOnEscape } from "../panel/escape";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { onFrame, shareOf } from "./frame";
@@ -18,6 +19,7 @@ interface MarkProps {
 /** One event: its name where there is room, and what it did, on hover or focus. */
 function Mark({ event, untilS }: MarkProps) {
   const [isOpen, setOpen] = useState(false);
+  useEffect(() => (isOpen ? closeOnEscape(() => setOpen(false)) : undefined), [isOpen]);
   return (
     <li
       class={`mark ${isLoad(event) ? "is-load" : ""}`}
@@ -32,9 +34,6 @@ function Mark({ event, untilS }: MarkProps) {
         onFocus={() => setOpen(true)}
         onBlur={() => setOpen(false)}
         onClick={() => setOpen(true)}
-        onKeyDown={({ key, shiftKey }) => {
-          if (key === "Escape" && !shiftKey) setOpen(false);
-        }}
       >
         <svg viewBox="0 0 10 10" aria-hidden="true">
           <path d={isLoad(event) ? "M0 1h10L5 10z" : "M5 0l5 5-5 5-5-5z"} />

@@ -2,6 +2,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { addLoad } from "../api/client";
 import { Problem } from "../controls/problem";
+import { closeOnEscape } from "../panel/escape";
 import { perform } from "../state/actions";
 import { samples } from "../state/session";
 import { text } from "../text/en";
@@ -69,7 +70,11 @@ export function PushLayer() {
   const layer = useRef<HTMLButtonElement>(null);
   useEffect(() => {
     layer.current?.focus({ preventScroll: true });
+    const forget = closeOnEscape(() => {
+      isPushing.value = false;
+    });
     return () => {
+      forget();
       pull.value = null;
     };
   }, []);
@@ -104,7 +109,6 @@ export function PushLayer() {
   const answer = (event: KeyboardEvent) => {
     const torque = { ArrowLeft: -KEY_NM, ArrowRight: KEY_NM }[event.key];
     if (torque !== undefined && !event.repeat) void push(torque, KEY_PULSE_S);
-    else if (event.key === "Escape") isPushing.value = false;
     else return;
     event.preventDefault();
     event.stopPropagation();

@@ -4,7 +4,6 @@ export const designText = {
     open: "Place poles",
     openHint: "Poles on the s-plane, with what they would do, before they are applied",
     title: "Design",
-    close: "Close",
     position: "Position",
     stiffness: "Stiffness",
     observer: "Observer",

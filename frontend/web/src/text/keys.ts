@@ -3,7 +3,6 @@ export const keysText = {
   keys: {
     open: "Keyboard shortcuts",
     title: "Keyboard",
-    close: "Close",
     names: { space: "Space", escape: "Esc", shift: "Shift" },
     does: {
       stop: "Emergency stop: from anywhere, in a text field too",
@@ -15,7 +14,7 @@ export const keysText = {
       runs: "Recorded runs, and back to the lab",
       calls: "What you did, as Python and curl",
       help: "Show or hide this sheet",
-      close: "Close this sheet",
+      close: "Close what is open",
     },
     benchRun: "Stop on a ramp; on a bench no key starts a motor",
     switch: "Single keys command the page",

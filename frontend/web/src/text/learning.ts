@@ -4,7 +4,6 @@ export const learningText = {
     open: "Learn",
     openHint: "The paper's figures checked, every equation, the tour",
     title: "Learn",
-    close: "Close",
     equations: "Equations",
     equationsHint: "Each stands behind its symbol on the page too.",
   },

@@ -71,6 +71,7 @@ export const pageText = {
     title: (time: number) => `Stopped at ${time.toFixed(2)} s.`,
     reset: "Reset",
   },
+  panel: { close: "Close" },
   recording: {
     start: "Record",
     startHint: "Record every sample and command from now on",
