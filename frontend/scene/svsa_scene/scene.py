@@ -8,6 +8,7 @@ from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.arrows import TorqueArrows
 from svsa_scene.geometry import join, make_helix, make_sector
+from svsa_scene.limits import DeflectionLimit
 from svsa_scene.linkage import (
     LOAD_ARM,
     RADIUS,
@@ -48,7 +49,8 @@ class ActuatorScene:
             self._turn("connector", self._connector, pose.motor1_position_rad)
             self._turn("ghost", self._ghost, pose.position_reference_rad)
             self._move_linkage(linkage)
-            self._move_deflection(linkage.deflection, pose.deflection_limit_rad)
+            self._move_deflection(linkage.deflection)
+            self._limit.show(pose.deflection_limit_rad)
             self._move_load(pose.position_rad, pose.load_mass_kg)
             self._arrows.show(pose)
             self._rivals.show(pose.rivals)
@@ -62,9 +64,7 @@ class ActuatorScene:
         self._connector = self._add("/a/c", mechanism.build_connector())
         self._plate = self._add("/a/c/s", mechanism.build_spiral_plate())
         self._pivot = self._add("/a/c/p", mechanism.build_pivot())
-        self._limits = [
-            self._add(f"/a/c/{name}", mechanism.build_limit_mark()) for name in ("m", "n")
-        ]
+        self._limit = DeflectionLimit(self._server, self._moved)
         self._link = self._add("/a/l", mechanism.build_link())
         self._lever = self._add("/a/l/v", mechanism.build_lever())
         self._lever.position = (-RADIUS, 0.0, 0.0)
@@ -146,13 +146,11 @@ class ActuatorScene:
             ):
                 spring.scale = (1.0, length, 1.0)
 
-    def _move_deflection(self, deflection: float, limit: float) -> None:
+    def _move_deflection(self, deflection: float) -> None:
         if self._moved.is_due("deflection", (deflection,)):
             half = min(max(deflection, -math.pi / 2), math.pi / 2) / 2
             self._sector.wxyz = (math.cos(half / 2), 0.0, 0.0, math.sin(half / 2))
             self._sector.scale = (math.cos(half), max(2 * abs(math.sin(half)), 1e-3), 1.0)
-        for key, node, angle in zip("mn", self._limits, (-limit, limit), strict=True):
-            self._turn(key, node, angle)
 
     def _move_load(self, position: float, mass_kg: float) -> None:
         if mass_kg > 0.0:

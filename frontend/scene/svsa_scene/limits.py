@@ -1,0 +1,55 @@
+"""How far the spring may deflect: two marks and the arc between them, on the principal motor."""
+
+import math
+
+import viser
+
+from svsa_scene import appearance as look
+from svsa_scene import mechanism
+from svsa_scene.geometry import make_sector
+from svsa_scene.moved import Moved
+
+PIECES = 6
+_INNER, _OUTER = 1.16, 1.2
+
+
+class DeflectionLimit:
+    """An arc of straight pieces, which move only when the limit changes (it depends on μ)."""
+
+    def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
+        self._moved = moved
+        scene = server.scene
+        piece = make_sector(_INNER, _OUTER)
+        self._pieces = [
+            scene.add_mesh_simple(
+                f"/a/c/i{number}",
+                piece.vertices,
+                piece.faces,
+                color=look.LIMIT.color,
+                side="double",
+                position=(0.0, 0.0, mechanism.SECTOR_Z),
+                cast_shadow=False,
+            )
+            for number in range(PIECES)
+        ]
+        self._marks = []
+        for name in ("m", "n"):
+            self._marks.append(scene.add_frame(f"/a/c/{name}", show_axes=False))
+            glb = mechanism.export(mechanism.build_limit_mark())
+            scene.add_glb(f"/a/c/{name}/solid", glb)
+
+    def show(self, limit_rad: float) -> None:
+        """From −limit to +limit."""
+        if not self._moved.is_due("limit", (limit_rad,)):
+            return
+        for mark, angle in zip(self._marks, (-limit_rad, limit_rad), strict=True):
+            mark.wxyz = _turn(angle)
+        width = 2 * limit_rad / PIECES
+        scale = (math.cos(width / 2), max(2 * math.sin(width / 2), 1e-3), 1.0)
+        for number, piece in enumerate(self._pieces):
+            piece.wxyz = _turn((number + 0.5) * width - limit_rad)
+            piece.scale = scale
+
+
+def _turn(angle: float) -> tuple[float, float, float, float]:
+    return (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
