@@ -87,7 +87,7 @@ def build_header(session: Session, name: str, tags: tuple[str, ...], notes: str)
     return RecordHeader(
         version=svsa.__version__,
         run_id=build_run_id(),
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        created=datetime.now(UTC).isoformat(timespec="milliseconds"),
         session=session.name,
         plant=session.plant,
         name=name,

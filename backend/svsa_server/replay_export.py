@@ -7,6 +7,7 @@ from svsa.runtime.recording.reader import Record
 from svsa.runtime.resimulation import read_origin
 from svsa.runtime.run import Run
 from svsa_scene.replay import build_replay_html
+from svsa_server.lane_names import name_lanes
 
 
 def build_replay(record: Record) -> str:
@@ -18,7 +19,7 @@ def build_replay(record: Record) -> str:
     return build_replay_html(
         header.name or f"Run {header.run_id}",
         header.period_s,
-        list(header.lanes),
+        name_lanes(record),
         list(header.channel_names),
         record.samples,
         compute_hung_mass(record),

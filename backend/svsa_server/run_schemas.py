@@ -81,6 +81,7 @@ class RunCommand(BaseModel):
 class RunDetails(RunSummary):
     """A run with everything that decided its samples."""
 
+    lane_names: list[str] = Field(description="What to call the lanes: by their laws")
     seed: int
     configuration: dict[str, Any] = Field(description="At tick 0")
     channels: list[Channel]

@@ -209,16 +209,9 @@ def test_the_run_tells_about_itself(page: Page, exported: Path) -> None:
 
 
 @pytest.mark.browser
-def test_lanes_are_called_by_their_laws_and_an_emulated_rig_is_marked(
-    page: Page, tmp_path: Path
-) -> None:
-    rivals = [{"law": "ndobc"}]
-    details = {"configuration": {"law": "ndobc", "rivals": rivals}, "plant": "emulated"}
-    open_file(page, write_page(tmp_path, lanes=("lane1", "lane2"), details=details))
+def test_a_run_of_the_emulated_rig_is_marked(page: Page, tmp_path: Path) -> None:
+    open_file(page, write_page(tmp_path, details={"plant": "emulated"}))
     expect(page.get_by_text("EMULATED", exact=True)).to_be_visible()
-    view = page.get_by_role("region", name="The actuator in 3D")
-    expect(view.get_by_role("listitem").nth(0)).to_contain_text("Bench NDOBC")
-    expect(view.get_by_role("listitem").nth(1)).to_contain_text("Twin NDOBC")
 
 
 @pytest.mark.browser

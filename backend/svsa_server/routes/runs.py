@@ -15,6 +15,7 @@ from svsa.runtime.catalogue.entry import (
     MOST_PAGES,
     RunEntry,
 )
+from svsa_server.lane_names import name_lanes
 from svsa_server.routes import run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.routes.run_samples import RunId, Runs
@@ -69,6 +70,7 @@ def read_run(runs: Runs, run: RunId) -> RunDetails:
     entry, record = runs.get(run), runs.open(run)
     return RunDetails(
         **_list_values(entry),
+        lane_names=name_lanes(record),
         seed=record.header.seed,
         configuration=record.header.configuration,
         channels=list(record.header.channels),

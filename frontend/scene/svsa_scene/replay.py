@@ -73,7 +73,6 @@ def build_replay_html(
         "title": title,
         "period_s": period_s,
         "ticks": len(samples),
-        "first_tick": first_tick,
         "lanes": lanes,
         "details": details,
         "events": [{"time_s": tick * period_s, "label": label} for tick, label in events],

@@ -21,7 +21,6 @@ const given = (tick: number, kind: string, argument: unknown) => ({
 let readPlace: typeof ReadPlace;
 let writePlace: typeof WritePlace;
 let findOnset: (run: RunDetails) => number | null;
-let nameRunLanes: (run: RunDetails) => string[];
 let overlayInk: (index: number) => { colour: string; dash: readonly number[] };
 let drawSpark: typeof import("../src/runs/spark").drawSpark;
 
@@ -39,7 +38,6 @@ beforeAll(async () => {
   });
   ({ readPlace, writePlace } = await import("../src/runs/place"));
   ({ findOnset } = await import("../src/runs/onset"));
-  ({ nameRunLanes } = await import("../src/lanenames"));
   ({ overlayInk } = await import("../src/runs/overlaid"));
   ({ drawSpark } = await import("../src/runs/spark"));
 });
@@ -78,21 +76,6 @@ describe("the onset of the load", () => {
     expect(findOnset(details({}))).toBeNull();
     const before = given(2000, "load", { kind: "paper", start_s: null });
     expect(findOnset(details({ first_tick: 4000, commands: [before] }))).toBeNull();
-  });
-});
-
-describe("the lanes of a run", () => {
-  it("are called by the laws that they had when the recording began", () => {
-    const commands = [given(100, "rivals", [{ law: "fl" }]), given(500, "controller", "fl")];
-    const lanes = ["lane1", "lane2"];
-    expect(nameRunLanes(details({ first_tick: 200, commands, lanes }))).toEqual([
-      "NDOBC → FL",
-      "FL",
-    ]);
-  });
-
-  it("keep the names of the record where laws and lanes do not match", () => {
-    expect(nameRunLanes(details({ lanes: ["a", "b"] }))).toEqual(["a", "b"]);
   });
 });
 

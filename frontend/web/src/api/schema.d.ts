@@ -2068,6 +2068,11 @@ export interface components {
              * @description When it went into the trash, UTC
              */
             deleted: string | null;
+            /**
+             * Lane Names
+             * @description What to call the lanes: by their laws
+             */
+            lane_names: string[];
             /** Seed */
             seed: number;
             /**

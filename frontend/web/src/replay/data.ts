@@ -1,6 +1,4 @@
 /** The run inside the page: JSON, and arrays of numbers packed into one compressed text. */
-import type { RunDetails } from "../api/types";
-import { nameRunLanes } from "../lanenames";
 import { type Mark, markOf } from "../layout/plantmark";
 
 export interface Track {
@@ -34,7 +32,6 @@ export interface Run {
   title: string;
   period_s: number;
   ticks: number;
-  first_tick: number;
   lanes: string[];
   details: Record<string, unknown>;
   events: RunEvent[];
@@ -52,18 +49,6 @@ export interface Recording {
   endS: number;
 }
 
-/** What of the details names lanes and plant, where the record has it. */
-type Told = Partial<Pick<RunDetails, "configuration" | "plant">> & {
-  commands?: (RunDetails["commands"][number]["command"] & { tick: number })[];
-};
-
-function nameLanes({ details, lanes, first_tick }: Run): string[] {
-  const { configuration, plant, commands = [] } = details as Told;
-  if (configuration === undefined || plant === undefined) return lanes;
-  const given = commands.map(({ tick, ...command }) => ({ tick, command }));
-  return nameRunLanes({ configuration, plant, lanes, first_tick, commands: given });
-}
-
 /** What stands beside the picture; nothing for a simulation. */
 export function findMark({ details: { plant } }: Run): Mark | null {
   return plant === "emulated" || plant === "bench" ? markOf(plant) : null;
@@ -72,7 +57,6 @@ export function findMark({ details: { plant } }: Run): Mark | null {
 /** Reads the run out of the page; throws where it is damaged. */
 export async function readRecording(): Promise<Recording> {
   const run = JSON.parse(document.getElementById("run")?.textContent ?? "") as Run;
-  run.lanes = nameLanes(run);
   const bytes = await inflate(run.arrays.data);
   const arrays = run.arrays.places.map(([start, count]) => joinPlanes(bytes, start, count));
   return { run, arrays, endS: (run.ticks - 1) * run.period_s };

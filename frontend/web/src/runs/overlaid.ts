@@ -1,7 +1,6 @@
 /** Several runs on one axis of time, on which 0 is the load's onset. */
 import { readMetrics, readRun, readSamples } from "../api/runs";
 import type { Metrics, RunSamples } from "../api/types";
-import { nameRunLanes } from "../lanenames";
 import type { Ink, PlotColour } from "../plots/definitions";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
@@ -65,12 +64,11 @@ async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
     readMetrics(id, zero),
   ]);
   const time = Float64Array.from(samples.time_s, (seconds) => seconds - zero);
-  const names = nameRunLanes(run);
   return run.lanes.map((lane, index) => ({
     key: `${id}.${lane}`,
     run: id,
     runName: nameOf(run),
-    lane: names[index] ?? lane,
+    lane: run.lane_names[index] ?? lane,
     isAlone: run.lanes.length === 1,
     hasOnset: onset !== null,
     time,

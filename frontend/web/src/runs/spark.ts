@@ -1,7 +1,6 @@
 /** The position error of a run, small: one path a lane, on one scale. */
 import { readRun, readSamples } from "../api/runs";
 import type { RunSamples } from "../api/types";
-import { nameRunLanes } from "../lanenames";
 
 export const WIDTH = 300;
 export const HEIGHT = 44;
@@ -56,7 +55,7 @@ const kept = new Map<string, Promise<Glance>>();
 
 async function readGlance(run: string): Promise<Glance> {
   const [details, samples] = await Promise.all([readRun(run), readSamples(run, [CHANNEL], POINTS)]);
-  return { ...drawSpark(samples), lanes: nameRunLanes(details) };
+  return { ...drawSpark(samples), lanes: details.lane_names };
 }
 
 /** Read once a run and length; a run that is still recorded grows. */

@@ -25,7 +25,6 @@ export const runsText = {
     noSparkline: "Position error",
     peak: "peak",
     rms: "rms",
-    becomes: " → ",
     seconds: (seconds: number) => `${seconds} s`,
     minutes: (minutes: number, seconds: number) => `${minutes} min ${seconds} s`,
     state: {
