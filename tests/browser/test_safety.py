@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.test_page import open_page
 from tests.lab import Lab, run_lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 
 def wait_for_status(page: Page, lab: Lab, status: str) -> None:
@@ -45,19 +45,6 @@ def test_the_emergency_stop_pauses_a_simulation_and_tells_how_to_go_on(
     expect(page.get_by_role("alert").get_by_text("press Run")).to_be_visible()
     page.get_by_role("button", name="Run", exact=True).click()
     expect(page.get_by_role("alert").get_by_text("Emergency stop.")).to_have_count(0)
-
-
-def test_shift_escape_stops_from_a_text_field_and_from_the_3d_view(page: Page, lab: Lab) -> None:
-    open_page(page, lab)
-    field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
-    field.fill("0.3")
-    field.press("Shift+Escape")
-    wait_for_status(page, lab, "paused")
-    lab.client.post(lab.session + "/start").raise_for_status()
-    view = page.frame_locator("iframe").locator("body")
-    view.evaluate("body => { body.tabIndex = 0; body.focus(); }")
-    page.keyboard.press("Shift+Escape")
-    wait_for_status(page, lab, "paused")
 
 
 def test_a_stop_that_is_not_confirmed_says_so_and_is_asked_again(page: Page, lab: Lab) -> None:

@@ -5,6 +5,8 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.test_page import open_page
+from tests.browser.test_safety import wait_for_status
 from tests.lab import Lab
 
 pytestmark = pytest.mark.browser
@@ -72,3 +74,16 @@ def test_low_graphics_are_remembered(page: Page, lab: Lab) -> None:
     assert page.evaluate(pixels) < 0.7 * full["width"]
     page.reload()
     expect(switch).to_have_attribute("aria-pressed", "true")
+
+
+def test_shift_escape_stops_from_a_text_field_and_from_the_3d_view(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
+    field.fill("0.3")
+    field.press("Shift+Escape")
+    wait_for_status(page, lab, "paused")
+    lab.client.post(lab.session + "/start").raise_for_status()
+    view = page.frame_locator("iframe").locator("body")
+    view.evaluate("body => { body.tabIndex = 0; body.focus(); }")
+    page.keyboard.press("Shift+Escape")
+    wait_for_status(page, lab, "paused")
