@@ -154,6 +154,16 @@ def test_a_screen_has_no_violation(
     expect_no_violation(page, *sizes)
 
 
+def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
+    open_lab(page, recorded)
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("link", name="Skip to the plots")).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("region", name="Plots", exact=True)).to_be_focused()
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Pause plots")).to_be_focused()
+
+
 @pytest.mark.parametrize("status", ["off", "run"])
 def test_a_bench_has_no_violation(page: Page, lab: Lab, status: str) -> None:
     PatchedBench(page, status=status, dead_man=True)

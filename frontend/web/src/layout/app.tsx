@@ -25,6 +25,11 @@ export function App() {
   const at = place.value;
   return (
     <>
+      {at.kind === "lab" && (
+        <a class="skip" href="#plots">
+          {text.skip}
+        </a>
+      )}
       <TopBar />
       {state?.bench && <BenchStrip bench={state.bench} />}
       <PrivateBanner />

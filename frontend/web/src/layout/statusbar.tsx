@@ -74,7 +74,7 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
 function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: SessionState }) {
   const isOn = recording?.state === "recording";
   return (
-    <Cell name={text.status.recording} class={isOn ? "is-recording" : ""}>
+    <Cell name={text.status.recording} class={isOn ? "is-recording" : "is-idle"}>
       {isOn && (
         <span class="recording-sign" aria-hidden="true">
           ●

@@ -56,7 +56,12 @@ export function Plots() {
   const isEmpty = setups.value.length === 0;
   const isCut = !isLive.value && !isHeld.value;
   return (
-    <section class={`plots ${isCut ? "is-frozen" : ""}`} aria-label={text.plots.heading} id="plots">
+    <section
+      class={`plots ${isCut ? "is-frozen" : ""}`}
+      aria-label={text.plots.heading}
+      id="plots"
+      tabIndex={-1}
+    >
       <h2 class="visually-hidden">{text.plots.heading}</h2>
       <Toolbar />
       <div class="plots-scroll">

@@ -1,6 +1,7 @@
 /** The frame of the page: header, status bar, banners, login. */
 export const pageText = {
   name: "SVSA Lab",
+  skip: "Skip to the plots",
   subtitle: "variable stiffness, live",
   session: "Session",
   view: "The actuator in 3D",
