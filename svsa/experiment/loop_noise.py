@@ -4,6 +4,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from scipy.linalg import solve_discrete_lyapunov
 
 from svsa.plant.effects import RIG, Effects, build_bench
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
@@ -14,7 +15,6 @@ from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
 
 _STEP = 1e-6
 _TORQUES = slice(15, 17)
-_DOUBLINGS = 50
 
 
 class LoopNoise(NamedTuple):
@@ -56,17 +56,9 @@ def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
     if radius >= 1.0:
         return LoopNoise(math.inf, math.inf, radius)
     Q = np.diag([motor, motor, deflection])
-    P = sum_noise(A, B @ Q @ B.T)
+    P = solve_discrete_lyapunov(A, B @ Q @ B.T, method="bilinear")
     u1, u2 = np.sqrt(np.maximum(np.diag(P)[_TORQUES], 0.0))
     return LoopNoise(float(u1), float(u2), radius)
-
-
-def sum_noise(A: np.ndarray, N: np.ndarray) -> np.ndarray:
-    """P = Σ Aᵏ N Aᵏᵀ of a stable A, by doubling: the solution of P = A P Aᵀ + N."""
-    for _ in range(_DOUBLINGS):
-        N = N + A @ N @ A.T
-        A = A @ A
-    return N
 
 
 def linearize_tick(configuration: Configuration, sigma: float) -> tuple[np.ndarray, np.ndarray]:

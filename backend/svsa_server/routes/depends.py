@@ -1,4 +1,4 @@
-"""The session that a path names, for a client that may do what it asks there."""
+"""What a path names: the session, for a client that may do what it asks there, or the run."""
 
 import time
 from typing import Annotated, Any
@@ -8,6 +8,7 @@ from starlette.requests import HTTPConnection
 from starlette.types import Scope
 
 from svsa.errors import ParameterError
+from svsa.runtime.catalogue.runs import Catalogue
 from svsa.runtime.session import Session
 from svsa_server.control import (
     CHANGING,
@@ -73,6 +74,15 @@ async def find_session(
 
 
 NamedSession = Annotated[Session, Depends(find_session)]
+
+
+def find_catalogue(connection: HTTPConnection) -> Catalogue:
+    """The runs of this server."""
+    return connection.app.state.catalogue
+
+
+Runs = Annotated[Catalogue, Depends(find_catalogue)]
+RunId = Annotated[str, Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])]
 
 REFUSALS: dict[int | str, dict[str, Any]] = {
     404: {"model": ErrorModel, "description": "No such session, load or run"},

@@ -61,7 +61,7 @@ async def predict_design(
 
 
 def _read_stiffness(session: Session) -> float:
-    """σ_d now, N·m/rad, kept inside the range of the limits."""
+    """σ_d now, N·m/rad; before the first tick, where it begins."""
     newest = session.history.read_newest()
     configuration = session.run.configuration
     if newest is None:

@@ -8,8 +8,7 @@ from fastapi import APIRouter
 
 from svsa.experiment.paper import get_figure
 from svsa.runtime.recording.header import PlantKind
-from svsa_server.routes.depends import NamedSession
-from svsa_server.routes.run_samples import RunId, Runs
+from svsa_server.routes.depends import NamedSession, RunId, Runs
 from svsa_server.run_schemas import RunCommand, RunOrigin
 from svsa_server.schemas import SessionRequest
 

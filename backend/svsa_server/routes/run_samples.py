@@ -6,16 +6,16 @@ from typing import Annotated
 
 import msgspec
 import numpy as np
-from fastapi import APIRouter, Depends, Path, Query, Request
+from fastapi import APIRouter, Query
 from fastapi.responses import HTMLResponse, Response
 
 from svsa.errors import ParameterError, Violation
-from svsa.runtime.catalogue.runs import Catalogue
 from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runtime.recording.decimation import decimate
 from svsa.runtime.recording.reader import Record
 from svsa.signals import PLOTTED
 from svsa_server.replay_export import build_replay
+from svsa_server.routes.depends import RunId, Runs
 from svsa_server.run_schemas import RunMetrics, RunSamples
 
 MOST_POINTS = 20_000
@@ -23,13 +23,6 @@ REPLAY_AGE_S = 600
 router = APIRouter()
 
 
-def find_catalogue(request: Request) -> Catalogue:
-    """The runs of this server."""
-    return request.app.state.catalogue
-
-
-Runs = Annotated[Catalogue, Depends(find_catalogue)]
-RunId = Annotated[str, Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])]
 RunTime = Annotated[
     float | None, Query(ge=0, allow_inf_nan=False, description="Time of the run, s")
 ]

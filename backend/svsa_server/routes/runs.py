@@ -17,8 +17,7 @@ from svsa.runtime.catalogue.entry import (
 )
 from svsa_server.lane_names import name_lanes
 from svsa_server.routes import run_origins, run_samples
-from svsa_server.routes.depends import REFUSALS
-from svsa_server.routes.run_samples import RunId, Runs
+from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.run_schemas import (
     ExportName,
     RunCommand,

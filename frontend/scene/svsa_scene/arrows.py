@@ -5,7 +5,7 @@ import math
 import viser
 
 from svsa_scene import appearance as look
-from svsa_scene.geometry import make_arrow_head, make_arrow_shaft
+from svsa_scene.geometry import make_arrow_head, make_arrow_shaft, turn
 from svsa_scene.moved import Moved
 from svsa_scene.pose import ActuatorPose
 
@@ -72,7 +72,7 @@ class TorqueArrow:
             return
         angle = self._heading + (math.pi if torque_nm < 0.0 else 0.0)
         if self._moved.is_due(f"{self._name}/turn", (angle,)):
-            self._root.wxyz = (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+            self._root.wxyz = turn(angle)
         if self._moved.is_due(f"{self._name}/length", (length,)):
             self._shaft.scale = (1.0, length, 1.0)
             self._head.position = (0.0, length, 0.0)

@@ -1,5 +1,6 @@
 """Solids of which the actuator is built. Axis of turned parts: z. Lengths are scene units."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -150,8 +151,18 @@ def make_spiral(
     return make_tube(path, wire)
 
 
+def turn(angle: float) -> tuple[float, float, float, float]:
+    """The rotation about z by an angle, rad, as the quaternion (w, x, y, z)."""
+    return (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+
+
+def scale_sector(angle: float) -> tuple[float, float, float]:
+    """The scale at which `make_sector` spans an angle, rad; a little where it is 0."""
+    return (math.cos(angle / 2), max(2 * abs(math.sin(angle / 2)), 1e-3), 1.0)
+
+
 def make_sector(inner: float, outer: float) -> trimesh.Trimesh:
-    """A flat trapezoid about −x for a scaled sector: scaled by (cos ½φ, 2 sin ½φ, 1), it is the
+    """A flat trapezoid about −x for a scaled sector: scaled by `scale_sector(φ)`, it is the
     part between two radii of the triangle that the angle φ spans.
     """
     vertices = [

@@ -1,12 +1,10 @@
 """How far the spring may deflect: two marks and the arc between them, on the principal motor."""
 
-import math
-
 import viser
 
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
-from svsa_scene.geometry import make_sector
+from svsa_scene.geometry import make_sector, scale_sector, turn
 from svsa_scene.moved import Moved
 
 PIECES = 6
@@ -43,13 +41,8 @@ class DeflectionLimit:
         if not self._moved.is_due("limit", (limit_rad,)):
             return
         for mark, angle in zip(self._marks, (-limit_rad, limit_rad), strict=True):
-            mark.wxyz = _turn(angle)
+            mark.wxyz = turn(angle)
         width = 2 * limit_rad / PIECES
-        scale = (math.cos(width / 2), max(2 * math.sin(width / 2), 1e-3), 1.0)
         for number, piece in enumerate(self._pieces):
-            piece.wxyz = _turn((number + 0.5) * width - limit_rad)
-            piece.scale = scale
-
-
-def _turn(angle: float) -> tuple[float, float, float, float]:
-    return (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+            piece.wxyz = turn((number + 0.5) * width - limit_rad)
+            piece.scale = scale_sector(width)

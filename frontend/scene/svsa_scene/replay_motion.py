@@ -19,6 +19,7 @@ import zstandard
 
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
+from svsa_scene.geometry import turn
 from svsa_scene.pose import ActuatorPose
 from svsa_scene.replay_packing import ArrayPack
 from svsa_scene.scene import ActuatorScene
@@ -92,7 +93,7 @@ def record_motion(
             for lane, ghost in enumerate(ghosts, start=1):
                 angle = float(samples[tick, lane, position])
                 if math.isfinite(angle):
-                    ghost.wxyz = (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+                    ghost.wxyz = turn(angle)
         recording.insert_sleep(1.0)
         scene.set_theme(dark=True)
         messages = _decode(recording.serialize())

@@ -1,11 +1,10 @@
 """The other lanes, live: where each of their links is, as an outline with the law's name."""
 
-import math
-
 import viser
 
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
+from svsa_scene.geometry import turn
 from svsa_scene.moved import Moved
 from svsa_scene.pose import RivalPose
 
@@ -47,5 +46,4 @@ class Rivals:
                 if name:
                     self._labels[number].text = name
             if rival and self._moved.is_due(f"rival{number}", (rival.position_rad,)):
-                half = rival.position_rad / 2
-                frame.wxyz = (math.cos(half), 0.0, 0.0, math.sin(half))
+                frame.wxyz = turn(rival.position_rad)

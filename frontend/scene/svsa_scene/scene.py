@@ -7,7 +7,7 @@ import viser
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.arrows import TorqueArrows
-from svsa_scene.geometry import join, make_helix, make_sector
+from svsa_scene.geometry import join, make_helix, make_sector, scale_sector, turn
 from svsa_scene.limits import DeflectionLimit
 from svsa_scene.linkage import (
     LOAD_ARM,
@@ -132,7 +132,7 @@ class ActuatorScene:
 
     def _turn(self, key: str, node: viser.SceneNodeHandle, angle: float) -> None:
         if self._moved.is_due(key, (angle,)):
-            node.wxyz = (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+            node.wxyz = turn(angle)
 
     def _move_linkage(self, linkage: Linkage) -> None:
         self._turn("plate", self._plate, linkage.plate_angle)
@@ -148,9 +148,9 @@ class ActuatorScene:
 
     def _move_deflection(self, deflection: float) -> None:
         if self._moved.is_due("deflection", (deflection,)):
-            half = min(max(deflection, -math.pi / 2), math.pi / 2) / 2
-            self._sector.wxyz = (math.cos(half / 2), 0.0, 0.0, math.sin(half / 2))
-            self._sector.scale = (math.cos(half), max(2 * abs(math.sin(half)), 1e-3), 1.0)
+            shown = min(max(deflection, -math.pi / 2), math.pi / 2)
+            self._sector.wxyz = turn(shown / 2)
+            self._sector.scale = scale_sector(shown)
 
     def _move_load(self, position: float, mass_kg: float) -> None:
         if mass_kg > 0.0:
