@@ -6,6 +6,7 @@ from svsa.plant.disturbances import get_hung_mass
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose, RivalPose
+from svsa_server.lane_names import name_laws
 
 
 def read_pose(session: Session) -> ActuatorPose | None:
@@ -37,12 +38,12 @@ def read_pose(session: Session) -> ActuatorPose | None:
 
 
 def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
-    """Where the links of the other lanes are; a bench's twin is called so."""
+    """Where the links of the other lanes are."""
     poses = []
-    for number, lane in enumerate(session.run.configuration.lanes[1:], start=1):
+    names = name_laws([lane.law for lane in session.run.configuration.lanes], session.plant)
+    for number, name in enumerate(names[1:], start=1):
         newest = session.history.read_newest(number)
         if newest is not None:
-            name = lane.law.upper() if session.plant == "simulated" else "twin"
             position = float(np.nan_to_num(newest[CHANNEL_INDEX["position_rad"]]))
             poses.append(RivalPose(name, position))
     return tuple(poses)

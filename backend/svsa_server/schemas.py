@@ -218,6 +218,7 @@ class LaneMetrics(SessionMetrics):
 
     lane: int
     law: Law
+    name: str = Field(description="What to call it: by its law")
 
 
 class RecordingState(BaseModel):

@@ -7,6 +7,7 @@ import numpy as np
 
 from svsa.control.gains import Gains
 from svsa.plant.disturbances import ScheduledLoad
+from svsa.runtime.configuration import Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.realtime.session import BenchSession
 from svsa.runtime.recording.recorder import Recorder
@@ -14,6 +15,7 @@ from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
 from svsa_server.control import build_control
+from svsa_server.lane_names import name_laws
 from svsa_server.schemas import (
     ConfigurationState,
     GainsState,
@@ -30,6 +32,8 @@ from svsa_server.schemas import (
 def build_progress(session: Session) -> SessionProgress:
     """What of the session moves by itself, at this instant."""
     run, clock = session.run, session.clock
+    laws: list[Law] = [lane.law for lane in run.configuration.lanes]
+    names = name_laws(laws, session.plant)
     return SessionProgress(
         status=session.status,
         run=session.run_number,
@@ -41,8 +45,8 @@ def build_progress(session: Session) -> SessionProgress:
         fault=session.fault,
         metrics=SessionMetrics(**_summarize(session, 0)),
         lanes=[
-            LaneMetrics(lane=number + 1, law=lane.law, **_summarize(session, number))
-            for number, lane in enumerate(run.configuration.lanes)
+            LaneMetrics(lane=number + 1, law=law, name=name, **_summarize(session, number))
+            for number, (law, name) in enumerate(zip(laws, names, strict=True))
         ],
         recording=_build_recording(session.recorder),
         bench=build_bench_state(session) if isinstance(session, BenchSession) else None,

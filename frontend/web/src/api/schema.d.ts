@@ -1613,6 +1613,11 @@ export interface components {
              * @enum {string}
              */
             law: "ndobc" | "fl";
+            /**
+             * Name
+             * @description What to call it: by its law
+             */
+            name: string;
         };
         /**
          * LanesRequest

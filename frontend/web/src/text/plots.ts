@@ -175,8 +175,6 @@ export const plotsText = {
     with: (law: string) => `Compare with ${law}`,
     does: "Runs beside, on an actuator of its own, with the same motion, load and noise.",
     whileRecording: "A recording has the same lanes throughout: stop it first.",
-    bench: ["Bench", "Twin"],
-    numbered: (law: string, lane: number) => `${law} (${lane})`,
     versus: (names: readonly string[]) => names.join(" against "),
     heading: "Which controller does better",
     lane: "Controller",
