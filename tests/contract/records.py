@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from svsa.runtime.catalogue.runs import Catalogue
 from svsa.runtime.recording.header import RecordHeader
+from svsa.runtime.recording.writer import write_record
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 
 PERIOD_S = 0.001
@@ -35,3 +37,14 @@ def build_samples(ticks: int, lanes: int = 2, first_tick: int = 0) -> np.ndarray
     samples = np.sin(grid * 0.01) * 10.0 ** (np.arange(len(CHANNELS)) % 7 - 3)
     samples[:, :, CHANNEL_INDEX["time_s"]] = (tick * PERIOD_S)[:, None]
     return samples
+
+
+def add(catalogue: Catalogue, run_id: str, ticks: int = 20, **changes: object) -> None:
+    header = build_header(run_id, **changes)
+    write_record(catalogue.folder / "runs" / run_id, header, [], 0, build_samples(ticks))
+    catalogue.register(header)
+    catalogue.finish(run_id)
+
+
+def list_ids(catalogue: Catalogue, **query: object) -> list[str]:
+    return [run.id for run in catalogue.list(**query).runs]  # pyright: ignore[reportArgumentType]

@@ -3,7 +3,7 @@
 import contextlib
 import dataclasses
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -47,17 +47,29 @@ class Database:
             self._set_aside()
             self._prepare()
 
-    def put(self, *entries: RunEntry) -> None:
-        """Add or replace runs."""
+    def add(self, *entries: RunEntry) -> None:
+        """Add runs; one that is known stays as it is."""
         with self._connect() as connection:
+            connection.execute("BEGIN IMMEDIATE")
             for entry in entries:
-                _put(connection, entry)
+                if not _has(connection, entry.id):
+                    _put(connection, entry)
 
     def change(self, run_id: str, changes: dict[str, Any]) -> RunEntry:
         """Replace these fields of a run and no others; raises `UnknownRunError`."""
+        return self.revise(run_id, lambda _: changes)
+
+    def revise(self, run_id: str, decide: Callable[[RunEntry], dict[str, Any]]) -> RunEntry:
+        """Replace the fields that `decide` makes of the run as it stands.
+
+        No thread and no process changes the table meanwhile: what `decide` does to the run's
+        folder and what the table says of it agree. Raises `UnknownRunError`, and what `decide`
+        raises, with the run unchanged.
+        """
         with self._connect() as connection:
             connection.execute("BEGIN IMMEDIATE")
-            changed = dataclasses.replace(_get(connection, run_id), **changes)
+            entry = _get(connection, run_id)
+            changed = dataclasses.replace(entry, **decide(entry))
             _put(connection, changed)
         return changed
 
@@ -163,6 +175,11 @@ def _put(connection: sqlite3.Connection, entry: RunEntry) -> None:
     connection.execute("DELETE FROM tags WHERE run = ?", (entry.id,))
     rows = [(tag, entry.id, trash) for tag in entry.tags]
     connection.executemany("INSERT INTO tags VALUES (?, ?, ?)", rows)
+
+
+def _has(connection: sqlite3.Connection, run_id: str) -> bool:
+    found = connection.execute("SELECT 1 FROM entries WHERE id = ?", (run_id,))
+    return found.fetchone() is not None
 
 
 def _get(connection: sqlite3.Connection, run_id: str) -> RunEntry:

@@ -2,6 +2,7 @@
 
 import contextlib
 import dataclasses
+import functools
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from datetime import UTC, datetime
@@ -19,6 +20,7 @@ from svsa.runtime.recording.parquet import measure_bytes
 from svsa.runtime.recording.reader import Record, open_record, recover
 
 CUT_OFF = "The recording was cut off; what had been written is here."
+GONE = "Its folder is gone."
 
 
 @dataclass(frozen=True)
@@ -56,12 +58,10 @@ def recover_runs(database: Database, runs: Path, trash: Path) -> Recovery:
         if entry.state == "damaged":
             problems.append((folder.name, entry.message))
     for run_id in known.keys() - found:
-        if (runs / run_id).exists() or (trash / run_id).exists():
-            continue
-        message = "Its folder is gone."
         with contextlib.suppress(UnknownRunError):
-            database.change(run_id, {"state": "missing", "message": message})
-            problems.append((run_id, message))
+            places = (runs / run_id, trash / run_id)
+            if database.revise(run_id, functools.partial(_miss, places)).state == "missing":
+                problems.append((run_id, GONE))
     return Recovery(tuple(finished), tuple(registered), tuple(problems))
 
 
@@ -70,13 +70,27 @@ def _recover_run(database: Database, folder: Path, deleted: bool, state: str) ->
     if not state:
         if not any(path.stat().st_size for path in folder.iterdir()):
             return None
-        database.put(build_entry(folder))
+        database.add(build_entry(folder))
     entry = database.get(folder.name)
     changes: dict[str, Any] = {"deleted": _choose_time(entry, deleted)}
     unfinished = (folder / STREAM_FILE).exists()
     if unfinished or state in ("", "recording", "missing"):
         changes |= _finish(folder, entry, unfinished)
-    return database.change(folder.name, changes)
+
+    def apply(now: RunEntry) -> dict[str, Any]:
+        is_as_seen = (now.state, now.deleted) == (entry.state, entry.deleted)
+        if is_as_seen and folder.is_dir():
+            return changes
+        return {}  # another thread or process changed it meanwhile, and knows better
+
+    return database.revise(folder.name, apply)
+
+
+def _miss(places: tuple[Path, ...], _: RunEntry) -> dict[str, Any]:
+    """What changes of an entry whose folder was not found; nothing where it has moved."""
+    if any(place.exists() for place in places):
+        return {}
+    return {"state": "missing", "message": GONE}
 
 
 def describe(folder: Path) -> dict[str, Any]:

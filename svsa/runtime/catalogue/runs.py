@@ -66,9 +66,8 @@ class Catalogue:
 
     def register(self, header: RecordHeader) -> RunEntry:
         """Put a run whose folder is there into the list."""
-        entry = build_entry(self._runs / header.run_id)
-        self._database.put(entry)
-        return entry
+        self._database.add(build_entry(self._runs / header.run_id))
+        return self._database.get(header.run_id)
 
     def finish(self, run_id: str, status: RecordStatus | None = None) -> RunEntry:
         """A recording has ended: measure what it holds. status: what its recorder says last.
@@ -102,21 +101,25 @@ class Catalogue:
         notes: str | None = None,
     ) -> RunEntry:
         """Change what is given; raises `ParameterError` for a wrong value."""
-        entry = self.get(run_id)
+        self.get(run_id)
         given = {"name": name, "tags": tags, "notes": notes}
         changes: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
         if tags is not None:
             changes["tags"] = tuple(tags)
-        changed = dataclasses.replace(entry, **changes)
-        check_texts(changed.name, changed.tags, changed.notes)
-        if changed.state not in ("damaged", "missing"):
-            folder = self.find_folder(run_id)
+
+        def write(entry: RunEntry) -> dict[str, Any]:
+            changed = dataclasses.replace(entry, **changes)
+            check_texts(changed.name, changed.tags, changed.notes)
+            if entry.state in ("damaged", "missing"):
+                return changes
+            folder = self._locate(entry)
             try:
                 write_header(folder, read_header(folder).changed(**changes))
             except OSError as error:
                 raise RecordError(f"Run {run_id} cannot be changed: {error}.") from None
-            changes["bytes"] = measure_bytes(folder)
-        return self._database.change(run_id, changes)
+            return changes | {"bytes": measure_bytes(folder)}
+
+        return self._database.revise(run_id, write)
 
     def query(self, query: Query) -> RunPage:
         """The page of the list that `query` asks for."""
@@ -128,21 +131,28 @@ class Catalogue:
 
     def delete(self, run_id: str) -> RunEntry:
         """Put a run into the trash; raises `StateError` while it is recorded."""
-        entry = self.get(run_id)
-        if entry.state == "recording":
-            raise StateError(f"Run {run_id} is being recorded: stop the recording first.")
-        if entry.deleted is not None:
-            return entry
-        self._move(self._runs / run_id, self._trash / run_id)
-        return self._database.change(run_id, {"deleted": _tell_time()})
+        self.get(run_id)
+
+        def throw_away(entry: RunEntry) -> dict[str, Any]:
+            if entry.state == "recording":
+                raise StateError(f"Run {run_id} is being recorded: stop the recording first.")
+            if entry.deleted is not None:
+                return {}
+            _move(self._runs / run_id, self._trash / run_id)
+            return {"deleted": _tell_time()}
+
+        return self._database.revise(run_id, throw_away)
 
     def restore(self, run_id: str) -> RunEntry:
         """Take a run out of the trash."""
-        entry = self.get(run_id)
-        if entry.deleted is None:
-            return entry
-        self._move(self._trash / run_id, self._runs / run_id)
-        return self._database.change(run_id, {"deleted": None})
+        self.get(run_id)
+
+        def take_back(entry: RunEntry) -> dict[str, Any]:
+            if entry.deleted is not None:
+                _move(self._trash / run_id, self._runs / run_id)
+            return {"deleted": None}
+
+        return self._database.revise(run_id, take_back)
 
     def purge(self, run_id: str) -> None:
         """Delete a run in the trash for good; raises `StateError` for one that is not there."""
@@ -162,8 +172,7 @@ class Catalogue:
 
     def find_folder(self, run_id: str) -> Path:
         """The folder that a run is in, in the trash or not."""
-        entry = self.get(run_id)
-        return (self._runs if entry.deleted is None else self._trash) / run_id
+        return self._locate(self.get(run_id))
 
     def list(
         self,
@@ -177,13 +186,8 @@ class Catalogue:
         """A page of the list: see `Query`; raises `ParameterError` for a wrong value."""
         return self.query(Query(search, tag, sort, page, page_size, trash))
 
-    def _move(self, source: Path, target: Path) -> None:
-        try:
-            source.replace(target)
-        except FileNotFoundError:
-            return
-        except OSError as error:
-            raise RecordError(f"Run {source.name} cannot be moved: {error}.") from None
+    def _locate(self, entry: RunEntry) -> Path:
+        return (self._runs if entry.deleted is None else self._trash) / entry.id
 
 
 def find_data_folder() -> Path:
@@ -195,6 +199,15 @@ def find_data_folder() -> Path:
 def build_run_id() -> str:
     """An id for a new run: the time in UTC, and enough chance that no two are the same."""
     return f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{secrets.token_hex(4)}"
+
+
+def _move(source: Path, target: Path) -> None:
+    try:
+        source.replace(target)
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise RecordError(f"Run {source.name} cannot be moved: {error}.") from None
 
 
 def _tell_time() -> str:
