@@ -5,14 +5,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
+from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from svsa.rig.launch import start_rig
 from tests.browser.test_page import open_page
 from tests.lab import Lab, run_lab
 from tests.service.test_bench_session import BenchLab, write_bench
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 CONTROL_S = "2"
 ATTEMPTS = 8
@@ -23,15 +23,6 @@ def free_lab() -> Iterator[Lab]:
     """A lab of its own, in which control outlives its holder by 2 s only."""
     with run_lab(control_s=CONTROL_S) as lab:
         yield lab
-
-
-@pytest.fixture
-def context(browser: Browser, browser_context_args: dict) -> Iterator[BrowserContext]:
-    """Tabs of one browser, without the 3D view, which is not looked at here."""
-    context = browser.new_context(**browser_context_args)
-    context.route("**/viser/**", lambda route: route.abort())
-    yield context
-    context.close()
 
 
 @pytest.fixture

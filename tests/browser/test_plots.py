@@ -85,7 +85,9 @@ def test_plots_are_added_removed_kept_and_reset(page: Page, lab: Lab) -> None:
 def test_every_channel_of_the_server_can_be_picked(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.get_by_role("button", name="Plots", exact=True).click()
-    options = page.get_by_label("Another plot of").locator("option")
+    picker = page.get_by_label("Another plot of")
+    expect(picker).to_be_visible()
+    options = picker.locator("option")
     values = options.evaluate_all("all => all.map(option => option.value).filter(Boolean)")
     assert sorted(values) == sorted(set(CHANNEL_NAMES) - {"time_s"})
 

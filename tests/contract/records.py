@@ -1,5 +1,8 @@
 """Records to test with, made without simulating."""
 
+import time
+from collections.abc import Callable
+
 import numpy as np
 
 from svsa.runtime.catalogue.runs import Catalogue
@@ -48,3 +51,10 @@ def add(catalogue: Catalogue, run_id: str, ticks: int = 20, **changes: object) -
 
 def list_ids(catalogue: Catalogue, **query: object) -> list[str]:
     return [run.id for run in catalogue.list(**query).runs]  # pyright: ignore[reportArgumentType]
+
+
+def wait_until(condition: Callable[[], bool], timeout_s: float = 10.0) -> None:
+    deadline = time.monotonic() + timeout_s
+    while not condition():
+        assert time.monotonic() < deadline, "it did not happen in time"
+        time.sleep(0.01)

@@ -7,8 +7,6 @@ import threading
 
 import can
 import pytest
-from typer import Typer
-from typer.testing import CliRunner
 
 from svsa.hardware import bus as bus_module
 from svsa.hardware.bench import BusSettings, read_bench
@@ -16,7 +14,6 @@ from svsa.hardware.bus import BusError, open_bus
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.check import SIGN_STEPS, check_bench
 from svsa.hardware.check.step import Result
-from svsa.hardware.command import bench_check, bench_home
 from svsa.hardware.homing import STEPS, Homing
 from svsa.hardware.robomodule import Address, Command, Current, build_id, decode, encode, split_id
 from svsa.hardware.zero import calibrate
@@ -32,7 +29,6 @@ from svsa.rig.faults import (
     Stall,
 )
 from svsa.rig.frame import Frame
-from svsa.rig.launch import start_rig
 from svsa.rig.parameters import RigDeflection, RigParameters
 from svsa.rig.rig import Rig
 from tests.hardware.bus_in_time import RIG_BENCH, RigBus, copy_bench
@@ -326,50 +322,6 @@ def test_a_daemon_that_says_nothing_is_not_waited_for(monkeypatch):
         opening.start()
         opening.join(30.0)
         assert len(failures) == 1
-
-
-APP = Typer()
-APP.command("bench-check")(bench_check)
-APP.command("bench-home")(bench_home)
-
-
-def test_the_command_moves_nothing_where_it_is_not_allowed_to(path):
-    """The answer no, and no rig behind the port: it is asked before anything is opened."""
-    result = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="n\n")
-    assert result.exit_code == 1
-    assert "emergency stop" in result.output
-    assert "drive 0.1" not in result.output
-
-
-def test_the_command_ends_with_an_error_where_a_step_fails(tmp_path):
-    result = CliRunner().invoke(APP, ["bench-check", str(tmp_path / "none.toml")])
-    assert result.exit_code == 1
-    assert "Correct the bench file" in result.output
-
-
-def test_the_command_prints_sections_of_the_bench_file_as_they_are_written(tmp_path):
-    """A printer that takes [motor1] for markup would leave out the very word that matters."""
-    path = copy_bench(tmp_path, lambda text: text.replace("sign = 1\n", "").replace("29536", "1"))
-    result = CliRunner().invoke(APP, ["bench-check", str(path)])
-    assert "[motor1] sign is not given" in result.output
-    assert "[deflection] sign is not given" in " ".join(result.output.split())
-
-
-def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
-    """A rig in its own process, python-can in between: the record is written, all is left off."""
-    with start_rig(lockstep=False) as rig:
-        path = copy_bench(tmp_path, lambda text: text.replace("29536", str(rig.port)))
-        path.with_name("bench.calibration.toml").unlink()
-        homed = CliRunner().invoke(APP, ["bench-home", str(path), "--by", "Ada"], input="y\ny\ny\n")
-        assert homed.exit_code == 0, homed.output
-        assert "run `svsa bench-check --move`" in " ".join(homed.output.split())
-        checked = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
-        drives = rig.control.read_state()["drives"]
-    assert "motor2: direction" in checked.output, checked.output
-    calibration = find_calibration(read_bench(path))
-    assert calibration is not None and calibration.by == "Ada"
-    for drive in drives.values():
-        assert drive["mode"] is None and drive["commanded_ma"] == 0
 
 
 def test_the_rigs_own_bench_file_is_complete():

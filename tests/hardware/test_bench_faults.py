@@ -14,7 +14,6 @@ import pytest
 
 from svsa.errors import StateError
 from svsa.experiment.bench_run import LockstepBench, connect_bench
-from svsa.experiment.paper import get_figure
 from svsa.hardware.bus import open_bus
 from svsa.hardware.drive import build_broadcast_resets
 from svsa.hardware.emulation import ADVANCE_ID, encode_time
@@ -42,94 +41,13 @@ from svsa.rig.faults import (
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.signals import Torque
 
+from .watched_bench import FIGURE, Bench, make_ready
+
 DRIVES: tuple[DriveName, DriveName] = ("motor1", "motor2")
 NODES: tuple[Node, ...] = (*DRIVES, "deflection")
-FIGURE = get_figure("4a").build_configuration(load=False)
-MOVING_TICKS = 500
-LONGEST_TICKS = 700
 WITHOUT_VALUES = {"emergency_stop", "not_finite", "bus_error", "foreign_command", "drive_silent"}
 WRONG = {"implausible", "encoder_frozen", "overspeed", "vibration", "lever_end", "drive_zeroed"}
 SEEN_IN_MOTION = {*WRONG, "deflection_limit", "position_limit", "overload"}
-
-
-class RigBeats:
-    """Heartbeats in the rig's time: `stopped` is when a slot fell silent, s."""
-
-    def __init__(self) -> None:
-        self.now: Callable[[], float] = lambda: 0.0
-        self.stopped: dict[str, float] = {}
-
-    def age_s(self, slot: str) -> float:
-        return self.now() - self.stopped[slot] if slot in self.stopped else 0.0
-
-
-class Bench(LockstepBench):
-    """A bench on the rig that has been brought to READY, and watched tick by tick.
-
-    fastest, farthest: the true |dq|, |dθ1|, |dθ2| and |q| since `watch` began. last_current_s:
-    when a drive that hears was last told anything but zero, in the rig's time.
-    """
-
-    def __init__(self, rig: RunningRig, **safety: Any) -> None:
-        bench, self.beats = connect_bench(rig), RigBeats()
-        bench = bench.changed(safety=bench.safety.changed(**safety))
-        super().__init__(rig, FIGURE, 1, bench, self.beats)  # pyright: ignore[reportArgumentType]
-        self.beats.now = self.now
-        self.fastest, self.farthest = {"dq": 0.0, "dtheta1": 0.0, "dtheta2": 0.0}, 0.0
-        self.last_current_s = 0.0
-
-    def run(self, ticks: int = MOVING_TICKS) -> None:
-        self.start()
-        self.tick(ticks)
-        assert self.plant.status is BenchStatus.RUN, self.plant.fault
-
-    def miss(self, ticks: int) -> None:
-        """The loop does not run for so long."""
-        self._deadline += ticks * self.bench.timing.period_s
-        self._clock.wait_until(self._deadline)
-        self.loop.tick(self.now(), ticks)
-
-    def begin_watch(self) -> float:
-        """Forget what was fastest and farthest; the rig's time now, s."""
-        self.fastest, self.farthest = dict.fromkeys(self.fastest, 0.0), 0.0
-        self.last_current_s = self.now()
-        return self.now()
-
-    def watch(self, ticks: int = 1) -> None:
-        for _ in range(ticks):
-            self.tick()
-            self.look()
-
-    def tick_until_fault(self) -> None:
-        for _ in range(LONGEST_TICKS):
-            if self.plant.fault is None:
-                self.watch()
-
-    def look(self) -> None:
-        state = self.rig.control.read_state()
-        for name in self.fastest:
-            self.fastest[name] = max(self.fastest[name], abs(state["x"][name]))
-        self.farthest = max(self.farthest, abs(state["x"]["q"]))
-        if any(self.read_currents(state)):
-            self.last_current_s = state["time_s"]
-
-    def read_currents(self, state: dict[str, Any] | None = None) -> list[int]:
-        """What both drives were told, mA; a drive without power makes none."""
-        drives = (state or self.rig.control.read_state())["drives"].values()
-        return [drive["commanded_ma"] if drive["powered"] else 0 for drive in drives]
-
-    def recover(self) -> None:
-        """Clear the fault, mend the rig, set it to its marks, and arm it again."""
-        self.plant.clear(self.now())
-        assert self.plant.status is BenchStatus.OFF
-        assert self.plant.fault is None
-        self.beats.stopped.clear()
-        self.rig.control.clear_faults()
-        self.rig.control.set_loads(())
-        self.rig.control.home()
-        self.prepare()
-        assert self.plant.status is BenchStatus.READY
-        assert self.read_currents() == [0, 0]
 
 
 @pytest.fixture(scope="module")
@@ -155,15 +73,6 @@ class Place:
         if self._bench is not None:
             self._bench.close()
             self._bench = None
-
-
-def make_ready(rig: RunningRig, **safety: Any) -> Bench:
-    bench = Bench(rig, **safety)
-    rig.control.clear_faults()
-    rig.control.set_loads(())
-    rig.control.home()
-    bench.prepare()
-    return bench
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,5 @@
 import { Problem } from "../controls/problem";
+import { PanelButton } from "../panel/panelbutton";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { discard, inUse, isOpen } from "./draft";
@@ -47,21 +48,12 @@ export function DesignSummary() {
         ))}
       </dl>
       <div class="design-open">
-        <button
-          type="button"
-          class="button"
-          aria-haspopup="dialog"
-          aria-expanded={isOpen.value}
-          title={words.openHint}
-          onClick={() => {
-            isOpen.value = !isOpen.peek();
-          }}
-        >
+        <PanelButton isOpen={isOpen} hint={words.openHint}>
           <svg viewBox="0 0 16 16" aria-hidden="true">
             <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />
           </svg>
           {words.open}
-        </button>
+        </PanelButton>
         <UndoButton />
       </div>
       <Problem control="design.undo" />

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
 import { Panel } from "../panel/panel";
+import { PanelButton } from "../panel/panelbutton";
 import { bench } from "../state/bench";
 import { areKeysOn, chooseKeys } from "../state/preferences";
 import { text } from "../text/en";
@@ -72,19 +73,8 @@ export function HelpSheet() {
 
 export function HelpButton() {
   return (
-    <button
-      type="button"
-      class="button is-icon"
-      aria-label={keys.open}
-      aria-haspopup="dialog"
-      aria-expanded={isHelpOpen.value}
-      aria-keyshortcuts="?"
-      title={keys.open}
-      onClick={() => {
-        isHelpOpen.value = !isHelpOpen.peek();
-      }}
-    >
+    <PanelButton isOpen={isHelpOpen} hint={keys.open} name={keys.open} shortcut="?">
       <strong aria-hidden="true">?</strong>
-    </button>
+    </PanelButton>
   );
 }

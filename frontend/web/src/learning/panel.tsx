@@ -1,5 +1,6 @@
 import { signal } from "@preact/signals";
 import { Panel } from "../panel/panel";
+import { PanelButton } from "../panel/panelbutton";
 import { text } from "../text/en";
 import { Claims } from "./claims";
 import { EquationCard } from "./equation";
@@ -60,20 +61,11 @@ export function LearnPanel() {
 
 export function LearnButton() {
   return (
-    <button
-      type="button"
-      class="button"
-      aria-haspopup="dialog"
-      aria-expanded={isOpen.value}
-      title={words.openHint}
-      onClick={() => {
-        isOpen.value = !isOpen.peek();
-      }}
-    >
+    <PanelButton isOpen={isOpen} hint={words.openHint}>
       <svg viewBox="0 0 16 16" aria-hidden="true">
         <path d="M8 2L0 5.8l8 3.8 6.4-3v4.6H16V5.8zM3 8.6v3.2c1.2 1.5 3 2.2 5 2.2s3.8-.7 5-2.2V8.6l-5 2.4z" />
       </svg>
       {words.open}
-    </button>
+    </PanelButton>
   );
 }

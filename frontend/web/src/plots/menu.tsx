@@ -1,7 +1,7 @@
+import { Popup } from "../panel/popup";
 import { text } from "../text/en";
 import { CHANNELS_BY_UNIT, unitOf } from "./channels";
 import type { Trace } from "./definitions";
-import { Popup } from "./popup";
 import { savePlotCsv, savePng, saveSvg } from "./save";
 import { type PlotSetup, removePlot, toggleChannel } from "./setups";
 

@@ -1,7 +1,7 @@
 import { useId } from "preact/hooks";
+import { Popup } from "../panel/popup";
 import { text } from "../text/en";
 import { CHANNELS_BY_UNIT, isChannel } from "./channels";
-import { Popup } from "./popup";
 import { addOwnPlot, MOST_PLOTS, PRESET_NAMES, resetPlots, setups, togglePreset } from "./setups";
 
 /** Begins another plot with the channel chosen. */

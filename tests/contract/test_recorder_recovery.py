@@ -1,0 +1,192 @@
+"""Records that were cut off or damaged: what can be read is kept, what cannot is told."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from svsa.runtime.recording.header import RecordError
+from svsa.runtime.recording.reader import read_record, recover
+from svsa.runtime.recording.recorder import Recorder
+from svsa.runtime.recording.writer import write_record
+
+from .records import PERIOD_S, build_header, build_samples, wait_until
+
+ROUNDS_OF_KILLING = 20
+MOST_LOST_TICKS = round(0.5 / PERIOD_S)
+
+
+def make_stream(folder: Path, ticks: int = 300, batches: int = 3) -> Path:
+    """A record as `kill -9` leaves it: a stream of some batches and no Parquet file."""
+    recorder = Recorder(folder, build_header())
+    recorder.write_command(0, {"kind": "load"})
+    for batch in range(batches):
+        recorder.write_samples(batch * ticks, build_samples(ticks, first_tick=batch * ticks))
+        wait_until(lambda done=batch: recorder.status.ticks == (done + 1) * ticks)
+    copy = folder.with_name(folder.name + "-killed")
+    shutil.copytree(folder, copy)
+    recorder.close()
+    return copy
+
+
+CHILD = """
+import sys, time
+from pathlib import Path
+from svsa.runtime.recording.recorder import Recorder
+from tests.contract.records import build_header, build_samples
+recorder = Recorder(Path(sys.argv[1]), build_header())
+samples = build_samples(20_000)
+begin, tick = time.monotonic(), 0
+while True:
+    now = min(int((time.monotonic() - begin) / 0.001), len(samples))
+    if now > tick:
+        recorder.write_command(tick, {"tick": tick})
+        recorder.write_samples(tick, samples[tick:now])
+        tick = now
+        sys.stdout.write(f"{tick}\\n")
+        sys.stdout.flush()
+    time.sleep(0.008)
+"""
+
+
+def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path) -> None:
+    """Twenty processes, each killed at a moment of its own."""
+    dice = np.random.default_rng(20)
+    moments = sorted(dice.uniform(0.02, 1.5) for _ in range(ROUNDS_OF_KILLING))
+    lost = []
+    for group in range(0, ROUNDS_OF_KILLING, 5):
+        children = []
+        for number in range(group, group + 5):
+            folder = tmp_path / f"run-{number}"
+            command = [sys.executable, "-c", CHILD, str(folder)]
+            child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, bufsize=1 << 20)
+            children.append((number, folder, child))
+        for _, _, child in children:
+            assert child.stdout is not None
+            child.stdout.readline()
+        begin = time.monotonic()
+        for number, _, child in children:
+            time.sleep(max(0.0, begin + moments[number] - time.monotonic()))
+            child.send_signal(signal.SIGKILL)
+        for _, folder, child in children:
+            handed_over = int(child.communicate()[0].split()[-1])
+            assert child.returncode == -signal.SIGKILL
+            finished = recover(folder)
+            assert finished is not None
+            record = read_record(folder)
+            assert finished.ticks == record.tick_count
+            assert not (folder / "samples.arrows").exists()
+            assert record.samples.tobytes() == build_samples(record.tick_count).tobytes()
+            acting = [tick for tick, command in record.commands if command["tick"] == tick]
+            assert len(acting) == len(record.commands)
+            lost.append(handed_over - record.tick_count)
+    assert max(lost) <= MOST_LOST_TICKS
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_stream_cut_anywhere_keeps_every_whole_batch(tmp_path: Path, seed: int) -> None:
+    folder = make_stream(tmp_path / "run-1")
+    stream = folder / "samples.arrows"
+    size = stream.stat().st_size
+    os.truncate(stream, int(np.random.default_rng(seed).integers(size // 3, size)))
+    with (folder / "commands.jsonl").open("ab") as file:
+        file.write(b'{"tick": 3, "comm')
+    growing = read_record(folder)
+    finished = recover(folder)
+    record = read_record(folder)
+    assert finished is not None
+    assert finished.ticks == record.tick_count == growing.tick_count
+    assert record.tick_count in (0, 300, 600)
+    assert record.samples.tobytes() == build_samples(record.tick_count).tobytes()
+    assert record.commands == [(0, {"kind": "load"})]
+    assert (folder / "commands.jsonl").read_bytes().endswith(b"}\n")
+
+
+def test_a_tail_of_zeros_is_cut(tmp_path: Path) -> None:
+    folder = make_stream(tmp_path / "run-1")
+    with (folder / "samples.arrows").open("ab") as file:
+        file.write(bytes(5000))
+    assert read_record(folder).tick_count == 900
+
+
+def test_recovery_that_was_cut_off_itself_is_done_again(tmp_path: Path) -> None:
+    folder = make_stream(tmp_path / "run-1")
+    (folder / "samples.parquet.tmp").write_bytes(b"half of a file")
+    saved = (folder / "samples.arrows").read_bytes()
+    assert recover(folder) is not None
+    (folder / "samples.arrows").write_bytes(saved)
+    again = recover(folder)
+    assert again is not None
+    assert again.ticks == 900
+    names = sorted(path.name for path in folder.iterdir())
+    assert names == ["commands.jsonl", "header.json", "samples.parquet"]
+
+
+def damage(path: Path, where: float, count: int = 64) -> bytes:
+    content = bytearray(path.read_bytes())
+    start = int(len(content) * where)
+    content[start : start + count] = bytes(255 - byte for byte in content[start : start + count])
+    path.write_bytes(content)
+    return bytes(content)
+
+
+@pytest.mark.parametrize("where", [0.0, 0.35])
+def test_a_damaged_stream_is_told_and_kept(tmp_path: Path, where: float) -> None:
+    folder = make_stream(tmp_path / "run-1")
+    stream = folder / "samples.arrows"
+    content = bytearray(stream.read_bytes())
+    start = content.find(b"\xff\xff\xff\xff", int(len(content) * where))
+    content[start + 2] = 0
+    stream.write_bytes(content)
+    for read in (recover, read_record):
+        with pytest.raises(RecordError, match=r"samples\.arrows of record run-1-killed is damaged"):
+            read(folder)
+    assert stream.read_bytes() == content
+    assert not (folder / "samples.parquet").exists()
+
+
+def test_a_stream_with_a_gap_is_told(tmp_path: Path) -> None:
+    folder = make_stream(tmp_path / "run-1", ticks=100)
+    stream = folder / "samples.arrows"
+    content = stream.read_bytes()
+    marks = [0]
+    while (found := content.find(b"\xff\xff\xff\xff", marks[-1] + 1)) > 0:
+        marks.append(found)
+    stream.write_bytes(content[: marks[1]] + content[marks[1] : marks[2]] + content[marks[3] :])
+    with pytest.raises(RecordError, match="tick 100 is missing"):
+        recover(folder)
+
+
+@pytest.mark.parametrize("where", [0.0, 0.4, 0.7, 0.999])
+def test_a_damaged_parquet_file_is_told_and_kept(tmp_path: Path, where: float) -> None:
+    folder = tmp_path / "run-1"
+    write_record(folder, build_header(), [], 0, build_samples(5000))
+    content = damage(folder / "samples.parquet", where)
+    with pytest.raises(RecordError, match="record run-1"):
+        read_record(folder)
+    assert (folder / "samples.parquet").read_bytes() == content
+
+
+def test_damaged_commands_and_headers_are_told(tmp_path: Path) -> None:
+    folder = tmp_path / "run-1"
+    write_record(folder, build_header(), [(0, {"a": 1}), (1, {"a": 2})], 0, build_samples(5))
+    commands = (folder / "commands.jsonl").read_text()
+    (folder / "commands.jsonl").write_text(commands.replace('"tick": 0', '"tick": zero'))
+    with pytest.raises(RecordError, match="line 1"):
+        read_record(folder)
+    (folder / "commands.jsonl").write_text(commands)
+    for text in ("", "[]", "{", '{"format": 99}', '{"format": 1}'):
+        (folder / "header.json").write_text(text)
+        with pytest.raises(RecordError, match=r"header\.json of record run-1 is damaged"):
+            read_record(folder)
+    (folder / "header.json").unlink()
+    with pytest.raises(RecordError, match=r"no header\.json"):
+        read_record(folder)
+    with pytest.raises(RecordError, match="There is no record nowhere"):
+        read_record(tmp_path / "nowhere")
