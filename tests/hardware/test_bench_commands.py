@@ -14,9 +14,11 @@ APP.command("bench-check")(bench_check)
 APP.command("bench-home")(bench_home)
 
 
-def test_the_command_moves_nothing_where_it_is_not_allowed_to(path):
+def test_the_command_moves_nothing_where_it_is_not_allowed_to(tmp_path):
     """The answer no, and no rig behind the port: it is asked before anything is opened."""
-    result = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="n\n")
+    result = CliRunner().invoke(
+        APP, ["bench-check", str(copy_bench(tmp_path)), "--move"], input="n\n"
+    )
     assert result.exit_code == 1
     assert "emergency stop" in result.output
     assert "drive 0.1" not in result.output
