@@ -7,12 +7,13 @@ from pydantic import BaseModel, Field, create_model, model_validator
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.control.gains import FASTEST_POLE_RAD_PER_S, Gains, compute_coefficients
 from svsa.errors import Fault, ParameterError, Violation
+from svsa.experiment.paper import get_figure
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import MOST_LANES, Lane, Law
+from svsa.runtime.configuration import MOST_LANES, Configuration, Lane, Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.session import Event
 from svsa_server.bench_schemas import BenchState
@@ -111,25 +112,34 @@ class SpeedRequest(Checked):
 
 
 class ExperimentRequest(Checked):
-    """One of the paper's figures, from t = 0."""
+    """One of the paper's figures, from t = 0; with other lanes and effects than it has."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
     controller: Law = quantity("", "ndobc or fl", default="ndobc")
     load: Annotated[bool, Field(strict=True)] = quantity(
         "", "With the paper's 3 kg load at 5 s", default=True
     )
+    rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1, default=())
+    effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
+
+    def build_configuration(self) -> Configuration:
+        """What the session is set to; raises `ParameterError`."""
+        figure = get_figure(self.figure).build_configuration(self.controller, self.load)
+        return figure.changed(rivals=self.rivals, effects=self.effects)
 
 
 class SessionRequest(ExperimentRequest):
-    """A private session: a figure of the paper to start from, other lanes, effects, noise."""
+    """A private session: a figure of the paper to start from, and the seed of its noise."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
     load: Annotated[bool, Field(strict=True)] = quantity(
         "", "With the paper's 3 kg load at 5 s", default=False
     )
-    rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1, default=())
-    effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
+
+    def build_configuration(self) -> Configuration:
+        """What the session is set to; raises `ParameterError`."""
+        return super().build_configuration().changed(seed=self.seed)
 
 
 class RecordingRequest(Checked):

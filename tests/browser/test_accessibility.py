@@ -82,6 +82,15 @@ def open_equation(page: Page, lab: Lab) -> None:
     expect(page.locator("math").first).to_be_attached()
 
 
+def open_realism(page: Page, lab: Lab) -> None:
+    open_lab(page, lab)
+    group = page.get_by_role("region", name="Realism", exact=True)
+    group.get_by_role("radio", name="Full").check()
+    for more in group.locator("summary").all():
+        more.click()
+    expect(group.get_by_role("table")).to_be_visible()
+
+
 def open_event(page: Page, lab: Lab) -> None:
     open_lab(page, lab)
     page.get_by_role("button", name=re.compile("3 kg load on")).first.focus()
@@ -135,6 +144,7 @@ def open_private(page: Page, lab: Lab) -> None:
         pytest.param(open_button("Place poles"), (WIDE, PHONE), id="design"),
         pytest.param(open_button("Plots"), (WIDE,), id="plots"),
         pytest.param(open_button("Cursors"), (WIDE,), id="cursors"),
+        pytest.param(open_realism, (HIGH, PHONE), id="realism"),
         pytest.param(open_event, (WIDE,), id="event"),
         pytest.param(open_calls, (HIGH, PHONE), id="calls"),
         pytest.param(open_list, (WIDE, PHONE), id="runs"),

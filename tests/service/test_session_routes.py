@@ -63,6 +63,23 @@ def test_an_experiment_is_the_figure_with_its_load_at_5_s(lab: Lab) -> None:
     assert lab.jump(6)["loads"][0]["active"]
 
 
+def test_an_experiment_has_the_lanes_and_effects_that_are_asked_for(lab: Lab) -> None:
+    effects = {"friction": {"coulomb1_nm": 0.3}, "delay_samples": 1}
+    request = {"figure": "4a", "rivals": [{"law": "fl"}], "effects": effects}
+    answer = lab.client.post(lab.session + "/experiment", json=request)
+    state = answer.raise_for_status().json()
+    assert [lane["name"] for lane in state["lanes"]] == ["NDOBC", "FL"]
+    assert state["configuration"]["effects"]["friction"]["coulomb1_nm"] == 0.3
+    assert state["configuration"]["effects"]["noise"] is None
+    plain = lab.load_figure("4a", "ndobc")["configuration"]
+    assert (plain["rivals"], plain["effects"]["friction"]) == ([], None)
+    refused = lab.client.post(
+        lab.session + "/experiment", json=request | {"effects": {"delay_samples": 9}}
+    )
+    assert refused.status_code == 422
+    assert "delay_samples" in refused.json()["violations"][0]["message"]
+
+
 def test_a_fault_is_named_with_its_values_and_reset_leaves_it(lab: Lab) -> None:
     load = {"kind": "constant", "torque_nm": [20, 0, 0]}
     lab.client.post(lab.session + "/loads", json=load)

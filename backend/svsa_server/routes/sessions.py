@@ -4,7 +4,6 @@ from typing import Annotated
 
 from fastapi import APIRouter, Body, Request, WebSocket
 
-from svsa.experiment.paper import get_figure
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
 from svsa_server.schemas import (
     ExperimentRequest,
@@ -31,11 +30,7 @@ async def create_session(
     wanted: Annotated[SessionRequest, Body(examples=[{"figure": "4a", "rivals": [{"law": "fl"}]}])],
 ) -> SessionState:
     """A private simulated session, running; it ends by itself when nobody uses it."""
-    configuration = get_figure(wanted.figure).build_configuration(wanted.controller, wanted.load)
-    configuration = configuration.changed(
-        rivals=wanted.rivals, effects=wanted.effects, seed=wanted.seed
-    )
-    return build_state(request.app.state.laboratory.create(configuration))
+    return build_state(request.app.state.laboratory.create(wanted.build_configuration()))
 
 
 @router.delete("/{session}", status_code=204)
@@ -103,9 +98,11 @@ async def load_experiment(
         ExperimentRequest, Body(examples=[{"figure": "4a", "controller": "ndobc", "load": True}])
     ],
 ) -> SessionState:
-    """Start one of the paper's figures from t = 0, with its load at 5 s unless told not to."""
-    figure = get_figure(request.figure)
-    session.load(figure.build_configuration(request.controller, request.load))
+    """Start one of the paper's figures from t = 0, with its load at 5 s unless told not to.
+
+    What is set comes from the figure; lanes and effects from the request. A bench has its own.
+    """
+    session.load(request.build_configuration())
     session.start()
     return build_state(session)
 

@@ -5,6 +5,8 @@ import { client } from "./identity";
 import type {
   Axis,
   Body,
+  Configuration,
+  EffectsRequest,
   Figure,
   Law,
   Load,
@@ -29,7 +31,7 @@ const LONGEST_WAIT_MS = 6000;
 const LONGEST_STOP_MS = 1500;
 
 export async function request(
-  method: Method | "patch",
+  method: Method,
   path: string,
   body?: unknown,
   waitMs = LONGEST_WAIT_MS,
@@ -63,12 +65,17 @@ export async function request(
   throw new RefusedError(response.status, message);
 }
 
+function send(method: Method, path: SessionPath, body?: unknown) {
+  return request(method, SESSION + path, body) as Promise<SessionState>;
+}
+
 /** One call on the session; path and body are checked against the server's schema. */
 function call<M extends Method, P extends SessionPath>(method: M, path: P, ...body: Body<M, P>) {
-  return request(method, SESSION + path, body[0]) as Promise<SessionState>;
+  return send(method, path, body[0]);
 }
 
 export type GainsRequest = Body<"put", "/gains">[0];
+export type ActuatorPatch = Body<"patch", "/actuator">[0];
 
 export const readState = () => call("get", "");
 export const putPosition = (reference: Sent<PositionReference>) =>
@@ -81,6 +88,9 @@ export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
 export const putLanes = (laws: readonly Law[]) =>
   call("put", "/lanes", { rivals: laws.map((law) => ({ law })) });
+export const putEffects = (effects: EffectsRequest) => send("put", "/effects", effects);
+export const patchActuator = (patch: ActuatorPatch) => call("patch", "/actuator", patch);
+export const patchNominal = (patch: ActuatorPatch) => call("patch", "/nominal", patch);
 export const startRecording = (name: string) =>
   call("post", "/recording", { name, tags: [], notes: "" });
 export const stopRecording = () => call("delete", "/recording");
@@ -96,8 +106,12 @@ export const confirmHome = (step: Axis, by: string) => call("post", "/bench/home
 export const clearBench = () => call("post", "/bench/clear");
 export const reset = () => call("post", "/reset");
 export const step = (ticks: number) => call("post", "/step", { ticks });
-export const runFigure = (figure: Figure, controller: Law) =>
-  call("post", "/experiment", { figure, controller, load: true });
+/** kept: lanes and effects that the figure by itself has not. */
+export const runFigure = (
+  figure: Figure,
+  controller: Law,
+  kept: { rivals?: Configuration["rivals"]; effects?: EffectsRequest },
+) => send("post", "/experiment", { figure, controller, load: true, ...kept });
 export const addLoad = (load: Load) => call("post", "/loads", load);
 export const removeLoad = (id: number) =>
   request("delete", `${SESSION}/loads/${id}`) as Promise<SessionState>;

@@ -264,6 +264,8 @@ export interface paths {
         /**
          * Load Experiment
          * @description Start one of the paper's figures from t = 0, with its load at 5 s unless told not to.
+         *
+         *     What is set comes from the figure; lanes and effects from the request. A bench has its own.
          */
         post: operations["load_experiment_api_v1_sessions__session__experiment_post"];
         delete?: never;
@@ -1351,7 +1353,7 @@ export interface components {
         };
         /**
          * ExperimentRequest
-         * @description One of the paper's figures, from t = 0.
+         * @description One of the paper's figures, from t = 0; with other lanes and effects than it has.
          */
         ExperimentRequest: {
             /**
@@ -1373,6 +1375,20 @@ export interface components {
              * @default true
              */
             load: boolean;
+            /**
+             * Rivals
+             * @description Up to three
+             * @default []
+             */
+            rivals: components["schemas"]["Lane"][];
+            /**
+             * @description What separates it from a bench
+             * @default {
+             *       "delay_samples": 0,
+             *       "torque_limits": true
+             *     }
+             */
+            effects: components["schemas"]["Effects"];
         };
         /**
          * Fault
@@ -2340,7 +2356,7 @@ export interface components {
         };
         /**
          * SessionRequest
-         * @description A private session: a figure of the paper to start from, other lanes, effects, noise.
+         * @description A private session: a figure of the paper to start from, and the seed of its noise.
          */
         SessionRequest: {
             /**

@@ -7,6 +7,14 @@ export type SessionState = Schemas["SessionState"];
 export type Configuration = Schemas["ConfigurationState"];
 export type PositionReference = Configuration["position"];
 export type StiffnessReference = Configuration["stiffness"];
+export type Effects = Configuration["effects"];
+/** What is left out is off, or has its default. */
+export type EffectsRequest = {
+  [K in keyof Effects]?: NonNullable<Effects[K]> extends object
+    ? Partial<NonNullable<Effects[K]>> | null
+    : Effects[K];
+};
+export type ActuatorParameters = Configuration["actuator"];
 export type Law = Configuration["law"];
 export type Speed = SessionState["speed"];
 export type LoadRow = Schemas["LoadState"];
@@ -27,7 +35,7 @@ export type Sent<T> = T extends unknown
   : never;
 export type Load = Sent<LoadRow["load"]>;
 
-export type Method = "get" | "put" | "post" | "delete";
+export type Method = "get" | "put" | "post" | "patch" | "delete";
 type Session = "/api/v1/sessions/{session}";
 type Below<P> = P extends `${Session}${infer Rest}` ? Rest : never;
 /** A path below a session, such as "/position". */

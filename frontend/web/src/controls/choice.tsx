@@ -8,7 +8,8 @@ export interface Option<T extends string> {
 interface ChoiceProps<T extends string> {
   label: string;
   options: readonly Option<T>[];
-  value: T;
+  /** null: none of them. */
+  value: T | null;
   describedBy?: string;
   /** Resolves when the choice was taken or refused; until then it stands as chosen. */
   onChoose: (value: T) => unknown;

@@ -5,6 +5,7 @@ import { Controller } from "./controller";
 import { Loads } from "./load";
 import { Motion } from "./motion";
 import { Observer } from "./observer";
+import { Realism } from "./realism";
 import { Stiffness } from "./stiffness";
 
 /** Everything a student sets, in the order of the block diagram. */
@@ -16,6 +17,7 @@ export function Controls({ state }: { state: SessionState }) {
       <Controller state={state} />
       <Observer state={state} />
       <Loads state={state} />
+      {state.bench === null && <Realism state={state} />}
     </fieldset>
   );
 }

@@ -4,14 +4,24 @@ import type { Figure, SessionState, Speed } from "../api/types";
 import { perform } from "../state/actions";
 import { toggleRun } from "../state/commands";
 import { mayCommand } from "../state/control";
+import { presetOf } from "../state/effects";
 import { text } from "../text/en";
 
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5];
 const STEPS_MS = [1, 10, 100, 1000];
 
+/** A figure runs with the lanes and the realism that the student has chosen. */
+function run(figure: Figure, { bench, configuration }: SessionState) {
+  const { law, rivals, effects } = configuration;
+  if (bench !== null) return runFigure(figure, law, {});
+  return runFigure(figure, law, {
+    ...(rivals.length > 0 && { rivals }),
+    ...(presetOf(effects) !== "ideal" && { effects }),
+  });
+}
+
 export function FigurePicker({ state }: { state: SessionState }) {
-  const { law } = state.configuration;
   return (
     <fieldset class="figures" disabled={!mayCommand.value}>
       <legend>{text.figures.heading}</legend>
@@ -21,7 +31,7 @@ export function FigurePicker({ state }: { state: SessionState }) {
           type="button"
           class="button"
           title={text.figures.does[figure]}
-          onClick={() => void perform("session", () => runFigure(figure, law))}
+          onClick={() => void perform("session", () => run(figure, state))}
         >
           {text.figures.name[figure]}
         </button>

@@ -22,7 +22,7 @@ function Curves({ setup }: { setup: PlotSetup }) {
       {channels.map((channel) => {
         const isShown = setup.channels.includes(channel);
         return (
-          <label key={channel} class="popup-check">
+          <label key={channel} class="check">
             <input
               type="checkbox"
               checked={isShown}

@@ -47,7 +47,7 @@ export function PlotPicker() {
             {PRESET_NAMES.map((preset) => {
               const isShown = shown.some((setup) => setup.key === preset);
               return (
-                <label key={preset} class="popup-check">
+                <label key={preset} class="check">
                   <input
                     type="checkbox"
                     checked={isShown}

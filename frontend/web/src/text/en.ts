@@ -7,6 +7,7 @@ import { keysText } from "./keys";
 import { learningText } from "./learning";
 import { pageText } from "./page";
 import { plotsText } from "./plots";
+import { realismText } from "./realism";
 import { runsText } from "./runs";
 import { sceneText } from "./scene";
 import { scriptText } from "./script";
@@ -21,6 +22,7 @@ export const text = {
   ...learningText,
   ...sceneText,
   ...keysText,
+  ...realismText,
   ...runsText,
   ...scriptText,
 } as const;

@@ -1,0 +1,42 @@
+/** What the user types before the server holds it. */
+import { useState } from "preact/hooks";
+import type { SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { formatInput } from "../units";
+
+export interface HeldNumber {
+  /** Names the control among all others of the page. */
+  name: string;
+  /** What the server holds, in the unit on screen. */
+  value: number;
+  send: (value: number) => Promise<SessionState>;
+}
+
+/**
+ * A number the server holds. Typing makes a draft; leaving the field drops it, Enter sends it;
+ * then what the server holds is shown again.
+ */
+export function useDraft({ name, value, send }: HeldNumber) {
+  const [draft, setDraft] = useState<string | null>(null);
+  const commit = async (next: string) => {
+    const number = Number(next);
+    if (next.trim() !== "" && Number.isFinite(number) && next !== formatInput(value)) {
+      setDraft(next);
+      await perform(name, () => send(number));
+    }
+    setDraft((current) => (current === null || current === next ? null : current));
+  };
+  const shown = draft ?? formatInput(value);
+  const inputProps = {
+    type: "number" as const,
+    step: "any",
+    value: shown,
+    onInput: (event: Event) => setDraft((event.currentTarget as HTMLInputElement).value),
+    onChange: (event: Event) => void commit((event.currentTarget as HTMLInputElement).value),
+    onBlur: () => setDraft(null),
+    onKeyDown: (event: KeyboardEvent) => {
+      if (event.key === "Escape") setDraft(null);
+    },
+  };
+  return { shown, setDraft, commit, inputProps };
+}

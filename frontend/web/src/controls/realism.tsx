@@ -1,0 +1,46 @@
+import { putEffects } from "../api/client";
+import type { SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { PRESETS, type Preset, presetOf } from "../state/effects";
+import { text } from "../text/en";
+import { Choice } from "./choice";
+import { EffectList } from "./effects";
+import { Group } from "./group";
+import { ParameterTable } from "./parameters";
+import { Problem } from "./problem";
+
+const words = text.realism;
+const CHOICES = (Object.keys(PRESETS) as Preset[]).map((value) => ({
+  value,
+  label: words.presets[value],
+}));
+
+/** What separates the simulation from a bench: effects, and errors of the controller's model. */
+export function Realism({ state }: { state: SessionState }) {
+  const { effects, actuator, nominal } = state.configuration;
+  const preset = presetOf(effects);
+  return (
+    <Group
+      title={words.title}
+      aside={
+        <Choice
+          label={words.choose}
+          options={CHOICES}
+          value={preset}
+          onChoose={(next) => perform("realism.preset", () => putEffects(PRESETS[next]))}
+        />
+      }
+    >
+      <p class="hint">{preset === null ? words.mixture : words.does[preset]}</p>
+      <Problem control="realism.preset" />
+      <details class="more">
+        <summary>{words.each}</summary>
+        <EffectList effects={effects} />
+      </details>
+      <details class="more">
+        <summary>{words.parameters}</summary>
+        <ParameterTable actuator={actuator} nominal={nominal} />
+      </details>
+    </Group>
+  );
+}

@@ -1,0 +1,84 @@
+"""What separates the simulation from a bench, switched on in the page."""
+
+import re
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from svsa.plant.effects import RIG, Effects
+from tests.browser.test_page import open_page
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+
+
+@pytest.fixture
+def realism(page: Page, lab: Lab) -> Locator:
+    """The group, with everything in it in sight."""
+    open_page(page, lab)
+    group = page.get_by_role("region", name="Realism", exact=True)
+    for more in group.locator("summary").all():
+        more.click()
+    return group
+
+
+def read(lab: Lab) -> dict[str, Any]:
+    return lab.read()["configuration"]
+
+
+def test_the_rig_is_one_choice_and_a_figure_keeps_it(
+    page: Page, lab: Lab, realism: Locator
+) -> None:
+    realism.get_by_role("radio", name="Rig").check()
+    expect(realism.get_by_text("torque one sample late")).to_be_visible()
+    assert Effects.model_validate(read(lab)["effects"]) == RIG
+    page.get_by_role("switch", name=re.compile("^Compare")).click()
+    expect(page.get_by_role("table", name=re.compile("controller does better"))).to_be_visible()
+    with page.expect_response("**/experiment"):
+        page.get_by_role("button", name="Fig. 4B").click()
+    assert Effects.model_validate(read(lab)["effects"]) == RIG
+    assert [rival["law"] for rival in read(lab)["rivals"]] == ["fl"]
+    assert lab.read()["loads"][0]["start_s"] == 5.0
+    expect(realism.get_by_role("radio", name="Rig")).to_be_checked()
+
+
+def test_an_effect_by_itself_with_its_value(page: Page, lab: Lab, realism: Locator) -> None:
+    noise = realism.get_by_role("checkbox", name="Sensor noise")
+    noise.check()
+    deviation = realism.get_by_label("Deflection, std. dev.")
+    expect(deviation).to_have_value("0.2")
+    expect(realism.get_by_text("A mixture of your own.")).to_be_visible()
+    deviation.fill("0.5")
+    with page.expect_response("**/effects"):
+        deviation.press("Enter")
+    expect(deviation).to_have_value("0.5")
+    assert read(lab)["effects"]["noise"]["deflection_std_rad"] == 0.0005
+    deviation.fill("500")
+    deviation.press("Enter")
+    expect(realism.get_by_role("alert").filter(has_text="deflection_std_rad")).to_contain_text(
+        "0.1 rad"
+    )
+    expect(deviation).to_have_value("0.5")
+    noise.uncheck()
+    expect(deviation).to_have_count(0)
+    assert read(lab)["effects"]["noise"] is None
+    noise.check()
+    expect(deviation).to_have_value("0.5")
+
+
+def test_the_model_is_made_wrong_and_exact(page: Page, lab: Lab, realism: Locator) -> None:
+    row = realism.get_by_role("row", name=re.compile("link inertia"))
+    expect(row.get_by_role("cell").last).to_have_text("+49 %")
+    model = row.get_by_role("spinbutton", name=re.compile("Model$"))
+    model.fill("0.0206")
+    model.press("Enter")
+    expect(row.get_by_role("cell").last).to_have_text("+100 %")
+    assert read(lab)["nominal"]["link_inertia_kg_m2"] == 0.0206
+    model.fill("-1")
+    model.press("Enter")
+    expect(realism.get_by_role("alert").filter(has_text="link_inertia")).to_be_visible()
+    exact = realism.get_by_role("button", name="Make the model exact")
+    exact.click()
+    expect(exact).to_be_disabled()
+    assert read(lab)["nominal"] == read(lab)["actuator"]
