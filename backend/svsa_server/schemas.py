@@ -217,7 +217,7 @@ class LoadState(BaseModel):
 
 
 class SessionMetrics(BaseModel):
-    """Metrics since the start of the run and since the last load came on."""
+    """Metrics since the start of the run, and since the last load came on till it was taken off."""
 
     since_start: Metrics | None
     since_load: Metrics | None

@@ -39,7 +39,9 @@ class Session:
     """A simulated run with a clock, a history and metrics. Not safe across threads.
 
     `initial` and `commands` say everything that decides the run's samples. `version` grows
-    with every change, not with time. `on_recorded` is told of every recording that ends.
+    with every change, not with time. `since_load` are the metrics of each lane from the last
+    load's onset on, until a load is taken off (one that ends by itself goes on counting: a push
+    shows after it). `on_recorded` is told of every recording that ends.
     `watchers` is how many streams of it are open.
     """
 
@@ -93,6 +95,7 @@ class Session:
         self.events: deque[Event] = deque(maxlen=MOST_EVENTS)
         self.since_start = self._begin_metrics()
         self.since_load: list[RunningMetrics] | None = None
+        self._under_load = False
         self.version += 1
 
     @classmethod
@@ -212,6 +215,7 @@ class Session:
                 taken = loads[argument]
                 if taken.start_tick < self.run.tick <= taken.end_tick:
                     self._end_load(taken.load)
+                    self._under_load = False
                 self.version += 1
             case "controller":
                 self._log(kind, f"{argument.upper()} on")
@@ -233,7 +237,7 @@ class Session:
         """Each lane has the past of the lane it continues; metrics of all begin together."""
         self.history.rearrange(origins)
         self.since_start = self._begin_metrics()
-        self.since_load = self._begin_metrics() if self.since_load is not None else None
+        self.since_load = self._begin_metrics() if self._under_load else None
 
     def _begin_metrics(self) -> list[RunningMetrics]:
         return [RunningMetrics(self.run.period_s) for _ in self.run.lanes]
@@ -253,7 +257,8 @@ class Session:
             self.history.commit(done)
             if self.recorder is not None:
                 self.recorder.write_samples(first, samples[:, :done].transpose(1, 0, 2))
-            for metrics in (self.since_start, self.since_load or []):
+            under_load = self.since_load if self._under_load else None
+            for metrics in (self.since_start, under_load or []):
                 for lane, running in enumerate(metrics):
                     running.update(samples[lane, :done])
             if self.run.fault is not None:
@@ -269,7 +274,7 @@ class Session:
 
     def _begin_load(self, load: Load) -> None:
         self._log("load_on", f"{describe_load(load)} on")
-        self.since_load = self._begin_metrics()
+        self.since_load, self._under_load = self._begin_metrics(), True
 
     def _end_load(self, load: Load) -> None:
         self._log("load_off", f"{describe_load(load)} off")

@@ -34,6 +34,25 @@ def test_the_metrics_since_the_load_begin_at_its_onset():
     assert since.peak_position_error_rad == np.abs(error).max()
 
 
+def test_the_metrics_of_a_load_end_when_it_is_taken_off():
+    """The error of unloading is none of the load's; the next load begins anew."""
+    session = build_session()
+    session.step(10)
+    session.change("load", svsa.PaperLoad())
+    session.step(30)
+    (loaded,) = [metrics.summarize() for metrics in session.since_load]
+    session.change("unload", 1)
+    session.step(50)
+    assert [metrics.summarize() for metrics in session.since_load] == [loaded]
+    session.change("load", svsa.PaperLoad())
+    session.step(5)
+    (anew,) = [metrics.summarize() for metrics in session.since_load]
+    assert anew.duration_s == pytest.approx(0.005)
+    session.change("unload", 2)
+    session.change("rivals", (svsa.Lane(law="fl"),))
+    assert session.since_load is None, "the lanes are other ones, and no load is on"
+
+
 def test_taking_a_load_off_is_logged_and_ends_it():
     session = build_session()
     session.change("load", svsa.PaperLoad())

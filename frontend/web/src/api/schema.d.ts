@@ -2348,7 +2348,7 @@ export interface components {
         };
         /**
          * SessionMetrics
-         * @description Metrics since the start of the run and since the last load came on.
+         * @description Metrics since the start of the run, and since the last load came on till it was taken off.
          */
         SessionMetrics: {
             since_start: components["schemas"]["Metrics"] | null;

@@ -164,7 +164,7 @@ export const plotsText = {
   readout: {
     heading: "Position error in numbers",
     error: "Error now",
-    sinceLoad: { rms: "RMS since load", peak: "Peak since load" },
+    sinceLoad: { rms: "RMS under load", peak: "Peak under load" },
     sinceStart: { rms: "RMS since start", peak: "Peak since start" },
     recovery: "Recovered in",
     recoveryHint: "Time from the load until the error stays small again",
@@ -178,7 +178,7 @@ export const plotsText = {
     versus: (names: readonly string[]) => names.join(" against "),
     heading: "Which controller does better",
     lane: "Controller",
-    since: { load: "Since the load", start: "Since the start" },
+    since: { load: "Under the load", start: "Since the start" },
     now: "Error now",
     rms: "RMS",
     peak: "Peak",
