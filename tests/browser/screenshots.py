@@ -24,23 +24,25 @@ def compare(lab: Lab, seconds: float = 9.0) -> None:
     lab.client.post(lab.session + "/start").raise_for_status()
 
 
-def hang_load(page: Page) -> None:
+def hang_load(page: Page, before_ms: int, after_ms: int) -> None:
     """Hang 3 kg and wait until it is seen what that did."""
-    page.wait_for_timeout(2 * SETTLE_MS)
+    page.wait_for_timeout(before_ms)
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
-    page.wait_for_timeout(4000)
+    page.wait_for_timeout(after_ms)
 
 
 def show_dashboard(page: Page, lab: Lab) -> None:
     """FL beside NDOBC 4 s after the 3 kg load."""
     compare(lab)
     page.goto(lab.url)
-    hang_load(page)
+    hang_load(page, 6000, 4000)
 
 
 def show_cursors(page: Page, lab: Lab) -> None:
-    """The same, measured between two cursors."""
-    show_dashboard(page, lab)
+    """The same, measured between two cursors that stand after the load."""
+    compare(lab, 2.0)
+    page.goto(lab.url)
+    hang_load(page, 1000, 14000)
     page.get_by_role("button", name="Cursors").click()
 
 
