@@ -7,7 +7,7 @@ from svsa.runtime.realtime.memory import LATENESS_EDGES_S, read_quantile
 from svsa.runtime.realtime.session import BenchSession
 from svsa_server.bench_schemas import BenchState, HomingState, LoopState
 
-_BINS_A_WIRE_BIN = 5
+_BINS_A_WIRE_BIN = 25
 
 
 def build_bench_state(session: BenchSession) -> BenchState:

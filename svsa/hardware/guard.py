@@ -7,8 +7,9 @@ from svsa.hardware.conversion import build_motor_scale
 from svsa.hardware.faults import Alarm
 from svsa.hardware.standstill import Standstill
 from svsa.hardware.vibration import REVERSALS, WINDOW_S, Vibration
-from svsa.model.domain import FAULT_CODES, INSIDE, Domain, check_domain
+from svsa.model.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
 from svsa.model.dynamics import Actuator
+from svsa.packed import pack
 from svsa.signals import Disturbance, State, Torque
 
 POSITION_MARGIN_RAD = 0.2
@@ -88,14 +89,14 @@ class Guard:
     ) -> None:
         rate = bench.safety.torque_rate_nm_per_s
         self._safety, self._period = bench.safety, bench.timing.period_s
-        self._domain, self._actuator = domain, actuator
+        self._bounds = pack(Bounds(domain, actuator))
         self.motor1 = MotorGuard("motor1", bench.motor1, torque_max[0], rate)
         self.motor2 = MotorGuard("motor2", bench.motor2, torque_max[1], rate)
         self.motors = (self.motor1, self.motor2)
         self.counts: tuple[int, int, int] | None = None
         self._standstill = Standstill(bench.safety.standstill_max_nm)
         self._vibrations = (Vibration(self._period), Vibration(self._period))
-        check_domain(domain, actuator, _STILL)  # compiled here, not in the first tick that runs
+        check_packed_domain(self._bounds, _STILL)  # compiled here, not in the first tick that runs
 
     def limit(self, asked: Torque, known: State) -> Torque:
         """What of `asked` may be sent, N·m."""
@@ -143,7 +144,7 @@ class Guard:
         if abs(known.q) > safety.link_position_max_rad:
             most = safety.link_position_max_rad
             return _exceeded("position_limit", "position_rad", known.q, most, "rad")
-        code = check_domain(self._domain, self._actuator, known)
+        code = check_packed_domain(self._bounds, known)
         if code == INSIDE:
             return None
         values = {"deflection_rad": known.q - known.theta1, "motor2_position_rad": known.theta2}

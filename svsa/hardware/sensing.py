@@ -1,5 +1,6 @@
 """What a bench says: frames and counts in, one reading a tick out, and what went wrong."""
 
+import contextlib
 import math
 from typing import NamedTuple
 
@@ -67,6 +68,7 @@ class Sensing:
         self._wait = 0.5 * bench.timing.period_s  # on average, where nothing stamps a frame
         self._age, self._oldest = bench.timing.feedback_age_s, bench.safety.stale_fault_s
         self._alarm: Alarm | None = None
+        self._early: list[can.Message] = []
         self.ages_s, self.current_a, self.counts = UNHEARD, (0.0, 0.0), (0, 0, 0)
         self._measurement: Measurement | None = None
         self.emulated = self.lost = False
@@ -74,6 +76,12 @@ class Sensing:
     def forget_alarm(self) -> None:
         """What went wrong before counts no longer."""
         self._alarm = None
+
+    def listen(self, bus: can.BusABC) -> None:
+        """Fetch what has come so far, for the next `read`; trouble is left for it to find."""
+        with contextlib.suppress(*BUS_TROUBLE):
+            room = MOST_FRAMES_A_TICK - len(self._early)
+            self._early += take_waiting(bus, self._settings, room)
 
     def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
         """What has come since the last tick. known: x̂ now, whose velocities bridge the ages."""
@@ -113,10 +121,12 @@ class Sensing:
 
     def _drain(self, bus: can.BusABC, now: float) -> None:
         """Take every frame that waits; the bus's trouble becomes an alarm."""
-        for message in self._clock.take_frames():
+        early, self._early = self._early, []
+        for message in (*self._clock.take_frames(), *early):
             self._take(message, now)
         try:
-            for message in take_waiting(bus, self._settings, MOST_FRAMES_A_TICK):
+            room = MOST_FRAMES_A_TICK - len(early)
+            for message in take_waiting(bus, self._settings, room):
                 self._take(message, now)
         except BUS_TROUBLE as error:
             self.lost = True

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from svsa.compilation import compiled
-from svsa.model.dynamics import compute_deflection
+from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import (
     compute_lever_ratio,
     compute_lever_ratio_for_stiffness,
@@ -36,6 +36,13 @@ class Domain(NamedTuple):
     deflection_max: float
     deflection_fraction: float
     singularity_fraction: float
+
+
+class Bounds(NamedTuple):
+    """What `check_domain` needs of an actuator, to be packed (see `packed`)."""
+
+    domain: Domain
+    actuator: Actuator
 
 
 def build_domain(actuator: ActuatorParameters, limits: Limits) -> Domain:
@@ -92,3 +99,9 @@ def check_domain(domain, actuator, x):
     if not compute_relative_determinant(mu, phi) >= domain.singularity_fraction:
         return SINGULAR_DECOUPLING
     return INSIDE
+
+
+@compiled
+def check_packed_domain(bounds, x):
+    """`check_domain` with packed `Bounds`: cheap to call from Python."""
+    return check_domain(bounds[0].domain, bounds[0].actuator, x)

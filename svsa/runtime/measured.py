@@ -14,8 +14,8 @@ from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.state import predict_state
 from svsa.plant.drive import compute_late_torque
-from svsa.runtime.loop import decide, observe
-from svsa.signals import Disturbance, State, Torque
+from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks, decide, observe
+from svsa.signals import Disturbance, Measurement, Reference, State, Torque
 
 
 class Actuation(NamedTuple):
@@ -25,52 +25,118 @@ class Actuation(NamedTuple):
     lag: float
 
 
-class Carried(NamedTuple):
-    """What the loop carries from tick to tick on a bench.
+class BenchConstants(NamedTuple):
+    """The constants of a bench's loop."""
 
-    known, estimate: x̂ and ŵ. made: what the motors make now, N·m. before, sent: the torques
-    sent last but one and last, N·m.
+    blocks: Blocks
+    actuation: Actuation
+
+
+class Carried(NamedTuple):
+    """The numbers of a bench's loop.
+
+    Carried from tick to tick: known, estimate: x̂ and ŵ. made: what the motors make now, N·m.
+    before, sent: the torques sent last but one and last, N·m. expected: x̂ a period later.
+    Of this tick: measured; ages_s: of motor 1, motor 2, deflection; reference; asked: what the
+    law asks for, N·m.
     """
 
-    known: State
-    estimate: Disturbance
-    made: Torque
-    before: Torque
-    sent: Torque
+    known: State = AT_REST
+    estimate: Disturbance = UNDISTURBED
+    made: Torque = NO_TORQUE
+    before: Torque = NO_TORQUE
+    sent: Torque = NO_TORQUE
+    expected: State = AT_REST
+    measured: Measurement = Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    ages_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    reference: Reference = Reference(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    asked: Torque = NO_TORQUE
 
 
 @compiled
-def follow(blocks, actuation, carried, measurement):
-    """`Carried` a period later, with what was measured then; nothing is sent yet."""
-    c = carried
-    made, applied = compute_late_torque(
-        c.made, c.before, c.sent, actuation.lag, actuation.latency, blocks.period
+def read_state(x):
+    """A packed state as `State`."""
+    return State(x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2)
+
+
+@compiled
+def store_state(packed, x):
+    """`State` into a packed one."""
+    packed.q, packed.dq = x.q, x.dq
+    packed.theta1, packed.dtheta1 = x.theta1, x.dtheta1
+    packed.theta2, packed.dtheta2 = x.theta2, x.dtheta2
+
+
+@compiled
+def read_disturbance(w):
+    """A packed disturbance as `Disturbance`."""
+    return Disturbance(w.w2, w.w4, w.w6)
+
+
+@compiled
+def store_torque(packed, torque):
+    """`Torque`, or a packed one, into a packed one."""
+    packed.u1, packed.u2 = torque.u1, torque.u2
+
+
+@compiled
+def find_late_torque(constants, carried):
+    """What the motors make a period later, and what acts until then, as `Torque`s, N·m."""
+    c, actuation = carried, constants.actuation
+    return compute_late_torque(
+        Torque(c.made.u1, c.made.u2),
+        Torque(c.before.u1, c.before.u2),
+        Torque(c.sent.u1, c.sent.u2),
+        actuation.lag,
+        actuation.latency,
+        constants.blocks.period,
     )
-    x, w = observe(blocks, c.known, c.estimate, applied, measurement)
-    return Carried(x, w, made, c.before, c.sent)
 
 
 @compiled
-def follow_and_decide(blocks, inputs, actuation, carried, measurement, tick):
-    """`follow`, then `decide`: (`Carried`, `Reference`, `Torque` asked for, N·m)."""
-    carried = follow(blocks, actuation, carried, measurement)
-    reference, torque = decide(blocks, inputs, carried.known, carried.estimate, tick)
-    return carried, reference, torque
+def follow_and_decide(constants, inputs, carried, tick):
+    """A period later: x̂, ŵ and made with what was measured then, reference and asked.
+
+    constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
+    """
+    k, c = constants[0], carried[0]
+    made, applied = find_late_torque(k, c)
+    y = c.measured
+    measured = Measurement(y.theta1, y.theta2, y.phi, y.dq, y.dtheta1, y.dtheta2)
+    known, estimate = read_state(c.known), read_disturbance(c.estimate)
+    x, w = observe(k.blocks, known, estimate, applied, measured)
+    r, asked = decide(k.blocks, inputs, x, w, tick)
+    store_state(c.known, x)
+    c.estimate.w2, c.estimate.w4, c.estimate.w6 = w.w2, w.w4, w.w6
+    store_torque(c.made, made)
+    store_torque(c.asked, asked)
+    p = c.reference
+    p.q, p.dq, p.ddq, p.dddq, p.ddddq = r.q, r.dq, r.ddq, r.dddq, r.ddddq
+    p.sigma, p.dsigma, p.ddsigma = r.sigma, r.dsigma, r.ddsigma
 
 
 @compiled
-def foresee(blocks, actuation, carried, ages):
+def publish_and_foresee(constants, carried, u1, u2, tick, sample):
+    """What was sent (u1, u2, N·m) is carried on, `publish_measured` into `sample`, `foresee`."""
+    k, c = constants[0], carried[0]
+    store_torque(c.before, c.sent)
+    store_torque(c.sent, Torque(u1, u2))
+    publish_measured(k.blocks, c, tick, sample)
+    store_state(c.expected, foresee(k, c))
+
+
+@compiled
+def foresee(constants, carried):
     """X̂ as it is expected a period later, with the velocities of half the ages before.
 
     A count of age a is then brought to its tick by y + v(t − a/2) a, right to the second
-    order. ages: s, of motor 1, motor 2, deflection. Returns `State`.
+    order. Returns `State`.
     """
-    c = carried
-    _, applied = compute_late_torque(
-        c.made, c.before, c.sent, actuation.lag, actuation.latency, blocks.period
-    )
-    x = predict_state(blocks.nominal, c.known, c.estimate, applied, blocks.period)
-    load = ExternalLoad(c.estimate.w2, c.estimate.w4, c.estimate.w6, 0.0, 0.0)
+    blocks, ages = constants.blocks, carried.ages_s
+    known, w = read_state(carried.known), read_disturbance(carried.estimate)
+    _, applied = find_late_torque(constants, carried)
+    x = predict_state(blocks.nominal, known, w, applied, blocks.period)
+    load = ExternalLoad(w.w2, w.w4, w.w6, 0.0, 0.0)
     a = compute_acceleration(blocks.nominal, x, applied, load)
     motor1 = x.dtheta1 - 0.5 * ages[0] * a.ddtheta1
     motor2 = x.dtheta2 - 0.5 * ages[1] * a.ddtheta2
@@ -79,21 +145,13 @@ def foresee(blocks, actuation, carried, ages):
 
 
 @compiled
-def publish_and_foresee(blocks, actuation, carried, reference, measurement, ages, tick, sample):
-    """`publish_measured` into `sample`, then `foresee`."""
-    c = carried
-    publish_measured(blocks, reference, measurement, c.known, c.estimate, c.sent, tick, sample)
-    return foresee(blocks, actuation, carried, ages)
-
-
-@compiled
-def publish_measured(blocks, reference, measurement, known, estimate, torque, tick, sample):
+def publish_measured(blocks, carried, tick, sample):
     """Write one sample of a bench, in the order of `CHANNELS`.
 
-    measurement: `Measurement`. known, estimate: x̂, ŵ. torque: sent, N·m. The true w is
-    unknown; the residuals are filled in by whoever has the twin.
+    The true w is unknown; the residuals are filled in by whoever has the twin.
     """
-    y, nothing = measurement, math.nan
+    y, reference, torque = carried.measured, carried.reference, carried.sent
+    known, estimate, nothing = carried.known, carried.estimate, math.nan
     q = y.theta1 + y.phi
     mu = compute_lever_ratio(y.theta2, blocks.nominal.mu0, blocks.nominal.gamma)
     sigma = compute_stiffness(mu, y.phi, blocks.nominal.K)

@@ -260,3 +260,29 @@ def test_a_babbling_bus_does_not_hold_the_tick_up() -> None:
             b.wire.send(junk)
         b.tick(1, PUSH)
         assert b.plant_bus.recv(0) is not None, "the rest waits for later ticks"
+
+
+def test_frames_that_are_fetched_before_the_tick_say_the_same() -> None:
+    readings = []
+    for early in (False, True):
+        with WiredBench() as b:
+            b.make_run(PUSH)
+            for _ in range(50):
+                if early:
+                    b.plant.listen()
+                    assert b.plant_bus.recv(0) is None
+                b.tick(1, PUSH)
+                readings.append(b.reading)
+    assert readings[:50] == readings[50:]
+    assert len({reading.counts for reading in readings if reading}) > 10
+
+
+def test_a_bus_that_fails_while_it_is_listened_to_is_a_fault_of_the_next_tick() -> None:
+    with WiredBench() as b:
+        b.make_run(PUSH)
+        b.plant_bus.shutdown()
+        b.plant.listen()
+        assert b.plant.fault is None
+        b.tick(2, PUSH)
+        assert b.plant.fault is not None
+        assert b.plant.fault.code == "bus_error"

@@ -5,7 +5,7 @@ import time
 import can
 import pytest
 
-from svsa.hardware.clock import DRIFT, ClockError, LockstepClock, WallClock
+from svsa.hardware.clock import DRIFT, SPIN_S, ClockError, LockstepClock, WallClock
 from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
 
 
@@ -38,6 +38,14 @@ def test_waits_until_a_deadline_and_not_for_one_that_is_past() -> None:
     assert late >= deadline
     clock.wait_until(deadline - 10.0)
     assert clock.now() - late < 1.0
+
+
+def test_a_near_deadline_is_never_early() -> None:
+    clock = WallClock()
+    for _ in range(200):
+        deadline = clock.now() + 0.5 * SPIN_S
+        clock.wait_until(deadline)
+        assert clock.now() >= deadline
 
 
 def test_frames_stamped_with_the_time_of_day() -> None:

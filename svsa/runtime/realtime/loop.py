@@ -13,15 +13,23 @@ from svsa.errors import StateError
 from svsa.hardware.bench import BenchFile
 from svsa.hardware.can_plant import CanPlant, Reading
 from svsa.hardware.machine import BenchStatus
+from svsa.packed import pack, view_field
 from svsa.runtime.command import build_command
 from svsa.runtime.configuration import Configuration
-from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED
-from svsa.runtime.measured import Actuation, Carried, follow_and_decide, publish_and_foresee
+from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
+from svsa.runtime.measured import (
+    Actuation,
+    BenchConstants,
+    Carried,
+    follow_and_decide,
+    publish_and_foresee,
+)
 from svsa.runtime.run import Run, Start
-from svsa.signals import CHANNELS, Measurement, Reference, State, Torque
+from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
 
 STATUSES = tuple(BenchStatus)
 MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
+_NOTHING = pack(Carried())
 
 
 class SampleSink(Protocol):
@@ -57,18 +65,25 @@ class BenchLoop:
         self._mu0 = bench.home.lever_ratio
         self.run = Run(configuration, start=Start(self._mu0, AT_REST))
         self._scratch = np.empty(len(CHANNELS))
+        self._carried = _NOTHING.copy()
+        self._known, self._estimate, self._asked, self._foreseen, self._measured, self._ages = (
+            view_field(self._carried, name)
+            for name in ("known", "estimate", "asked", "expected", "measured", "ages_s")
+        )
+        self._blocks: Blocks | None = None
+        self._constants = np.empty(0)
         self._forget()
 
     def _forget(self) -> None:
         """Know nothing of the state: the next measurement is where it begins."""
-        self._carried: Carried | None = None
-        self._expected = AT_REST
+        self._is_known = False
+        self._carried[:] = _NOTHING
 
     def load(self, configuration: Configuration) -> None:
         """Use this configuration from the next start on; raises `StateError` in motion."""
         if self.plant.status in MOVING:
             raise StateError("The bench is moving: stop it before another run is loaded.")
-        x = self._carried.known if self._carried else AT_REST
+        x = State(*self._known.tolist())
         self.run = Run(configuration, start=Start(self._mu0, x))
 
     def start(self, now: float) -> Start:
@@ -77,13 +92,14 @@ class BenchLoop:
         The references fade in from the measured position and stiffness, and ŵ begins at
         zero, so that the first torque is about zero.
         """
-        if self._carried is None:
+        if not self._is_known:
             raise StateError("The bench has not been read yet: arm it and wait until READY.")
         self.plant.start(now)
-        still = self._carried.known._replace(dq=0.0, dtheta1=0.0, dtheta2=0.0)
+        known = State(*self._known.tolist())
+        still = known._replace(dq=0.0, dtheta1=0.0, dtheta2=0.0)
         start = Start(self._mu0, still)
         self.run = Run(self.run.configuration, start=start)
-        self._carried = self._carried._replace(estimate=UNDISTURBED)
+        self._estimate[:] = UNDISTURBED
         self.number += 1
         self.sink.begin_run(self.number)
         return start
@@ -99,56 +115,44 @@ class BenchLoop:
 
     def warm_up(self) -> None:
         """Have every compiled piece loaded before time counts."""
-        still = Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        carried, reference, _ = self._decide(_begin_at(still), still)
-        self._publish(carried, reference, still, (0.0, 0.0, 0.0), self._scratch)
+        self._decide(Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        self._publish(NO_TORQUE, self._scratch)
+        self._forget()
 
     def tick(self, now: float, missed: int = 0) -> None:
         """One period. now: time of the plant's clock, s. missed: ticks lost before it."""
         plant = self.plant
-        reading = self.reading = plant.read(now, self._expected)
+        reading = self.reading = plant.read(now, State(*self._foreseen.tolist()))
         measurement = reading.measurement
         if measurement is None:
             self._forget()
             plant.write(now, NO_TORQUE, AT_REST, UNDISTURBED, missed)
             return
-        carried, reference, asked = self._decide(
-            self._carried or _begin_at(measurement), measurement
-        )
+        known, estimate, asked = self._decide(measurement, reading.ages_s)
         moving = plant.status in MOVING
-        torque = asked if moving else NO_TORQUE
-        sent = plant.write(now, torque, carried.known, carried.estimate, missed)
-        self._carried = carried = carried._replace(before=carried.sent, sent=sent)
+        sent = plant.write(now, asked if moving else NO_TORQUE, known, estimate, missed)
         tick = self.run.tick
         row = self.sink.get_row(tick) if moving else self._scratch
-        self._expected = self._publish(carried, reference, measurement, reading.ages_s, row)
+        self._publish(sent, row)
         if moving:
             self.run.tick = tick + 1
             self.sink.commit(tick)
 
     def _decide(
-        self, carried: Carried, measurement: Measurement
-    ) -> tuple[Carried, Reference, Torque]:
+        self, y: Measurement, ages_s: tuple[float, float, float]
+    ) -> tuple[State, Disturbance, Torque]:
+        """X̂, ŵ and the torque that is asked for. It begins at rest where y was measured first."""
+        if not self._is_known:
+            self._known[:] = (y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
+            self._is_known = True
         run = self.run
-        return follow_and_decide(
-            run.blocks[0], run.inputs, self._actuation, carried, measurement, run.tick
-        )
+        if run.blocks[0] is not self._blocks:
+            self._blocks = run.blocks[0]
+            self._constants = pack(BenchConstants(self._blocks, self._actuation))
+        self._measured[:], self._ages[:] = y, ages_s
+        follow_and_decide(self._constants, run.inputs, self._carried, run.tick)
+        known, estimate, asked = self._known, self._estimate, self._asked
+        return State(*known.tolist()), Disturbance(*estimate.tolist()), Torque(*asked.tolist())
 
-    def _publish(
-        self,
-        carried: Carried,
-        reference: Reference,
-        measurement: Measurement,
-        ages: tuple[float, float, float],
-        row: np.ndarray,
-    ) -> State:
-        run = self.run
-        return publish_and_foresee(
-            run.blocks[0], self._actuation, carried, reference, measurement, ages, run.tick, row
-        )
-
-
-def _begin_at(y: Measurement) -> Carried:
-    """At rest where the bench was measured first."""
-    x = State(y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
-    return Carried(x, UNDISTURBED, NO_TORQUE, NO_TORQUE, NO_TORQUE)
+    def _publish(self, sent: Torque, row: np.ndarray) -> None:
+        publish_and_foresee(self._constants, self._carried, sent.u1, sent.u2, self.run.tick, row)

@@ -12,7 +12,7 @@ from svsa.hardware.heartbeat import attach_block
 from svsa.signals import CHANNELS
 
 CAPACITY_TICKS = 16_384
-_EDGES_A_DECADE = 20
+_EDGES_A_DECADE = 100
 LATENESS_EDGES_S = np.concatenate(
     [10.0 ** (np.arange(-6 * _EDGES_A_DECADE, 1) / _EDGES_A_DECADE), [np.inf]]
 )

@@ -27,6 +27,8 @@ from svsa.runtime.realtime.memory import LoopMemory, add_to_histogram
 
 SERVER_SILENT_S = 2.0
 FIRST_MESSAGE_S = 10.0
+LISTEN_S = 0.00015
+"""So long before a tick is due its frames are fetched: what comes later is read in the tick."""
 
 
 class LoopProcess:
@@ -47,6 +49,8 @@ class LoopProcess:
         deadline = self._clock.now()
         while not (self._ending and self._plant.status not in MOVING):
             deadline += period
+            self._clock.wait_until(deadline - LISTEN_S)
+            self._plant.listen()
             self._clock.wait_until(deadline)
             begin = self._clock.now()
             missed = int((begin - deadline) / period)

@@ -1,0 +1,37 @@
+"""Constants as one record: what compiled code reads by name, at the cost of one argument.
+
+A compiled function takes a named tuple apart number by number at every call from Python. Where
+that costs more than the equations do, the tuple goes in as a record of an array, with the same
+names.
+"""
+
+from typing import Any, cast
+
+import numpy as np
+
+
+def pack(values: tuple[Any, ...]) -> np.ndarray:
+    """One record (shape (1,)) of a named tuple of numbers, named tuples, and tuples of numbers.
+
+    Whole numbers stay whole; a tuple without names becomes a short array.
+    """
+    return np.array([values], dtype=_build_dtype(values))
+
+
+def view_field(record: np.ndarray, name: str) -> np.ndarray:
+    """The numbers of one field of a packed tuple that has no whole numbers, in order: a view."""
+    fields, size = cast(dict[str, Any], record.dtype.fields), np.dtype(np.float64).itemsize
+    dtype, offset = fields[name][:2]
+    first = offset // size
+    return record.view(np.float64)[first : first + dtype.itemsize // size]
+
+
+def _build_dtype(values: Any) -> np.dtype:
+    if not isinstance(values, tuple):
+        return np.dtype(np.int64 if isinstance(values, int) else np.float64)
+    names = getattr(values, "_fields", None)
+    if names is None:
+        return np.dtype((np.float64, (len(values),)))
+    return np.dtype(
+        [(name, _build_dtype(value)) for name, value in zip(names, values, strict=True)]
+    )

@@ -1,0 +1,43 @@
+"""Named tuples as records: the same numbers under the same names, for compiled code and Python."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.compilation import compiled
+from svsa.packed import pack, view_field
+from svsa.signals import State, Torque
+
+
+class Outer(NamedTuple):
+    count: int
+    shares: tuple[float, float, float]
+    inner: Torque
+
+
+class Numbers(NamedTuple):
+    known: State
+    sent: Torque
+
+
+@compiled
+def add_up(packed):
+    o = packed[0]
+    return o.count + o.shares[2] + o.inner.u2
+
+
+def test_compiled_code_reads_the_numbers_by_name():
+    packed = pack(Outer(2**53 + 1, (1.0, 2.0, 0.5), Torque(3.0, -0.25)))
+    assert packed["count"] == 2**53 + 1
+    np.testing.assert_array_equal(packed["shares"], [[1.0, 2.0, 0.5]])
+    assert packed["inner"].tolist() == [(3.0, -0.25)]
+    assert add_up(pack(Outer(7, (1.0, 2.0, 0.5), Torque(3.0, -0.25)))) == 7.25
+
+
+def test_a_field_is_seen_as_its_numbers_and_written_through():
+    packed = pack(Numbers(State(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), Torque(7.0, 8.0)))
+    sent = view_field(packed, "sent")
+    np.testing.assert_array_equal(view_field(packed, "known"), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+    sent[:] = Torque(-1.0, -2.0)
+    assert packed["sent"].tolist() == [(-1.0, -2.0)]
+    assert packed["known"].tolist() == [(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)]
