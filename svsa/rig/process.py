@@ -46,16 +46,21 @@ class RigProcess:
             if not self._lockstep:
                 self._say(self._rig.advance_to(self._read_clock()))
             for server in self._servers:
-                for client in server.take_arrivals():
-                    greeting = Frame(EMULATED_ID, EMULATED_DATA, extended=True)
-                    server.send(greeting, self._stamp(self._rig.now_us), to=client)
-                for client, frame in server.poll():
-                    self._take(server, client, frame)
+                self._serve(server)
             now = time.monotonic()
             if any(server.listening for server in self._servers):
                 self._last_use = now
             elif self._idle_s and now - self._last_use > self._idle_s:
                 return
+
+    def _serve(self, server: FrameServer) -> None:
+        """Do what has come; who is new is greeted before the first frame of theirs acts."""
+        heard = server.poll()
+        for client in server.take_arrivals():
+            greeting = Frame(EMULATED_ID, EMULATED_DATA, extended=True)
+            server.send(greeting, self._stamp(self._rig.now_us), to=client)
+        for client, frame in heard:
+            self._take(server, client, frame)
 
     def _choose_sleep(self) -> float:
         waits = [LONGEST_SLEEP_S]

@@ -35,14 +35,17 @@ class Wire:
         head, _, self._text = self._text.partition(">")
         return head.strip("< ").split()
 
-    def send(self, can_id, data):
-        name = f"{can_id:08X}" if can_id > 0x7FF else f"{can_id:03X}"
-        spaced = data.hex(" ").upper()
-        self._socket.sendall(f"< send {name} {len(data)} {spaced} >".encode())
+    def send(self, *frames):
+        """Identifiers and data of frames, in one piece."""
+        text = ""
+        for can_id, data in frames:
+            name = f"{can_id:08X}" if can_id > 0x7FF else f"{can_id:03X}"
+            text += f"< send {name} {len(data)} {data.hex(' ').upper()} >"
+        self._socket.sendall(text.encode())
 
-    def advance(self, time_us):
-        """Ask for that time; all that is said until the echo."""
-        self.send(ADVANCE_ID, encode_time(time_us))
+    def advance(self, time_us, *before):
+        """Send frames and ask for that time; all that is said until the echo."""
+        self.send(*before, (ADVANCE_ID, encode_time(time_us)))
         said = []
         while True:
             words = self.read()
@@ -79,16 +82,16 @@ def test_lockstep_over_the_wire_is_the_same_to_the_byte():
         with start_rig(lockstep=True) as running:
             wire = Wire(running.port)
             said = []
-            wire.send(0x000, b"\x55" * 8)
+            wire.send((0x000, b"\x55" * 8))
             said += wire.advance(600_000)
             for number in (1, 2):
-                wire.send(number << 4 | 0xA, b"\x01\x00" + b"\x55" * 6)
-                wire.send(number << 4 | 0x1, b"\x02" + b"\x55" * 7)
+                wire.send((number << 4 | 0xA, b"\x01\x00" + b"\x55" * 6))
+                wire.send((number << 4 | 0x1, b"\x02" + b"\x55" * 7))
             said += wire.advance(1_200_000)
             for tick in range(1, 100):
                 for number in (1, 2):
                     current = (400 if tick // 20 % 2 else -400).to_bytes(2, "big", signed=True)
-                    wire.send(number << 4 | 0x3, b"\x13\x88" + current + b"\x55" * 4)
+                    wire.send((number << 4 | 0x3, b"\x13\x88" + current + b"\x55" * 4))
                 said += wire.advance(1_200_000 + 1000 * tick)
             wire.close()
             return said
@@ -96,6 +99,20 @@ def test_lockstep_over_the_wire_is_the_same_to_the_byte():
     first, second = record(), record()
     assert first == second
     assert len(first) > 1500
+
+
+@pytest.mark.parametrize("together", [True, False])
+def test_a_client_is_greeted_before_its_first_frame_acts(rig, together):
+    """However its frames are cut: else two runs in lockstep would not be the same."""
+    wire = Wire(rig.port)
+    reset = (0x000, b"\x55" * 8)
+    if together:
+        said = wire.advance(5_000, reset)
+    else:
+        wire.send(reset)
+        said = wire.advance(5_000)
+    assert said[0][1:3] == [f"{EMULATED_ID:08X}", "0.000000"]
+    wire.close()
 
 
 def test_a_client_is_told_that_this_is_an_emulation(rig):
