@@ -7,39 +7,59 @@ constants of an actuator from one to the next would cost more than the equations
 
 The compiled code is cached between starts. numba notices a change in the file of a
 function, but not in the files of the functions it calls; the cache folder is therefore
-named after the text of the library, and a change anywhere but in the rooms that have no
-compiled function compiles anew.
+named after the text of every file that has a compiled function and of all that these import.
+A change in any other file compiles nothing anew.
 """
 
 import hashlib
 import os
 import platform
+import re
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import numba
 from numba.core import config
 
 _LIBRARY = Path(__file__).parent
-_UNCOMPILED = (
-    "experiment",
-    "hardware",
-    "rig",
-    "runtime/catalogue",
-    "runtime/realtime",
-    "runtime/recording",
-)
+_COMPILES = re.compile(r"^from svsa\.compilation import compiled$", re.MULTILINE)
+_IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 _KEPT_CACHES = 3
 _PREFIX = "compiled-"
 
 
+def _find_module(name: str) -> Path | None:
+    path = _LIBRARY.parent.joinpath(*name.split("."))
+    return next(
+        (file for file in (path.with_suffix(".py"), path / "__init__.py") if file.exists()), None
+    )
+
+
+def _find_imported(text: str) -> Iterator[Path]:
+    """The files of the library that a file with this text imports, or imports from."""
+    for module, names in _IMPORT.findall(text):
+        for name in (module, *(f"{module}.{part}" for part in re.findall(r"\w+", names))):
+            if (file := _find_module(name)) is not None:
+                yield file
+
+
+def find_compiled_sources() -> list[Path]:
+    """The files with a compiled function, and all that these import: they decide what is compiled."""
+    texts = {file: file.read_text(encoding="utf-8") for file in _LIBRARY.rglob("*.py")}
+    found = {file for file, text in texts.items() if _COMPILES.search(text)}
+    waiting = list(found)
+    while waiting:
+        new = set(_find_imported(texts[waiting.pop()])) - found
+        found |= new
+        waiting += new
+    return sorted(found)
+
+
 def _compute_fingerprint() -> str:
     digest = hashlib.sha256(f"{numba.__version__} {platform.python_version()}".encode())
-    for source in sorted(_LIBRARY.rglob("*.py")):
-        name = source.relative_to(_LIBRARY).as_posix()
-        if name.startswith(tuple(f"{room}/" for room in _UNCOMPILED)):
-            continue
-        digest.update(name.encode())
+    for source in find_compiled_sources():
+        digest.update(source.relative_to(_LIBRARY).as_posix().encode())
         digest.update(source.read_bytes())
     return digest.hexdigest()[:16]
 
