@@ -45,7 +45,7 @@ def _find_imported(text: str) -> Iterator[Path]:
 
 
 def find_compiled_sources() -> list[Path]:
-    """The files with a compiled function, and all that these import: they decide what is compiled."""
+    """The files with a compiled function, and what these import: they decide what is compiled."""
     texts = {file: file.read_text(encoding="utf-8") for file in _LIBRARY.rglob("*.py")}
     found = {file for file, text in texts.items() if _COMPILES.search(text)}
     waiting = list(found)
