@@ -4,6 +4,8 @@
  *     svsa.channels()                          names of the channels in the stream
  *     svsa.series("position_error_rad")        { time: [s …], value: [rad …] }, oldest first
  *     svsa.series("position_error_rad", 2)     the same of lane 2, NaN before the lane began
+ *
+ * The first and the last sample of a gap are NaN in every lane.
  */
 import { samples } from "./state/session";
 

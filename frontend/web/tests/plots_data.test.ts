@@ -51,7 +51,6 @@ describe("decimation", () => {
     expect(decimated([1, none, none, none, none, none, 4, 4, 5], 3)).toEqual([
       [0, 1],
       GAP,
-      GAP,
       [0.06, 4],
       [0.08, 5],
     ]);
@@ -75,6 +74,7 @@ describe("between two cursors", () => {
     expect(measure(0, 3)).toEqual({
       ...{ a: 3, b: 12, delta: 9, min: -4, max: 12 },
       rms: Math.sqrt((9 + 16 + 144) / 3),
+      missingS: expect.closeTo(0.01),
     });
   });
 
@@ -89,8 +89,55 @@ describe("between two cursors", () => {
   it("is no number where there is none", () => {
     expect(measure(2, 2)).toEqual({
       ...{ a: Number.NaN, b: Number.NaN, delta: Number.NaN },
-      ...{ min: Number.NaN, max: Number.NaN, rms: Number.NaN },
+      ...{ min: Number.NaN, max: Number.NaN, rms: Number.NaN, missingS: 0 },
     });
+  });
+});
+
+/** 100 Hz: six samples of 1, nothing for 2 s, then six samples of 2. */
+function ringWithGap(): SampleRing {
+  const ring = new SampleRing(1000, ["position_error_rad"]);
+  const header = { run: 1, stride: 10, count: 6, lanes: 1 };
+  const six = (value: number) => new Float32Array(6).fill(value);
+  ring.append({ ...header, firstTick: 0, missed: 0, values: six(1) }, 0.001);
+  ring.append({ ...header, firstTick: 2060, missed: 200, values: six(2) }, 0.001);
+  return ring;
+}
+
+describe("a gap of 2 s", () => {
+  it("is one in the curve, also where many samples share a bucket", () => {
+    for (const perBucket of [1, 4, 50]) {
+      const points = emptyPoints();
+      decimate(all(ringWithGap()), perBucket, 1, points);
+      const ys = [...points.y.subarray(0, points.count)];
+      const gap = ys.findIndex(Number.isNaN);
+      expect(ys.slice(0, gap)).toEqual(ys.slice(0, gap).fill(1));
+      expect(gap).toBeGreaterThan(0);
+      const after = ys.slice(gap).filter((y) => !Number.isNaN(y));
+      expect(after.length).toBeGreaterThan(0);
+      expect(after).toEqual(after.fill(2));
+    }
+  });
+
+  it("is said with what is measured across it", () => {
+    const ring = ringWithGap();
+    const across = measureBetween(ring, "position_error_rad", 1, [0, ring.length - 1]);
+    expect(across).toMatchObject({ a: 1, b: 2, delta: 1, min: 1, max: 2 });
+    expect(across.missingS).toBeCloseTo(2, 9);
+    expect(measureBetween(ring, "position_error_rad", 1, [0, 5]).missingS).toBe(0);
+    const step = measureStep(ring, "position_error_rad", 1, 0, 3);
+    expect(step).toMatchObject({ peak: 2, recoveryS: Number.NaN });
+    expect(step?.missingS).toBeCloseTo(2, 9);
+  });
+
+  it("is rows without values in CSV, at its first and its last sample", () => {
+    const csv = writeCsv(
+      ringWithGap(),
+      { from: 0.05, to: 2.06 },
+      [{ channel: "position_error_rad", lane: 1 }],
+      ["NDOBC"],
+    );
+    expect(csv.split("\r\n").slice(1, -1)).toEqual(["0.05,1", "0.06,", "2.05,", "2.06,2"]);
   });
 });
 

@@ -120,6 +120,51 @@ describe("the lanes of a SampleRing", () => {
   });
 });
 
+describe("samples that were not sent", () => {
+  const row = (firstTick: number, stride: number, ...values: number[]): Batch => ({
+    ...{ run: 1, firstTick, stride, count: values.length, missed: 0, lanes: 1 },
+    values: new Float32Array(values),
+  });
+  const rows = (ring: SampleRing) =>
+    Array.from({ length: ring.length }, (_, index) => [
+      ring.timeAt(index),
+      ring.valueAt("a", index),
+    ]);
+
+  it("are a gap from the first to the last of them", () => {
+    const ring = new SampleRing(20, ["a"]);
+    ring.append(row(0, 5, 1, 2), 1);
+    ring.append(row(30, 5, 3, 4), 1);
+    expect(rows(ring)).toEqual([
+      [0, 1],
+      [5, 2],
+      [10, Number.NaN],
+      [25, Number.NaN],
+      [30, 3],
+      [35, 4],
+    ]);
+    for (const time of [9, 17, 18, 26]) expect(ring.valueAt("a", ring.nearestTo(time))).toBeNaN();
+  });
+
+  it("are one where one is missing, and none where the rate changes", () => {
+    const ring = new SampleRing(20, ["a"]);
+    ring.append(row(0, 50, 1, 2), 1);
+    ring.append(row(100, 5, 3), 1);
+    ring.append(row(105, 50, 4), 1);
+    ring.append(row(160, 5, 5), 1);
+    expect(rows(ring).map(([, value]) => value)).toEqual([1, 2, 3, 4, Number.NaN, 5]);
+  });
+
+  it("are there again where the server sends them again", () => {
+    const ring = new SampleRing(20, ["a"]);
+    ring.append(row(0, 5, 1, 2), 1);
+    ring.append(row(20, 5, 5), 1);
+    const next = ring.reselect(["a"]);
+    next.append(row(10, 5, 3, 4, 5), 1);
+    expect(rows(next).map(([, value]) => value)).toEqual([1, 2, 3, 4, 5]);
+  });
+});
+
 describe("a SampleRing whose channels change", () => {
   const one = (tick: number, ...values: number[]): Batch => ({
     ...{ run: 1, firstTick: tick, stride: 1, count: values.length, missed: 0, lanes: 1 },

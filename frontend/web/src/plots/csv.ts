@@ -1,4 +1,7 @@
-/** The window as CSV, as the server writes runs: "<lane>.<channel> [unit]", in SI, every sample. */
+/**
+ * The window as CSV, as the server writes runs: "<lane>.<channel> [unit]", in SI, every sample. A
+ * gap is two rows without values, at its first and at its last sample.
+ */
 import type { SampleRing } from "../stream/ring";
 import { CHANNELS, type ChannelName } from "./channels";
 import type { Span } from "./spans";

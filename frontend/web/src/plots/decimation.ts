@@ -29,6 +29,12 @@ function put(points: Points, x: number, y: number): void {
   points.y[points.count++] = y;
 }
 
+/** The pen is lifted, once. */
+function lift(points: Points): void {
+  const isLifted = points.count > 0 && Number.isNaN(points.y[points.count - 1]);
+  if (!isLifted) put(points, Number.NaN, Number.NaN);
+}
+
 function copyAll({ time, values, start, count }: Stretch, factor: number, out: Points): void {
   makeRoom(out, count);
   let slot = start;
@@ -41,7 +47,7 @@ function copyAll({ time, values, start, count }: Stretch, factor: number, out: P
 /**
  * Writes the points of a stretch, times `factor`, into `out`. Buckets begin at multiples of
  * `perBucket` of a sample's number, so that they do not change while time goes on. Real samples
- * only, in the order of time; a gap stays one.
+ * only, in the order of time; a gap stays one, and ends a bucket.
  */
 export function decimate(stretch: Stretch, perBucket: number, factor: number, out: Points): void {
   out.count = 0;
@@ -50,45 +56,31 @@ export function decimate(stretch: Stretch, perBucket: number, factor: number, ou
     return;
   }
   const { time, values, start, count, number } = stretch;
-  makeRoom(out, 4 * (Math.ceil(count / perBucket) + 1));
+  makeRoom(out, count + 2);
+  const after = (slot: number) => (slot + 1 === values.length ? 0 : slot + 1);
   let slot = start;
-  let left = perBucket - (number % perBucket);
   let index = 0;
+  let bucketEnd = perBucket - (number % perBucket);
   while (index < count) {
-    const end = Math.min(count, index + left);
-    left = perBucket;
-    let low = Number.POSITIVE_INFINITY;
-    let high = Number.NEGATIVE_INFINITY;
-    let lowSlot = -1;
-    let highSlot = -1;
-    const isGapBefore = Number.isNaN(values[slot]);
-    let last = Number.NaN;
-    for (; index < end; index++) {
-      const value = values[slot] as number;
-      if (value < low) {
-        low = value;
-        lowSlot = slot;
-      }
-      if (value > high) {
-        high = value;
-        highSlot = slot;
-      }
-      last = value;
-      slot = slot + 1 === values.length ? 0 : slot + 1;
-    }
-    if (lowSlot < 0) {
-      put(out, Number.NaN, Number.NaN);
+    if (Number.isNaN(values[slot])) {
+      lift(out);
+      slot = after(slot);
+      index++;
       continue;
     }
-    if (isGapBefore) put(out, Number.NaN, Number.NaN);
-    const lowTime = time[lowSlot] as number;
-    const highTime = time[highSlot] as number;
-    const isLowFirst = lowTime <= highTime;
-    put(out, isLowFirst ? lowTime : highTime, (isLowFirst ? low : high) * factor);
-    if (lowSlot !== highSlot) {
-      put(out, isLowFirst ? highTime : lowTime, (isLowFirst ? high : low) * factor);
+    while (bucketEnd <= index) bucketEnd += perBucket;
+    const end = Math.min(count, bucketEnd);
+    let lowSlot = slot;
+    let highSlot = slot;
+    for (; index < end && !Number.isNaN(values[slot]); index++) {
+      if ((values[slot] as number) < (values[lowSlot] as number)) lowSlot = slot;
+      if ((values[slot] as number) > (values[highSlot] as number)) highSlot = slot;
+      slot = after(slot);
     }
-    if (Number.isNaN(last)) put(out, Number.NaN, Number.NaN);
+    const isLowFirst = (time[lowSlot] as number) <= (time[highSlot] as number);
+    const [first, last] = isLowFirst ? [lowSlot, highSlot] : [highSlot, lowSlot];
+    put(out, time[first] as number, (values[first] as number) * factor);
+    if (first !== last) put(out, time[last] as number, (values[last] as number) * factor);
   }
 }
 

@@ -12,7 +12,7 @@ import { type Measures, measureBetween } from "./statistics";
 import { composeContent, tracesOf } from "./traces";
 
 const COLUMNS = ["a", "b", "delta", "min", "max", "rms"] as const satisfies (keyof Measures)[];
-const HEADS: Readonly<Record<keyof Measures, string>> = {
+const HEADS: Readonly<Record<(typeof COLUMNS)[number], string>> = {
   a: text.cursors.at(text.cursors.names.a),
   b: text.cursors.at(text.cursors.names.b),
   delta: text.cursors.delta,
@@ -51,6 +51,11 @@ function Rows({ setup, indices }: RowsProps) {
             <th scope="row">
               <Swatch look={trace} sign={trace.sign} />
               {trace.label}
+              {measures.missingS > 0 && (
+                <span class="measures-missing" title={text.cursors.missingHint}>
+                  {text.cursors.missing(formatNumber(measures.missingS, 3, 2))}
+                </span>
+              )}
             </th>
             {COLUMNS.map((column) => (
               <td key={column}>{formatNumber(measures[column], 4, 4)}</td>

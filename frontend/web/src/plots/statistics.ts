@@ -8,6 +8,8 @@ export interface Measures {
   min: number;
   max: number;
   rms: number;
+  /** For so long of it there is no number, s: min, max and rms are of the rest. */
+  missingS: number;
 }
 
 /** Of the samples from index `a` to `b`, both included, past what is no number. */
@@ -24,7 +26,8 @@ export function measureBetween(
   let max = Number.NaN;
   let squares = 0;
   let count = 0;
-  for (let index = Math.min(a, b); index <= Math.max(a, b); index++) {
+  const end = Math.max(a, b);
+  for (let index = Math.min(a, b); index <= end; index++) {
     const value = ring.valueAt(channel, index, lane) * factor;
     if (Number.isNaN(value)) continue;
     if (!(value >= min)) min = value;
@@ -33,14 +36,36 @@ export function measureBetween(
     count++;
   }
   const rms = count === 0 ? Number.NaN : Math.sqrt(squares / count);
-  return { a: atA, b: atB, delta: atB - atA, min, max, rms };
+  const missingS = measureMissing(ring, channel, lane, Math.min(a, b), end);
+  return { a: atA, b: atB, delta: atB - atA, min, max, rms, missingS };
+}
+
+/** How long there is no number, s, from the sample at index `first` up to the one at `last`. */
+function measureMissing(
+  ring: SampleRing,
+  channel: string,
+  lane: number,
+  first: number,
+  last: number,
+): number {
+  let missing = 0;
+  for (let index = first; index < last; index++) {
+    if (!Number.isNaN(ring.valueAt(channel, index, lane))) continue;
+    missing += ring.timeAt(index + 1) - ring.timeAt(index);
+  }
+  return missing;
 }
 
 export interface StepMetrics {
   peak: number;
   rms: number;
-  /** From the step until the error stays small, s; null while it has not for long enough. */
+  /**
+   * From the step until the error stays small, s; null while it has not for long enough, NaN where
+   * samples are missing, for the error may have been large in between.
+   */
   recoveryS: number | null;
+  /** For so long of it there is no number, s: the true peak may be higher. */
+  missingS: number;
 }
 
 /** As the server has it: within 2 % of the peak so far, and for half a second at least. */
@@ -75,10 +100,13 @@ export function measureStep(
     if (size > RECOVERY_SHARE * peak) lastOutside = ring.timeAt(Math.min(index + 1, end - 1));
   }
   if (count === 0) return null;
+  const missingS = measureMissing(ring, channel, lane, first, end - 1);
   const isSettled = ring.timeAt(end - 1) - lastOutside >= SETTLED_S;
+  const recoveryS = isSettled ? lastOutside - fromS : null;
   return {
     peak,
     rms: Math.sqrt(squares / count),
-    recoveryS: isSettled ? lastOutside - fromS : null,
+    recoveryS: missingS > 0 ? Number.NaN : recoveryS,
+    missingS,
   };
 }

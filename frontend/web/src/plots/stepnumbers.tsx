@@ -43,6 +43,7 @@ export function StepNumbers({ event, untilS }: StepNumbersProps) {
     metrics: measureStep(ring, ERROR, index + 1, event.time_s, untilS),
   }));
   const isHeld = rows.some(({ metrics }) => metrics !== null);
+  const missingS = Math.max(...rows.map(({ metrics }) => metrics?.missingS ?? 0));
   return (
     <div class="step-numbers" ref={panel} role="status">
       <strong>{text.steps.heading(event.label, event.time_s.toFixed(2))}</strong>
@@ -86,6 +87,7 @@ export function StepNumbers({ event, untilS }: StepNumbersProps) {
       ) : (
         <p>{text.steps.gone}</p>
       )}
+      {missingS > 0 && <p class="hint">{text.steps.missing(formatNumber(missingS, 3, 2))}</p>}
     </div>
   );
 }

@@ -2,6 +2,10 @@
  * The newest samples of a session, one column a channel and lane, in arrays that are never
  * reallocated. A lane is there from the first batch that has it, with no number before, and goes
  * with its past with the first batch that has it no more.
+ *
+ * Samples that a slow client was not sent are a gap: the first and the last of them stand in their
+ * places as samples without numbers, and nothing between them, so that no reader of the ring joins
+ * what lies before to what lies after.
  */
 import type { Batch } from "./decoder";
 
@@ -19,6 +23,8 @@ export class SampleRing {
   readonly capacity: number;
   #channels: readonly string[];
   #time: Float64Array;
+  /** The tick at which the sample after this one is expected. */
+  #due: Float64Array;
   #lanes: Map<string, Float32Array>[] = [];
   #next = 0;
   #length = 0;
@@ -28,6 +34,7 @@ export class SampleRing {
     this.capacity = capacity;
     this.#channels = channels;
     this.#time = new Float64Array(capacity);
+    this.#due = new Float64Array(capacity);
   }
 
   get channels(): readonly string[] {
@@ -62,19 +69,17 @@ export class SampleRing {
   append(batch: Batch, periodS: number): void {
     this.#setLanes(batch.lanes);
     this.#dropFrom(batch.firstTick * periodS);
+    this.#markGap(batch, periodS);
     const width = batch.lanes * this.#channels.length;
     const skipped = Math.max(0, batch.count - this.capacity);
     for (let row = skipped; row < batch.count; row++) {
-      this.#time[this.#next] = (batch.firstTick + row * batch.stride) * periodS;
       let source = row * width;
       for (const columns of this.#lanes) {
         for (const channel of this.#channels) {
           (columns.get(channel) as Float32Array)[this.#next] = batch.values[source++] as number;
         }
       }
-      this.#next = (this.#next + 1) % this.capacity;
-      this.#length = Math.min(this.#length + 1, this.capacity);
-      this.#total++;
+      this.#advance(batch.firstTick + row * batch.stride, batch.stride, periodS);
     }
   }
 
@@ -92,6 +97,7 @@ export class SampleRing {
   copy(): SampleRing {
     const other = new SampleRing(this.capacity, this.#channels);
     other.#time = this.#time.slice();
+    other.#due = this.#due.slice();
     other.#lanes = this.#lanes.map(
       (columns) => new Map([...columns].map(([name, column]) => [name, column.slice()])),
     );
@@ -191,6 +197,30 @@ export class SampleRing {
 
   #blank(): Float32Array {
     return new Float32Array(this.capacity).fill(Number.NaN);
+  }
+
+  /** The first and the last sample that are missing before a batch, if any. */
+  #markGap({ firstTick, stride }: Batch, periodS: number): void {
+    const due =
+      this.#length === 0 ? firstTick : (this.#due[this.#slot(this.#length - 1)] as number);
+    if (due >= firstTick) return;
+    this.#appendBlank(due, stride, periodS);
+    if (firstTick - stride > due) this.#appendBlank(firstTick - stride, stride, periodS);
+  }
+
+  #appendBlank(tick: number, stride: number, periodS: number): void {
+    for (const columns of this.#lanes) {
+      for (const column of columns.values()) column[this.#next] = Number.NaN;
+    }
+    this.#advance(tick, stride, periodS);
+  }
+
+  #advance(tick: number, stride: number, periodS: number): void {
+    this.#time[this.#next] = tick * periodS;
+    this.#due[this.#next] = tick + stride;
+    this.#next = (this.#next + 1) % this.capacity;
+    this.#length = Math.min(this.#length + 1, this.capacity);
+    this.#total++;
   }
 
   #setLanes(count: number): void {
