@@ -24,7 +24,8 @@ _OPEN_PATHS = (
     "/",
     "/api/v1/login",
     "/api/v1/health",
-    "/api/v1/emergency-stop",  # whoever sees something go wrong may stop it
+    "/api/v1/quick-stop",  # whoever sees something go wrong may stop it
+    "/api/v1/emergency-stop",  # its old name
     "/icon.svg",
 )
 _OPEN_FOLDER = "/assets/"

@@ -1,4 +1,4 @@
-"""The emergency stop on the keyboard of the console that the lab was started from."""
+"""The quick stop on the keyboard of the console that the lab was started from."""
 
 import contextlib
 import os
@@ -8,7 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 
 KEYS = b" e\n"
-HINT = "Emergency stop: press the space bar, E or Enter here, or Shift+Escape on the page."
+HINT = "Quick stop: press the space bar, E or Enter here, or Shift+Escape on the page."
 _POLL_S = 0.2
 
 

@@ -19,7 +19,7 @@ from svsa_server.control_schemas import LONGEST_NAME, ControlState
 
 CLIENT_HEADER = "SVSA-Client"
 # What is open to all whoever holds the hand: it stops, it only asks, or it is the hand itself.
-STOPS = frozenset({("POST", "/pause"), ("POST", "/emergency-stop")})
+STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop"), ("POST", "/emergency-stop")})
 OPEN_TO_ALL = STOPS | {("POST", "/predict"), ("PUT", "/control"), ("DELETE", "/control")}
 CHANGING = frozenset({"POST", "PUT", "PATCH", "DELETE"})
 

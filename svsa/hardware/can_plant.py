@@ -136,9 +136,9 @@ class CanPlant:
         """Ramp to zero torque."""
         self._machine.stop()
 
-    def emergency_stop(self, now: float, reason: str) -> None:
+    def quick_stop(self, now: float, reason: str) -> None:
         """Zero current from the next tick on, latched."""
-        self.fail("emergency_stop", f"Zero current at once: {reason}.", {})
+        self.fail("quick_stop", f"Zero current at once: {reason}.", {})
 
     def clear(self, now: float) -> None:
         """FAULT → OFF; raises `StateError`."""

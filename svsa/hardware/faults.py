@@ -15,7 +15,7 @@ class FaultKind(NamedTuple):
 _TICK_S = 0.002
 
 FAULTS: dict[str, FaultKind] = {
-    "emergency_stop": FaultKind("somebody pressed the emergency stop", _TICK_S),
+    "quick_stop": FaultKind("somebody pressed the quick stop", _TICK_S),
     "not_finite": FaultKind("a torque or a state was not a finite number", _TICK_S),
     "stale_feedback": FaultKind("an encoder has not been heard of for 20 ms", 0.007),
     "missed_ticks": FaultKind("the loop missed 20 ticks in a row", 0.022),

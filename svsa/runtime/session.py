@@ -152,17 +152,17 @@ class Session:
         self.clock.stop()
         self.version += 1
 
-    def stop_at_once(self) -> None:
-        """The emergency stop: a simulation pauses, and says that it was stopped."""
+    def quick_stop(self) -> None:
+        """The quick stop: a simulation pauses, and says that it was stopped."""
         if self.status == "running":
             self.pause()
-            self._log("emergency_stop", "Emergency stop")
+            self._log("quick_stop", "Quick stop")
 
     def hear_operator(self) -> None:
         """Whoever watches holds the dead-man's switch, which a simulation does not have."""
 
     def stop_from_keyboard(self) -> None:
-        """The emergency stop from another thread: a simulation has none to guard against."""
+        """The quick stop from another thread: a simulation has none to guard against."""
 
     def close(self) -> None:
         """End the session for good; whoever watches it is told."""

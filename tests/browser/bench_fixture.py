@@ -41,7 +41,7 @@ BENCH: dict[str, Any] = {
 }
 HOMED = {"done": ["link", "motor1", "motor2"], "next_step": None, "instruction": ""}
 FAULT = {
-    "code": "emergency_stop",
+    "code": "quick_stop",
     "lane": 1,
     "tick": 4200,
     "time_s": 4.2,
@@ -105,9 +105,9 @@ class PatchedBench:
             "bench/home": {"homing": HOMED},
             "start": {"status": "run"},
             "pause": {"status": "ready"},
-            "emergency-stop": {"status": "fault"},
+            "quick-stop": {"status": "fault"},
         }.get(call)
-        if call == "emergency-stop":
+        if call == "quick-stop":
             self._fault = FAULT
         self.bench |= step or {}
         if step is None:

@@ -96,11 +96,11 @@ def test_space_stops_a_bench_and_never_starts_it(page: Page, lab: Lab) -> None:
     assert [call for call, _ in patched.calls] == ["pause"]
 
 
-def test_an_emergency_stop_is_latched_until_the_fault_is_cleared(page: Page, lab: Lab) -> None:
+def test_a_quick_stop_is_latched_until_the_fault_is_cleared(page: Page, lab: Lab) -> None:
     patched = PatchedBench(page, status="run", homing=HOMED)
     open_page(page, lab)
     page.keyboard.press("Shift+Escape")
-    banner = page.get_by_role("alert").filter(has_text="Emergency stop.")
+    banner = page.get_by_role("alert").filter(has_text="Quick stop.")
     expect(banner).to_contain_text("stay so until somebody clears the fault")
     expect(page.get_by_role("list", name="To go on")).to_be_visible()
     expect_enabled(page, "Clear fault")
@@ -109,7 +109,7 @@ def test_an_emergency_stop_is_latched_until_the_fault_is_cleared(page: Page, lab
     find_bench(page).get_by_role("button", name="Clear fault").click()
     expect(banner).to_have_count(0)
     expect_enabled(page, "Arm")
-    assert [call for call, _ in patched.calls] == ["emergency-stop", "bench/clear"]
+    assert [call for call, _ in patched.calls] == ["quick-stop", "bench/clear"]
 
 
 def test_why_it_does_not_arm_is_told_and_everything_else_is_in_the_details(
@@ -153,7 +153,7 @@ def test_the_work_is_seen_without_scrolling_on_a_running_bench(page: Page, lab: 
     open_page(page, lab)
     parts = [
         find_bench(page),
-        page.get_by_role("button", name="Emergency stop"),
+        page.get_by_role("button", name="Quick stop"),
         page.get_by_role("button", name=re.compile("Hang 3 kg")),
         page.get_by_role("region", name="Disturbance plot", exact=True),
         page.locator("iframe"),

@@ -69,7 +69,7 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
     expect(banner).to_be_visible()
     expect(other.get_by_role("button", name="Fig. 4B")).to_be_disabled()
     expect(other.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_disabled()
-    expect(other.get_by_role("button", name="Emergency stop")).to_be_enabled()
+    expect(other.get_by_role("button", name="Quick stop")).to_be_enabled()
 
     other.keyboard.press("l")
     expect(other.get_by_text("Ada is in control of session lab: ask Ada")).to_be_visible()

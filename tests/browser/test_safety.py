@@ -1,10 +1,12 @@
-"""Status bar, emergency stop and keyboard of a simulated session, against a real server."""
+"""Status bar, quick stop and keyboard of a simulated session, against a real server."""
 
 import re
+from typing import Literal
 
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.bench_fixture import HOMED, PatchedBench
 from tests.browser.test_page import open_page
 from tests.lab import Lab, run_lab
 
@@ -25,7 +27,7 @@ def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) ->
     expect(bar).to_be_in_viewport(ratio=1)
     for words in ("Running", "1000 Hz", "real time", "Recording", "Live"):
         expect(bar.get_by_text(words).first).to_be_visible()
-    stop = bar.get_by_role("button", name="Emergency stop")
+    stop = bar.get_by_role("button", name="Quick stop")
     box = stop.bounding_box()
     assert box is not None
     assert box["width"] >= 120
@@ -34,25 +36,52 @@ def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) ->
     expect(stop).to_be_in_viewport(ratio=1)
 
 
-def test_the_emergency_stop_pauses_a_simulation_and_tells_how_to_go_on(
-    page: Page, lab: Lab
-) -> None:
+def test_the_quick_stop_pauses_a_simulation_and_tells_how_to_go_on(page: Page, lab: Lab) -> None:
     open_page(page, lab)
-    page.get_by_role("button", name="Emergency stop").click()
-    expect(page.get_by_role("alert").get_by_text("Emergency stop.")).to_be_visible()
+    page.get_by_role("button", name="Quick stop").click()
+    expect(page.get_by_role("alert").get_by_text("Quick stop.")).to_be_visible()
     assert lab.read()["status"] == "paused"
     page.reload()
     expect(page.get_by_role("alert").get_by_text("press Run")).to_be_visible()
     page.get_by_role("button", name="Run", exact=True).click()
-    expect(page.get_by_role("alert").get_by_text("Emergency stop.")).to_have_count(0)
+    expect(page.get_by_role("alert").get_by_text("Quick stop.")).to_have_count(0)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_stop_does_not_look_like_an_emergency_stop(
+    page: Page, lab: Lab, scheme: Literal["light", "dark"]
+) -> None:
+    """No colour but black, grey and white, in contrast; larger on a bench than in simulation."""
+    page.emulate_media(color_scheme=scheme)
+    areas = []
+    for is_bench in (False, True):
+        if is_bench:
+            PatchedBench(page, status="run", homing=HOMED)
+        open_page(page, lab)
+        stop = page.get_by_role("button", name="Quick stop")
+        box = stop.bounding_box()
+        assert box is not None
+        areas.append(box["width"] * box["height"])
+        ground, ink = stop.evaluate(
+            "one => [getComputedStyle(one).backgroundColor, getComputedStyle(one).color]"
+        )
+        for colour in (ground, ink):
+            red, green, blue = (int(part) for part in re.findall(r"\d+", colour)[:3])
+            assert max(red, green, blue) - min(red, green, blue) < 30, colour
+        assert abs(read_lightness(ground) - read_lightness(ink)) > 150
+    assert areas[1] > 1.4 * areas[0]
+
+
+def read_lightness(colour: str) -> float:
+    return sum(int(part) for part in re.findall(r"\d+", colour)[:3]) / 3
 
 
 def test_a_stop_that_is_not_confirmed_says_so_and_is_asked_again(page: Page, lab: Lab) -> None:
     open_page(page, lab)
-    page.route("**/emergency-stop", lambda route: route.abort())
-    page.get_by_role("button", name="Emergency stop").click()
+    page.route("**/quick-stop", lambda route: route.abort())
+    page.get_by_role("button", name="Quick stop").click()
     expect(page.get_by_role("alert").get_by_text("not confirmed")).to_be_visible()
-    page.unroute("**/emergency-stop")
+    page.unroute("**/quick-stop")
     wait_for_status(page, lab, "paused")
     expect(page.get_by_role("alert").get_by_text("not confirmed")).to_have_count(0)
 
@@ -61,9 +90,7 @@ def test_a_locked_page_stops_all_the_same(page: Page) -> None:
     with run_lab(secret="correct horse battery") as lab:
         page.goto(lab.url)
         page.get_by_label("Secret").fill("half a sec")
-        expect(
-            page.get_by_role("dialog").get_by_role("button", name="Emergency stop")
-        ).to_be_visible()
+        expect(page.get_by_role("dialog").get_by_role("button", name="Quick stop")).to_be_visible()
         page.keyboard.press("Shift+Escape")
         wait_for_status(page, lab, "paused")
 
@@ -106,7 +133,7 @@ def test_the_help_sheet_opens_closes_and_switches_single_keys_off(page: Page, la
     page.keyboard.press("?")
     sheet = page.get_by_role("dialog", name="Keyboard")
     expect(sheet).to_be_visible()
-    expect(page.get_by_role("button", name="Emergency stop")).to_be_in_viewport(ratio=1)
+    expect(page.get_by_role("button", name="Quick stop")).to_be_in_viewport(ratio=1)
     sheet.get_by_role("checkbox", name="Single keys").uncheck()
     page.keyboard.press("Escape")
     expect(sheet).to_have_count(0)

@@ -45,7 +45,7 @@ from .watched_bench import FIGURE, Bench, make_ready
 
 DRIVES: tuple[DriveName, DriveName] = ("motor1", "motor2")
 NODES: tuple[Node, ...] = (*DRIVES, "deflection")
-WITHOUT_VALUES = {"emergency_stop", "not_finite", "bus_error", "foreign_command", "drive_silent"}
+WITHOUT_VALUES = {"quick_stop", "not_finite", "bus_error", "foreign_command", "drive_silent"}
 WRONG = {"implausible", "encoder_frozen", "overspeed", "vibration", "lever_end", "drive_zeroed"}
 SEEN_IN_MOTION = {*WRONG, "deflection_limit", "position_limit", "overload"}
 
@@ -106,8 +106,8 @@ def lose_supervisor(b: Bench) -> None:
     b.beats.stopped["supervisor"] = b.now()
 
 
-def stop_at_once(b: Bench) -> None:
-    b.plant.emergency_stop(b.now(), "a test")
+def quick_stop(b: Bench) -> None:
+    b.plant.quick_stop(b.now(), "a test")
 
 
 def intrude(b: Bench) -> None:
@@ -152,7 +152,7 @@ CASES = {
     "a stranger resets the drives": Case(intrude, {"foreign_command"}),
     "ticks missed": Case(lambda b: b.miss(20), {"missed_ticks"}),
     "no supervisor": Case(lose_supervisor, {"supervisor_lost"}),
-    "emergency stop": Case(stop_at_once, {"emergency_stop"}),
+    "quick stop": Case(quick_stop, {"quick_stop"}),
     "too great a load": Case(load(10.0, 0.0, 0.0), {"deflection_limit"}),
     "the lever is pulled to its end": Case(load(0.0, 0.0, 9.0), {"lever_end", "overspeed"}),
 }
@@ -177,7 +177,7 @@ def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
     assert fault.message
     assert bool(fault.values) is (fault.code not in WITHOUT_VALUES)
     assert all(math.isfinite(value) for value in fault.values.values())
-    b.plant.emergency_stop(b.now(), "a second cause")
+    b.plant.quick_stop(b.now(), "a second cause")
     b.rig.control.fault(BusErrors())
     b.watch(30)
     assert b.plant.fault is fault
@@ -222,7 +222,7 @@ def test_an_encoder_that_is_wrong_from_the_start_lets_nothing_run_away(
     ready.tick_until_fault()
     if ready.plant.fault is None:
         assert node == "deflection"
-        ready.plant.emergency_stop(ready.now(), "a test")
+        ready.plant.quick_stop(ready.now(), "a test")
     else:
         assert ready.plant.fault.code in WRONG
     ready.watch(100)
@@ -236,7 +236,7 @@ def test_a_not_finite_torque_is_never_sent(ready: Bench, monkeypatch: pytest.Mon
     begin, decide = ready.begin_watch(), ready.loop._decide
     broken = Torque(math.nan, 0.0)
     monkeypatch.setattr(ready.loop, "_decide", lambda *given: (*decide(*given)[:2], broken))
-    check_stopped(ready, Case(stop_at_once, {"not_finite"}), begin)
+    check_stopped(ready, Case(quick_stop, {"not_finite"}), begin)
     monkeypatch.undo()
     ready.recover()
 
@@ -248,7 +248,7 @@ def test_a_third_of_all_frames_lost_is_borne(ready: Bench) -> None:
     ready.run(1000)
     asked = math.radians(60.0) * math.sin(2.0 * math.pi * 0.2 * 1.0)
     assert ready.rig.control.read_state()["x"]["q"] == pytest.approx(asked, abs=0.05)
-    ready.plant.emergency_stop(ready.now(), "a test")
+    ready.plant.quick_stop(ready.now(), "a test")
     ready.tick(2)
     ready.recover()
 
@@ -309,7 +309,7 @@ def test_a_limit_of_the_bench_file_ends_the_run(
     try:
         bench.start()
         begin = bench.begin_watch()
-        check_stopped(bench, Case(stop_at_once, {code}), begin)
+        check_stopped(bench, Case(quick_stop, {code}), begin)
         bench.recover()
     finally:
         bench.close()

@@ -42,8 +42,8 @@ def _say(frame: Frame) -> Cause:
     return lambda b: b.clock.say(frame, b.now)
 
 
-def _stop_at_once(b: WiredBench) -> None:
-    b.plant.emergency_stop(b.now, "a test")
+def _quick_stop(b: WiredBench) -> None:
+    b.plant.quick_stop(b.now, "a test")
 
 
 def _miss_ticks(b: WiredBench) -> None:
@@ -87,7 +87,7 @@ def _break_bus(b: WiredBench) -> None:
 
 
 ALWAYS = {
-    "emergency_stop": [_stop_at_once],
+    "quick_stop": [_quick_stop],
     "stale_feedback": [
         _inject(Silence(node="motor1")),
         _inject(BrownOut(node="motor2")),
@@ -196,7 +196,7 @@ def test_a_drive_that_says_nothing_is_named_while_arming() -> None:
 
 
 @pytest.mark.parametrize("status", ["off", "reset", "config", "mode", "ready", "run", "ramp"])
-def test_an_emergency_stop_latches_in_every_state(status: str) -> None:
+def test_a_quick_stop_latches_in_every_state(status: str) -> None:
     with WiredBench() as b:
         b.tick(5)
         if status in ("reset", "config", "mode"):
@@ -210,7 +210,7 @@ def test_an_emergency_stop_latches_in_every_state(status: str) -> None:
                 b.plant.stop(b.now, "a test")
         assert b.plant.status == status
         begin = b.now
-        b.plant.emergency_stop(b.now, "a test")
+        b.plant.quick_stop(b.now, "a test")
         assert b.plant.status is BenchStatus.FAULT
         b.tick(3, PUSH)
         assert {current for time_s, _, current in b.read_currents(begin)} == {0}
@@ -220,11 +220,11 @@ def test_an_emergency_stop_latches_in_every_state(status: str) -> None:
 def test_the_first_fault_stays_until_it_is_cleared_and_then_all_begins_again() -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
-        b.plant.emergency_stop(b.now, "a test")
+        b.plant.quick_stop(b.now, "a test")
         b.plant.fail("bus_error", "a later one", {})
         b.tick(5)
         assert b.plant.fault is not None
-        assert b.plant.fault.code == "emergency_stop"
+        assert b.plant.fault.code == "quick_stop"
         assert b.plant.fault.time_s == pytest.approx(0.003), "in the run's own time"
         for refused in (b.plant.arm, b.plant.start):
             with pytest.raises(StateError, match="fault"):

@@ -89,7 +89,7 @@ def test_what_has_not_been_heard_of_is_not_measured():
         assert b.reading.measurement is None
         b.make_run(PUSH)
         assert b.reading.measurement is not None
-        b.plant.emergency_stop(b.now, "a test")
+        b.plant.quick_stop(b.now, "a test")
         b.tick(100)
         assert b.reading.measurement is None
         assert b.reading.current_a == (0.0, 0.0)
@@ -118,11 +118,11 @@ def test_no_drive_ever_gets_two_commands_within_a_millisecond():
     b.tick_until(BenchStatus.READY, torque=HOLD)
     b.plant.start(b.now)
     b.tick(5, HOLD)
-    b.plant.emergency_stop(b.now, "a test")
+    b.plant.quick_stop(b.now, "a test")
     b.tick(1, HOLD)
     b.plant.clear(b.now)
     b.make_run(HOLD)
-    b.plant.emergency_stop(b.now, "a test")
+    b.plant.quick_stop(b.now, "a test")
     b.tick(5, HOLD)
     b.plant.clear(b.now)
     b.make_run(HOLD)

@@ -85,7 +85,7 @@ class BenchLab:
     def make_ready(self) -> None:
         """Armed and at home, from wherever it is: the rig is set to its marks while OFF."""
         if self.status != "off":
-            self.ask("/emergency-stop")
+            self.ask("/quick-stop")
             self.wait_for("fault")
             self.ask("/bench/clear")
             self.wait_for("off")
@@ -250,14 +250,14 @@ def check_recording(bench: BenchLab, run_id: str) -> None:
         assert "emulated" in answer.json()["message"]
 
 
-def test_an_emergency_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:
+def test_a_quick_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:
     with bench.running():
         bench.wait_for_ticks(200)
-        bench.ask("/emergency-stop")
+        bench.ask("/quick-stop")
         wait_until(bench.is_at_zero, longest_s=ZERO_S)
         state = bench.read()
         assert (state["status"], state["bench"]["status"]) == ("fault", "fault")
-        assert state["fault"]["code"] == "emergency_stop"
+        assert state["fault"]["code"] == "quick_stop"
         for refused in ("/start", "/bench/arm"):
             assert "fault" in bench.refuse(refused)
         bench.ask("/bench/clear")

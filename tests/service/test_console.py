@@ -1,4 +1,4 @@
-"""The emergency stop on the keyboard of the console."""
+"""The quick stop on the keyboard of the console."""
 
 import os
 import sys

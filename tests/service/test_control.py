@@ -99,7 +99,7 @@ def test_others_are_refused_whatever_they_change_and_may_stop_and_read() -> None
                 "running",
                 True,
             )
-            stopped = await client.post(SESSION + "/emergency-stop", headers={"SVSA-Client": "\t"})
+            stopped = await client.post(SESSION + "/quick-stop", headers={"SVSA-Client": "\t"})
             assert stopped.json()["status"] == "paused", "a stop is not refused for a wrong name"
 
     asyncio.run(try_all())

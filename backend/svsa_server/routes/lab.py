@@ -23,11 +23,12 @@ async def read_health() -> Health:
     return Health(version=svsa.__version__)
 
 
-@router.post("/emergency-stop", status_code=204)
-async def stop_at_once(request: Request) -> None:
+@router.post("/emergency-stop", status_code=204, deprecated=True)
+@router.post("/quick-stop", status_code=204)
+async def quick_stop(request: Request) -> None:
     """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
     laboratory = request.app.state.laboratory
-    laboratory.get(SHARED_SESSION).stop_at_once()
+    laboratory.get(SHARED_SESSION).quick_stop()
 
 
 @router.get("/figures")

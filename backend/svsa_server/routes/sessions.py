@@ -59,10 +59,14 @@ async def pause(session: NamedSession) -> SessionState:
     return build_state(session)
 
 
-@router.post("/{session}/emergency-stop")
-async def stop_at_once(session: NamedSession) -> SessionState:
-    """Zero current at once on a bench, latched until cleared; a simulation pauses."""
-    session.stop_at_once()
+@router.post("/{session}/emergency-stop", deprecated=True)
+@router.post("/{session}/quick-stop")
+async def quick_stop(session: NamedSession) -> SessionState:
+    """Zero current at once on a bench, latched until cleared; a simulation pauses.
+
+    Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
+    """
+    session.quick_stop()
     return build_state(session)
 
 

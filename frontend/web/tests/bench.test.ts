@@ -51,13 +51,13 @@ describe("the states of a bench", () => {
   });
 });
 
-describe("an emergency stop of a simulation", () => {
+describe("a quick stop of a simulation", () => {
   const state = (change: object) =>
     ({
       bench: null,
       status: "paused",
       tick: 700,
-      events: [{ tick: 700, kind: "emergency_stop" }],
+      events: [{ tick: 700, kind: "quick_stop" }],
       ...change,
     }) as unknown as SessionState;
 

@@ -25,7 +25,7 @@ _LAYOUT = np.dtype(
         ("skipped", np.int64),
         ("status", np.int64),
         ("emulated", np.int64),
-        ("emergency", np.int64),
+        ("quick_stop", np.int64),
         ("worst_s", np.float64),
         ("current_a", np.float64, 2),
         ("ages_s", np.float64, 3),
@@ -40,9 +40,8 @@ class LoopMemory:
     """A block of shared memory; `fields` are views of it by name, see `_LAYOUT`.
 
     run: number of the present run. end_tick: its samples so far. ticks, skipped: of the loop
-    since its start. status: index of the bench's state. emergency: 1 asks for the emergency
-    stop. lateness, cost: histograms over
-    `LATENESS_EDGES_S` (upper edges).
+    since its start. status: index of the bench's state. quick_stop: 1 asks for it. lateness,
+    cost: histograms over `LATENESS_EDGES_S` (upper edges).
     """
 
     def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:

@@ -58,9 +58,9 @@ class LoopProcess:
             self._beats.beat("loop")
             self._note(begin - deadline, self._clock.now() - begin, missed)
             deadline += missed * period
-            if self._fields["emergency"]:
-                self._fields["emergency"] = 0
-                self._plant.emergency_stop(begin, "emergency stop")
+            if self._fields["quick_stop"]:
+                self._fields["quick_stop"] = 0
+                self._plant.quick_stop(begin, "quick stop")
             self._listen()
             self._tell()
 
@@ -122,8 +122,8 @@ class LoopProcess:
                 return {"mu0": start.mu0, "x": start.x, "run": loop.number}
             case "stop":
                 plant.stop(now, argument)
-            case "emergency_stop":
-                plant.emergency_stop(now, argument)
+            case "quick_stop":
+                plant.quick_stop(now, argument)
             case "clear":
                 plant.clear(now)
             case "home":

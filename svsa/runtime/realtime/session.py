@@ -130,14 +130,14 @@ class BenchSession(Session):
         if self.bench_status in MOVING:
             self._ask("stop", "stopped by hand")
 
-    def stop_at_once(self) -> None:
-        """The emergency stop: zero current now, latched, even where the loop does not listen."""
+    def quick_stop(self) -> None:
+        """The quick stop: zero current now, latched, even where the loop does not listen."""
         self.stop_from_keyboard()
-        self._ask("emergency_stop", "emergency stop")
+        self._ask("quick_stop", "quick stop")
 
     def stop_from_keyboard(self) -> None:
-        """The emergency stop from any thread, through shared memory alone."""
-        self.memory.fields["emergency"] = 1
+        """The quick stop from any thread, through shared memory alone."""
+        self.memory.fields["quick_stop"] = 1
 
     def close(self) -> None:
         """Ramp to zero, and end the bench's processes."""

@@ -98,9 +98,9 @@ export const putSpeed = (factor: Speed) => call("put", "/speed", { factor });
 export const start = () => call("post", "/start");
 export const pause = () => call("post", "/pause");
 export const stopAtOnce = () =>
-  request("post", `${SESSION}/emergency-stop`, undefined, LONGEST_STOP_MS) as Promise<SessionState>;
+  request("post", `${SESSION}/quick-stop`, undefined, LONGEST_STOP_MS) as Promise<SessionState>;
 /** Without the lab's secret: stopping is open to all. */
-export const stopWithoutLogin = () => request("post", "emergency-stop", undefined, LONGEST_STOP_MS);
+export const stopWithoutLogin = () => request("post", "quick-stop", undefined, LONGEST_STOP_MS);
 export const armBench = () => call("post", "/bench/arm");
 export const confirmHome = (step: Axis, by: string) => call("post", "/bench/home", { step, by });
 export const clearBench = () => call("post", "/bench/clear");

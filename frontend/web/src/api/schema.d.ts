@@ -24,6 +24,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/quick-stop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Quick Stop
+         * @description Stop the shared session at once, whoever asks: no secret is needed to stop a machine.
+         */
+        post: operations["quick_stop_api_v1_quick_stop_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/emergency-stop": {
         parameters: {
             query?: never;
@@ -34,10 +54,11 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Stop At Once
+         * Quick Stop
+         * @deprecated
          * @description Stop the shared session at once, whoever asks: no secret is needed to stop a machine.
          */
-        post: operations["stop_at_once_api_v1_emergency_stop_post"];
+        post: operations["quick_stop_api_v1_emergency_stop_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -172,6 +193,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/quick-stop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Quick Stop
+         * @description Zero current at once on a bench, latched until cleared; a simulation pauses.
+         *
+         *     Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
+         */
+        post: operations["quick_stop_api_v1_sessions__session__quick_stop_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/emergency-stop": {
         parameters: {
             query?: never;
@@ -182,10 +225,13 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Stop At Once
+         * Quick Stop
+         * @deprecated
          * @description Zero current at once on a bench, latched until cleared; a simulation pauses.
+         *
+         *     Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
          */
-        post: operations["stop_at_once_api_v1_sessions__session__emergency_stop_post"];
+        post: operations["quick_stop_api_v1_sessions__session__emergency_stop_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2704,7 +2750,25 @@ export interface operations {
             };
         };
     };
-    stop_at_once_api_v1_emergency_stop_post: {
+    quick_stop_api_v1_quick_stop_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    quick_stop_api_v1_emergency_stop_post: {
         parameters: {
             query?: never;
             header?: never;
@@ -3093,7 +3157,60 @@ export interface operations {
             };
         };
     };
-    stop_at_once_api_v1_sessions__session__emergency_stop_post: {
+    quick_stop_api_v1_sessions__session__quick_stop_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    quick_stop_api_v1_sessions__session__emergency_stop_post: {
         parameters: {
             query?: never;
             header?: {

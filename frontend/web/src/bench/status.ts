@@ -62,12 +62,11 @@ export function needsDetails(bench: BenchState): boolean {
   return isStanding && (bench.problems.length > 0 || !isHomed(bench));
 }
 
-/** Whether a simulation stands where an emergency stop left it. */
+/** Whether a simulation stands where a quick stop left it. */
 export function isStoppedSimulation({ bench, status, tick, events }: SessionState): boolean {
   const isStop = (event: { kind: string; tick: number }) =>
-    event.kind === "emergency_stop" && event.tick === tick;
+    event.kind === "quick_stop" && event.tick === tick;
   return bench === null && status === "paused" && events.some(isStop);
 }
 
-export const isEmergencyStop = ({ fault }: SessionState): boolean =>
-  fault?.code === "emergency_stop";
+export const isQuickStop = ({ fault }: SessionState): boolean => fault?.code === "quick_stop";

@@ -101,7 +101,7 @@ function Connection() {
   );
 }
 
-/** Always at the bottom of the window: where the session is, and the emergency stop. */
+/** Always at the bottom of the window: where the session is, and the quick stop. */
 export function StatusBar() {
   const state = session.value;
   return (

@@ -14,7 +14,7 @@ interface PopupProps {
 const GAP_PX = 4;
 
 /** Below its button, or above it, or over it where neither has room enough; never over the status
- * bar, where the emergency stop is. */
+ * bar, where the quick stop is. */
 function place(popup: HTMLElement, button: HTMLElement): void {
   const { left, right, top, bottom } = button.getBoundingClientRect();
   const { innerWidth, innerHeight } = window;

@@ -14,7 +14,7 @@ interface ReplayFrameProps {
 
 const ASK_MS = 200;
 
-/** The replay has keys of its own; only the emergency stop goes through. */
+/** The replay has keys of its own; only the quick stop goes through. */
 function passStop(event: KeyboardEvent): void {
   if (event.key === "Escape" && event.shiftKey) answerKey(event);
 }

@@ -1,4 +1,4 @@
-/** The emergency stop: sent at once, asked again until the server confirms it. */
+/** The quick stop: sent at once, asked again until the server confirms it. */
 import { signal } from "@preact/signals";
 import { stopAtOnce, stopWithoutLogin } from "../api/client";
 import { LockedError, RefusedError } from "../api/errors";

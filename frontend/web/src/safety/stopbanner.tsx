@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { clearBench } from "../api/client";
 import type { SessionState } from "../api/types";
-import { isEmergencyStop, isStoppedSimulation } from "../bench/status";
+import { isQuickStop, isStoppedSimulation } from "../bench/status";
 import { Problem } from "../controls/problem";
 import { perform } from "../state/actions";
 import { isLive, session } from "../state/session";
@@ -11,12 +11,13 @@ import { stop } from "./stop";
 interface StopNoticeProps {
   title: string;
   words: string;
+  isSimulation?: boolean;
   children?: ComponentChildren;
 }
 
-function StopNotice({ title, words, children }: StopNoticeProps) {
+function StopNotice({ title, words, isSimulation = false, children }: StopNoticeProps) {
   return (
-    <div class="banner is-stop" role="alert">
+    <div class={`banner is-stop ${isSimulation ? "is-simulation" : ""}`} role="alert">
       <span class="banner-sign" aria-hidden="true">
         ■
       </span>
@@ -32,7 +33,7 @@ function StopNotice({ title, words, children }: StopNoticeProps) {
 
 /** Stays until somebody clears the fault: why it stopped, and how to go on. */
 function LatchedBench({ state }: { state: SessionState }) {
-  const title = isEmergencyStop(state) ? text.stop.benchTitle : text.stop.faultTitle;
+  const title = isQuickStop(state) ? text.stop.benchTitle : text.stop.faultTitle;
   return (
     <div class="banner is-stop">
       <span class="banner-sign" aria-hidden="true">
@@ -62,7 +63,7 @@ function LatchedBench({ state }: { state: SessionState }) {
   );
 }
 
-/** What became of an emergency stop, of this page or of any other. */
+/** What became of a quick stop, of this page or of any other. */
 export function StopBanners() {
   const { stage, message } = stop.value;
   const state = session.value;
@@ -78,7 +79,11 @@ export function StopBanners() {
       )}
       {state?.bench?.status === "fault" && <LatchedBench state={state} />}
       {state !== null && isStoppedSimulation(state) && (
-        <StopNotice title={text.stop.simulationTitle} words={text.stop.simulationText} />
+        <StopNotice
+          title={text.stop.simulationTitle}
+          words={text.stop.simulationText}
+          isSimulation
+        />
       )}
     </>
   );

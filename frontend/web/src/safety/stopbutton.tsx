@@ -1,4 +1,4 @@
-import { bench } from "../state/bench";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { pressStop, type StopStage, stop } from "./stop";
 
@@ -10,23 +10,24 @@ const WORDS: Record<StopStage, string> = {
   refused: text.stop.refused,
 };
 
-/** Always in sight and never disabled, whatever the page believes of the connection. */
+/** Always in sight and never disabled, whatever the page believes of the connection.
+ *
+ * Where it is known that nothing but a simulation runs, it is as modest as any other button. */
 export function StopButton() {
   const { stage } = stop.value;
-  const does = bench.value === null ? text.stop.doesSimulation : text.stop.doesBench;
+  const isSimulation = session.value?.bench === null;
   return (
-    <span class="stop-plate">
-      <button
-        type="button"
-        class="stop-button"
-        aria-keyshortcuts="Shift+Escape"
-        title={does}
-        onClick={() => void pressStop()}
-      >
-        <strong>{WORDS[stage]}</strong>
-        <small>{text.stop.keys}</small>
-        {stage !== "idle" && <span class="visually-hidden">{text.stop.button}</span>}
-      </button>
-    </span>
+    <button
+      type="button"
+      class={`stop-button ${isSimulation ? "is-simulation" : "is-bench"}`}
+      aria-keyshortcuts="Shift+Escape"
+      title={isSimulation ? text.stop.doesSimulation : text.stop.doesBench}
+      onClick={() => void pressStop()}
+    >
+      <span class="stop-sign" aria-hidden="true" />
+      <strong>{WORDS[stage]}</strong>
+      <small>{text.stop.keys}</small>
+      {stage !== "idle" && <span class="visually-hidden">{text.stop.button}</span>}
+    </button>
   );
 }

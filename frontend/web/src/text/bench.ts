@@ -1,31 +1,32 @@
-/** A bench, its marks, and the emergency stop. */
+/** A bench, its marks, and the quick stop. */
 export const benchText = {
   mark: {
     emulated: { name: "EMULATED", title: "Emulated rig", means: "no metal moves" },
     real: { name: "REAL BENCH", title: "Real bench", means: "metal moves: keep clear" },
   },
   stop: {
-    button: "Emergency stop",
+    button: "Quick stop",
     keys: "Shift + Esc",
     sending: "Stopping…",
     confirmed: "Stopped",
     refused: "Refused",
     again: "Not confirmed: press again",
-    doesBench: "Zero current in both drives at once, without the ramp (Shift + Esc, anywhere)",
+    doesBench:
+      "Zero current in both drives at once, without the ramp (Shift + Esc, anywhere). It is software: the emergency stop is the button on the bench that cuts the motors' supply.",
     doesSimulation: "Stops the simulation at once (Shift + Esc, anywhere)",
     unconfirmedTitle: "The stop is not confirmed.",
     unconfirmedText:
-      "The server does not answer; the page goes on asking. Use the red button on the bench itself.",
+      "The server does not answer; the page goes on asking. Press the emergency stop on the bench itself.",
     refusedTitle: "The stop was refused.",
-    refusedText: "Use the red button on the bench itself.",
-    simulationTitle: "Emergency stop.",
+    refusedText: "Press the emergency stop on the bench itself.",
+    simulationTitle: "Quick stop.",
     simulationText: "The simulation stands still and nothing is lost. To go on, press Run.",
-    benchTitle: "Emergency stop.",
+    benchTitle: "Quick stop.",
     faultTitle: "The bench has stopped on a fault.",
     latched: "Both drives are without current, and stay so until somebody clears the fault.",
     goOn: "To go on",
     steps: [
-      "If anything still moves, press the red button on the bench: this one is software.",
+      "If anything still moves, press the emergency stop on the bench, which cuts the motors' supply: the quick stop is software.",
       "See why it was stopped, and that nobody is in reach of the link.",
       "Clear the fault, arm, confirm the marks where the bench asks for them, and run.",
     ],

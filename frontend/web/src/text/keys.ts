@@ -5,7 +5,7 @@ export const keysText = {
     title: "Keyboard",
     names: { space: "Space", escape: "Esc", shift: "Shift" },
     does: {
-      stop: "Emergency stop: from anywhere, in a text field too",
+      stop: "Quick stop: from anywhere, in a text field too",
       run: "Run or pause",
       record: "Begin or end a recording",
       load: "Hang or remove 3 kg",
