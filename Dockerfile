@@ -9,7 +9,7 @@ COPY svsa svsa
 COPY backend backend
 COPY frontend frontend
 RUN /opt/svsa/bin/uv build --wheel --out-dir /dist --python /opt/svsa/bin/python . \
- && /opt/svsa/bin/uv pip install --quiet --compile-bytecode --python /opt/svsa/bin/python --constraint requirements.lock /dist/*.whl \
+ && /opt/svsa/bin/uv pip install --quiet --compile-bytecode --python /opt/svsa/bin/python --constraint requirements.lock "$(ls /dist/*.whl)[server,bench,plot,nidaqmx]" \
  && /opt/svsa/bin/pip uninstall --quiet --yes uv
 
 FROM ${BASE_IMAGE}

@@ -52,13 +52,13 @@ bench: .venv/installed
 
 lock: .venv/installed
 	$(BIN)/uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
-	  --no-annotate --group dev pyproject.toml -o requirements.lock --upgrade -q
+	  --no-annotate --group dev --all-extras pyproject.toml -o requirements.lock --upgrade -q
 
 .venv/installed: requirements.lock pyproject.toml
 	@echo "Preparing the environment (once; a minute or two) …"
 	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
 	@test -x $(BIN)/uv || $(BIN)/pip install --quiet --disable-pip-version-check uv
-	@$(BIN)/uv pip install --quiet --compile-bytecode --require-hashes -r requirements.lock
+	@$(BIN)/uv pip sync --quiet --compile-bytecode --require-hashes requirements.lock
 	@$(BIN)/uv pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
 

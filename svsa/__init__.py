@@ -15,6 +15,7 @@ from svsa.errors import FaultError, ParameterError, StateError, SvsaError
 from svsa.experiment import paper
 from svsa.experiment.reproduce import reproduce
 from svsa.experiment.simulate import Result, simulate
+from svsa.extras import DISTRIBUTION, MissingExtraError
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import (
@@ -42,7 +43,7 @@ from svsa.runtime.configuration import (
 )
 
 try:
-    __version__ = version("svsa")
+    __version__ = version(DISTRIBUTION)
 except PackageNotFoundError:
     __version__ = "0+uninstalled"
 
@@ -61,6 +62,7 @@ __all__ = [
     "Lane",
     "Limits",
     "MassLoad",
+    "MissingExtraError",
     "ObserverBandwidth",
     "PaperLoad",
     "ParameterError",

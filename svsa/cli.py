@@ -11,12 +11,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import Progress
 from rich.table import Table
 
+import svsa
 from svsa.compilation import is_compiled_before
 from svsa.errors import SvsaError
 from svsa.experiment.identify_command import identify
+from svsa.extras import require_extra
 from svsa.hardware.command import bench_check, bench_home
 from svsa.rig.command import rig
 
@@ -24,11 +27,28 @@ if TYPE_CHECKING:
     from svsa.experiment.reproduce import Reproduction
 
 app = typer.Typer(
-    help="SVSA Lab: position and stiffness control of a serial variable stiffness actuator.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
 _messages = Console(stderr=True)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(svsa.__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def describe(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", help="Print the version and exit.", callback=_print_version, is_eager=True
+        ),
+    ] = False,
+) -> None:
+    """SVSA Lab: position and stiffness control of a serial variable stiffness actuator."""
 
 
 @app.command()
@@ -43,10 +63,11 @@ def reproduce(
     ] = False,
 ) -> None:
     """Run the paper's figures with FL and NDOBC: 4A, 4B, 5 simulated, 6A, 6B, 7 through CAN."""
-    from svsa.experiment.figures import save_figures
     from svsa.experiment.paper import FIGURES
     from svsa.experiment.reproduce import reproduce as run_figures
 
+    if not as_json:
+        require_extra("plot")
     prepare()
     with Progress(console=_messages, transient=True) as bar:
         task = bar.add_task("Running the figures", total=1.0)
@@ -57,6 +78,8 @@ def reproduce(
         print(json.dumps({"runs": rows}, indent=2))
         return
     Console().print(*_build_tables(runs))
+    from svsa.experiment.figures import save_figures
+
     with _messages.status("Drawing …"):
         paths = save_figures(runs, output)
     Console().print("Pictures: " + ", ".join(str(path) for path in paths))
@@ -71,6 +94,7 @@ app.command("bench-home")(bench_home)
 @app.command("bench-dbc")
 def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) -> None:
     """Print the frames of a bench as a DBC file, which CAN tools read to decode a capture."""
+    require_extra("bench")
     from svsa.hardware.bench import read_bench
     from svsa.hardware.dbc import describe_bench
 
@@ -104,7 +128,7 @@ def main() -> None:
     try:
         app()
     except (SvsaError, OSError) as error:
-        _messages.print(f"[bold red]Error:[/] {error}", highlight=False)
+        _messages.print(f"[bold red]Error:[/] {escape(str(error))}", highlight=False)
         raise SystemExit(1) from None
 
 

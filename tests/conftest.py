@@ -8,7 +8,7 @@ import pytest
 from tests.lab import Lab, run_lab
 
 TESTS = Path(__file__).parent
-ORDER = ("equations", "experiment", "contract", "hardware", "service", "browser")
+ORDER = ("package", "equations", "experiment", "contract", "hardware", "service", "browser")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

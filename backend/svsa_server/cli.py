@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from svsa.extras import require_extra
+
 
 def serve(
     host: Annotated[
@@ -21,6 +23,7 @@ def serve(
 
     Listening beyond this machine needs a shared secret in SVSA_SECRET.
     """
+    require_extra("server")
     from svsa_server.serve import run_server
 
     run_server(host, port, bench)
@@ -28,6 +31,7 @@ def serve(
 
 def openapi() -> None:
     """Print the OpenAPI schema of the server."""
+    require_extra("server")
     from svsa_server.app import build_app
 
     print(json.dumps(build_app().openapi(), indent=2))

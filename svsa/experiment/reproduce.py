@@ -16,6 +16,7 @@ from svsa.experiment.paper import (
     get_figure,
 )
 from svsa.experiment.simulate import Result, simulate
+from svsa.extras import require_extra
 from svsa.runtime.configuration import Law
 
 LAWS: tuple[Law, ...] = ("fl", "ndobc")
@@ -49,6 +50,7 @@ def reproduce(
 
 def _run_figure(key: str, law: Law, progress: Callable[[float], None]) -> Reproduction:
     if key in BENCH_FIGURES:
+        require_extra("bench")
         from svsa.experiment.bench_run import run_on_rig
 
         result = run_on_rig(get_figure(key), law, DURATION_S, progress)

@@ -9,6 +9,7 @@ import numpy as np
 from svsa.checked import check_number
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.paper import DURATION_S, get_figure
+from svsa.extras import require_extra
 from svsa.runtime.configuration import Configuration, Law
 from svsa.runtime.metrics import Metrics, compute_metrics
 from svsa.runtime.run import Run
@@ -79,6 +80,7 @@ class Result:
 
     def plot(self) -> "Picture":
         """Position, its error, stiffness, torques and disturbances as a matplotlib figure."""
+        require_extra("plot")
         from svsa.experiment.figures import plot_run
 
         return plot_run(self)

@@ -11,12 +11,13 @@ from svsa.hardware.bus import DELIVERY_S, open_bus
 from svsa.hardware.calibration import Calibration, list_problems
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.conversion import build_motor_scale, compute_current_ma
-from svsa.hardware.drive import Drive, Phase, build_broadcast_resets
+from svsa.hardware.drive import Drive, build_broadcast_resets
 from svsa.hardware.faults import Alarm
 from svsa.hardware.guard import Guard
 from svsa.hardware.heartbeat import Heartbeats, Slot
 from svsa.hardware.homing import Axis
 from svsa.hardware.machine import NO_TORQUE, BenchStatus, Conditions, Machine
+from svsa.hardware.phase import Phase
 from svsa.hardware.sensing import BUS_TROUBLE, Reading, Sensing
 from svsa.signals import Disturbance, State, Torque
 

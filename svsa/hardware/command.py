@@ -13,6 +13,8 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
+from svsa.extras import require_extra
+
 _COLOURS = {"ok": "green", "warn": "yellow", "fail": "bold red"}
 _INTERRUPTED = 130
 _MOVE_WARNING = (
@@ -35,6 +37,7 @@ def bench_check(
     ] = False,
 ) -> None:
     """Test a bench step by step: bus, drives, encoders, and with --move signs and latency."""
+    require_extra("bench")
     from svsa.hardware.check import check_bench
     from svsa.hardware.check.step import Result
 
@@ -71,6 +74,7 @@ def bench_home(
     ] = None,
 ) -> None:
     """Write the calibration record of a bench: who saw it at its zero marks, and its zero."""
+    require_extra("bench")
     from svsa.hardware.bench import read_bench
     from svsa.hardware.calibration import list_problems
     from svsa.hardware.homing import STEPS, Homing

@@ -7,12 +7,12 @@ a tick may come late and the next one not.
 
 import math
 import struct
-from enum import StrEnum
 
 import can
 
 from svsa.hardware.bench import BenchFile, MotorSettings
 from svsa.hardware.conversion import Unwrapped
+from svsa.hardware.phase import Phase
 from svsa.hardware.robomodule import (
     BROADCAST,
     Address,
@@ -38,17 +38,6 @@ LEAST_JUMP_COUNTS = 50.0
 _CURRENT = struct.Struct(">hh4s")
 _FEEDBACK = struct.Struct(">hhi")
 _FILL = b"\x55" * 4
-
-
-class Phase(StrEnum):
-    """How far the sequence is."""
-
-    OFF = "off"
-    RESET = "reset"
-    CONFIG = "config"
-    MODE = "mode"
-    READY = "ready"
-    SILENT = "silent"
 
 
 class Drive:

@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 from svsa.errors import Fault, StateError
 from svsa.hardware.bench import BenchFile
-from svsa.hardware.drive import Phase
 from svsa.hardware.faults import Alarm
 from svsa.hardware.guard import Guard
 from svsa.hardware.homing import Homing
+from svsa.hardware.phase import Phase
 from svsa.signals import Disturbance, State, Torque
 
 OPERATOR_S = 0.1

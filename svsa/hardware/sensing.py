@@ -10,11 +10,12 @@ from svsa.hardware.bench import BenchFile
 from svsa.hardware.bus import take_waiting
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.conversion import MotorScale, Unwrapped, build_deflection_scale
-from svsa.hardware.drive import Drive, Phase, list_command_ids
+from svsa.hardware.drive import Drive, list_command_ids
 from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.faults import Alarm
+from svsa.hardware.phase import Phase
 from svsa.hardware.robomodule import LENGTH
 from svsa.signals import Measurement, State
 

@@ -19,8 +19,8 @@ from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant
 from svsa.hardware.clock import LockstepClock
 from svsa.hardware.conversion import build_motor_scale, compute_current_ma
-from svsa.hardware.drive import Phase
 from svsa.hardware.machine import BenchStatus, Conditions, Machine
+from svsa.hardware.phase import Phase
 from svsa.hardware.sensing import Reading
 from svsa.model.dynamics import compute_deflection
 from svsa.rig.launch import RunningRig, start_rig

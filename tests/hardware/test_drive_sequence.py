@@ -13,10 +13,10 @@ from svsa.hardware.drive import (
     MARGIN_S,
     SETTLE_S,
     Drive,
-    Phase,
     build_broadcast_resets,
     build_zero_currents,
 )
+from svsa.hardware.phase import Phase
 from svsa.hardware.robomodule import (
     Command,
     Config,

@@ -301,7 +301,7 @@ def test_a_counter_that_does_not_exist_or_goes_away_is_said(card):
 def test_without_the_package_it_says_how_to_install_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "nidaqmx", None)
     counter = build("nidaqmx", counter="Dev1/ctr0", lines=2000)
-    with pytest.raises(EncoderError, match=r"pip install 'svsa\[nidaqmx\]'"):
+    with pytest.raises(EncoderError, match=r"pip install 'svsa-lab\[nidaqmx\]'"):
         counter.open()
     counter.close()
 

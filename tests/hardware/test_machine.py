@@ -7,10 +7,10 @@ import pytest
 
 from svsa.errors import ParameterError, StateError
 from svsa.hardware.bench import read_bench
-from svsa.hardware.drive import Phase
 from svsa.hardware.faults import FAULTS, Alarm
 from svsa.hardware.homing import STEPS
 from svsa.hardware.machine import BenchStatus, Conditions, Machine
+from svsa.hardware.phase import Phase
 from svsa.runtime.realtime.configuration import build_guard
 from svsa.signals import Torque
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED

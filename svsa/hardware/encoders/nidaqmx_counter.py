@@ -1,6 +1,6 @@
 """An encoder at a counter of an NI card, as the paper's PCI-6259: read when asked.
 
-`pip install 'svsa[nidaqmx]'` and NI's driver are needed; both are looked for at `open` only.
+`pip install 'svsa-lab[nidaqmx]'` and NI's driver are needed; both are looked for at `open` only.
 """
 
 import math
@@ -9,6 +9,7 @@ from typing import Any
 import can
 
 from svsa.checked import Checked, Whole, quantity
+from svsa.extras import MissingExtraError, require_extra
 from svsa.hardware.encoders.source import EncoderError
 
 _EDGES = 4
@@ -38,17 +39,13 @@ class NidaqmxCounter:
     def open(self) -> None:
         """Start the counter at zero; raises `EncoderError` with what is missing."""
         try:
-            import nidaqmx  # pyright: ignore[reportMissingImports]
-            from nidaqmx.constants import (  # pyright: ignore[reportMissingImports]
-                AngleUnits,
-                EncoderType,
-            )
-            from nidaqmx.errors import Error  # pyright: ignore[reportMissingImports]
-        except ImportError:
-            raise EncoderError(
-                "The deflection encoder's source is nidaqmx, which is not installed: run"
-                " `pip install 'svsa[nidaqmx]'`."
-            ) from None
+            require_extra("nidaqmx")
+        except MissingExtraError as error:
+            raise EncoderError(f"The deflection encoder's source: {error}") from None
+        import nidaqmx
+        from nidaqmx.constants import AngleUnits, EncoderType
+        from nidaqmx.errors import Error
+
         s, self._failure = self._settings, Error
         try:
             self._task = nidaqmx.Task()

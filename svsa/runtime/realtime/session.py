@@ -3,17 +3,17 @@
 from pathlib import Path
 
 from svsa.errors import Fault, StateError
+from svsa.extras import require_extra
 from svsa.hardware.bench import read_bench
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.homing import Axis
-from svsa.hardware.machine import BenchStatus
+from svsa.hardware.machine import MOVING, BenchStatus
 from svsa.plant.disturbances import Load
 from svsa.runtime.command import Command, build_command
 from svsa.runtime.configuration import Configuration, Lane
 from svsa.runtime.loop import AT_REST
 from svsa.runtime.realtime.configuration import build_bench_configuration
 from svsa.runtime.realtime.launch import BenchProcesses
-from svsa.runtime.realtime.loop import MOVING
 from svsa.runtime.realtime.run import BenchRun
 from svsa.runtime.recording.header import PlantKind
 from svsa.runtime.run import Start
@@ -39,12 +39,13 @@ class BenchSession(Session):
 
     Every start begins a new run, from where the bench stands. hands: told of the loads that
     are on whenever they change, and of the marks. `bench`: the bench file. Raises
-    `BenchError` where the bench cannot be opened.
+    `BenchError` where the bench cannot be opened, `MissingExtraError` without the extra `bench`.
     """
 
     def __init__(
         self, name: str, path: Path, wanted: Configuration, hands: Hands | None = None
     ) -> None:
+        require_extra("bench")
         self.bench, self._path, self._hands = read_bench(path), path, hands or Hands()
         self.calibration = find_calibration(self.bench)
         self.bench_status = BenchStatus.OFF

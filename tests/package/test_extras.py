@@ -1,0 +1,92 @@
+"""The base install is the library: it works without the packages of any extra."""
+
+import json
+import subprocess
+import sys
+
+HIDE = """
+import sys
+from svsa.extras import MODULES
+
+hidden = {module for extra in EXTRAS for module in MODULES[extra]}
+
+class WithoutExtras:
+    def __init__(self, finder):
+        self.finder = finder
+        self.find_distributions = getattr(finder, "find_distributions", lambda *_: ())
+
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in hidden:
+            return None
+        return self.finder.find_spec(name, path, target)
+
+assert not hidden & set(sys.modules), "importing the library has imported an extra's package"
+sys.meta_path[:] = [WithoutExtras(finder) for finder in sys.meta_path]
+"""
+ALL = ("server", "bench", "plot", "nidaqmx")
+CALLS = {
+    "svsa.simulate('4a', duration_s=0.01).plot()": "plot",
+    "svsa.reproduce(('6a',))": "bench",
+    "run('reproduce')": "plot",
+    "run('bench-check', 'bench.toml')": "bench",
+    "run('bench-home', 'bench.toml')": "bench",
+    "run('bench-dbc', 'bench.toml')": "bench",
+    "run('serve')": "server",
+    "run('openapi')": "server",
+}
+SAY = """
+import contextlib, io, json, svsa, svsa.cli
+
+def run(*arguments):
+    sys.argv[1:] = arguments
+    svsa.cli.main()
+
+def say(call):
+    with contextlib.redirect_stderr(io.StringIO()) as said:
+        try:
+            exec(call)
+        except svsa.MissingExtraError as error:
+            return str(error)
+        except SystemExit as end:
+            assert end.code == 1, (call, said.getvalue())
+    return " ".join(said.getvalue().split())
+
+"""
+
+
+def run_without(extras: tuple[str, ...], program: str) -> str:
+    """What a program prints in an interpreter that finds no package of these extras."""
+    code = f"EXTRAS = {extras!r}\n{HIDE}\n{program}"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_the_library_simulates_without_any_extra():
+    program = (
+        "import svsa, svsa.cli\n"
+        "result = svsa.simulate('4a', 'ndobc', duration_s=0.01)\n"
+        "print(len(result.samples), len(result.to_dataframe()))"
+    )
+    assert run_without(ALL, program) == "10 10\n"
+
+
+def test_what_needs_an_extra_says_in_one_line_how_to_install_it():
+    said = json.loads(run_without(ALL, f"{SAY}print(json.dumps([say(c) for c in {[*CALLS]!r}]))"))
+    for (call, extra), line in zip(CALLS.items(), said, strict=True):
+        line = line.removeprefix("Error: ")
+        assert line.startswith("This needs "), call
+        assert line.endswith(f"run `pip install 'svsa-lab[{extra}]'`."), call
+
+
+def test_the_server_needs_the_bench_s_packages_for_a_bench_only():
+    program = (
+        "from pathlib import Path\n"
+        "from svsa_server.app import build_app\n"
+        "from svsa_server.laboratory import build_shared_session\n"
+        "build_app()\n"
+        "try:\n    build_shared_session(Path('svsa/rig/bench.toml'))\n"
+        "except ImportError as error:\n    print(error)"
+    )
+    printed = run_without(("bench", "plot", "nidaqmx"), program)
+    assert "pip install 'svsa-lab[bench]'" in printed
