@@ -74,7 +74,7 @@ def reproduce(
         keys = tuple(figure) if figure else tuple(FIGURES)
         runs = run_figures(keys, lambda done: bar.update(task, completed=done))
     if as_json:
-        rows = [{"figure": run.figure, "controller": run.controller, **run.numbers} for run in runs]
+        rows = [{"figure": run.figure, "controller": run.law, **run.numbers} for run in runs]
         print(json.dumps({"runs": rows}, indent=2))
         return
     Console().print(*_build_tables(runs))
@@ -141,7 +141,7 @@ def _build_tables(runs: "list[Reproduction]") -> list[Table]:
     position = _start_table("Position error [°]", _POSITION)
     stiffness = _start_table("Stiffness error [N·m/rad], torque [N·m]", _STIFFNESS)
     for run in runs:
-        n, row = run.numbers, (run.figure.upper(), run.controller.upper())
+        n, row = run.numbers, (run.figure.upper(), run.law.upper())
         recovery = f"{n['recovery_s']:.2f} s" if n["recovery_s"] is not None else "never"
         position.add_row(
             *row,

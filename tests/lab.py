@@ -36,12 +36,10 @@ class Lab(NamedTuple):
         """The session's state."""
         return self.client.get(self.session).raise_for_status().json()
 
-    def load_figure(
-        self, figure: str = "4a", controller: str = "ndobc", load: bool = False
-    ) -> dict:
+    def load_figure(self, figure: str = "4a", law: str = "ndobc", load: bool = False) -> dict:
         """Begin anew on a figure of the paper, at normal speed."""
         self.client.put(self.session + "/speed", json={"factor": 1}).raise_for_status()
-        request = {"figure": figure, "controller": controller, "load": load}
+        request = {"figure": figure, "law": law, "load": load}
         answer = self.client.post(self.session + "/experiment", json=request)
         return answer.raise_for_status().json()
 

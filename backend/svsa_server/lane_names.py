@@ -34,9 +34,9 @@ def name_lanes(record: Record) -> list[str]:
     later: list[str] = []
     for tick, command in record.commands:
         kind, argument = command.get("kind"), command.get("argument")
-        if kind == "controller" and tick > record.first_tick:
+        if kind == "law" and tick > record.first_tick:
             later.append(str(argument))
-        elif kind == "controller":
+        elif kind == "law":
             law = argument
         elif kind == "rivals" and tick <= record.first_tick:
             rivals = argument

@@ -97,7 +97,7 @@ class RunOrigin(BaseModel):
     tick: int = Field(description="How far the run is, or where its record ends")
     period_s: float
     plant: PlantKind
-    defaults: dict[str, Any] = Field(description="The configuration of a new private session")
+    defaults: dict[str, Any] = Field(description="Of a new private session, `load` false")
 
 
 class RunMetrics(BaseModel):

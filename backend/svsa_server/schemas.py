@@ -23,7 +23,7 @@ _Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_
 Pole = _Part | tuple[_Part, _Part]
 
 
-class ControllerRequest(Checked):
+class LawRequest(Checked):
     """Which law controls."""
 
     law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)")
@@ -115,7 +115,7 @@ class ExperimentRequest(Checked):
     """One of the paper's figures, from t = 0; with other lanes and effects than it has."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
-    controller: Law = quantity("", "ndobc or fl", default="ndobc")
+    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)", default="ndobc")
     load: Annotated[bool, Field(strict=True)] = quantity(
         "", "With the paper's 3 kg load at 5 s", default=True
     )
@@ -124,7 +124,7 @@ class ExperimentRequest(Checked):
 
     def build_configuration(self) -> Configuration:
         """What the session is set to; raises `ParameterError`."""
-        figure = get_figure(self.figure).build_configuration(self.controller, self.load)
+        figure = get_figure(self.figure).build_configuration(self.law, self.load)
         return figure.changed(rivals=self.rivals, effects=self.effects)
 
 
@@ -132,9 +132,6 @@ class SessionRequest(ExperimentRequest):
     """A private session: a figure of the paper to start from, and the seed of its noise."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
-    load: Annotated[bool, Field(strict=True)] = quantity(
-        "", "With the paper's 3 kg load at 5 s", default=False
-    )
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
     def build_configuration(self) -> Configuration:
@@ -246,7 +243,7 @@ class SessionProgress(BaseModel):
     """What of a session moves by itself: where it is and how well it does."""
 
     status: Literal["running", "paused", "fault"]
-    run: int = Field(description="Counts up whenever a run begins anew at t = 0")
+    run_number: int = Field(description="Counts up whenever a run begins anew at t = 0")
     tick: int
     time_s: float
     speed: float | Literal["max"]

@@ -36,7 +36,7 @@ def build_progress(session: Session) -> SessionProgress:
     names = name_laws(laws, session.plant)
     return SessionProgress(
         status=session.status,
-        run=session.run_number,
+        run_number=session.run_number,
         tick=run.tick,
         time_s=run.time_s,
         speed="max" if math.isinf(clock.speed) else clock.speed,

@@ -37,7 +37,7 @@ def draw_figure(runs: "Sequence[Reproduction]") -> Picture:
         first.time_s, first.stiffness_reference_nm_per_rad, label="reference", **REFERENCE_STYLE
     )
     for run in runs:
-        style, result = LAW_STYLES[run.controller], run.result
+        style, result = LAW_STYLES[run.law], run.result
         tracking.plot(result.time_s, np.degrees(result.position_rad), **style)
         error.plot(result.time_s, np.degrees(result.position_error_rad), **style)
         stiffness.plot(result.time_s, result.stiffness_nm_per_rad, **style)

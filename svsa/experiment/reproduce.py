@@ -26,7 +26,7 @@ class Reproduction(NamedTuple):
     """One figure and law: the run and the numbers of the table."""
 
     figure: str
-    controller: Law
+    law: Law
     result: Result
     numbers: dict[str, Any]
 

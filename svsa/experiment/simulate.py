@@ -88,7 +88,7 @@ class Result:
 
 def simulate(
     experiment: str | Configuration = "4a",
-    controller: Law | Controller | None = None,
+    law: Law | Controller | None = None,
     *,
     duration_s: float = DURATION_S,
     steps: int = 1,
@@ -96,7 +96,7 @@ def simulate(
 ) -> Result:
     """Simulate a run from rest and return everything that happened.
 
-    experiment: a figure of the paper ("4a", "4b", "5") or a `Configuration`. controller:
+    experiment: a figure of the paper ("4a", "4b", "5") or a `Configuration`. law:
     "ndobc", "fl", or a function (`Controller`): time in s, `Reference`, x̂ as `State`, ŵ as
     `Disturbance` → (u1, u2) in N·m. duration_s: s. steps: Runge–Kutta steps a control
     period. changes: fields of the configuration to replace, e.g. position, stiffness,
@@ -109,9 +109,9 @@ def simulate(
         configuration = experiment
     else:
         configuration = get_figure(experiment).build_configuration()
-    own = controller if callable(controller) else None
-    if controller is not None and own is None:
-        changes["law"] = controller
+    own = law if callable(law) else None
+    if law is not None and own is None:
+        changes["law"] = law
     if changes:
         configuration = configuration.changed(**changes)
     period = configuration.sampling.period_s

@@ -35,7 +35,7 @@ KINDS: dict[str, CommandKind] = {
     "stiffness": CommandKind(
         Run.set_stiffness, TypeAdapter(StiffnessReference), "Stiffness changed"
     ),
-    "controller": CommandKind(Run.set_law, TypeAdapter(Law), "Controller changed"),
+    "law": CommandKind(Run.set_law, TypeAdapter(Law), "Law changed"),
     "gains": CommandKind(Run.set_gains, TypeAdapter(Gains), "Gains changed"),
     "observer": CommandKind(Run.set_observer, TypeAdapter(ObserverBandwidth), "Observer changed"),
     "actuator": CommandKind(Run.set_actuator, TypeAdapter(ActuatorParameters), "Plant changed"),

@@ -217,7 +217,7 @@ class Session:
                     self._end_load(taken.load)
                     self._under_load = False
                 self.version += 1
-            case "controller":
+            case "law":
                 self._log(kind, f"{argument.upper()} on")
             case _:
                 self._log(kind, KINDS[kind].label)

@@ -56,7 +56,7 @@ def read_memory_kb(process: int) -> int:
 def prepare(lab: Lab, figure: str, law: str) -> None:
     """Arm, home, and set the figure."""
     chosen = get_figure(figure)
-    lab.client.put(lab.session + "/controller", json={"law": law}).raise_for_status()
+    lab.client.put(lab.session + "/law", json={"law": law}).raise_for_status()
     for part in ("position", "stiffness"):
         reference = getattr(chosen, part).model_dump(mode="json")
         lab.client.put(f"{lab.session}/{part}", json=reference).raise_for_status()

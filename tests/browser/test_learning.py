@@ -65,7 +65,7 @@ def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, 
 def test_a_figure_is_run_apart_and_laid_beside_the_papers_claim(
     page: Page, lab: Lab, figure: str
 ) -> None:
-    before = lab.read()["run"]
+    before = lab.read()["run_number"]
     sessions = list_sessions(lab)
     page.goto(lab.url)
     page.get_by_role("button", name="Learn").click()
@@ -80,5 +80,5 @@ def test_a_figure_is_run_apart_and_laid_beside_the_papers_claim(
     assert ndobc == pytest.approx(0.0013, abs=0.0002)
     page.keyboard.press("Escape")
     expect(panel).to_be_hidden()
-    assert lab.read()["run"] == before
+    assert lab.read()["run_number"] == before
     assert list_sessions(lab) == sessions

@@ -190,3 +190,10 @@ def test_damaged_commands_and_headers_are_told(tmp_path: Path) -> None:
         read_record(folder)
     with pytest.raises(RecordError, match="There is no record nowhere"):
         read_record(tmp_path / "nowhere")
+
+
+def test_a_command_of_an_older_record_has_the_word_of_today(tmp_path: Path) -> None:
+    folder = tmp_path / "run-1"
+    old = {"tick": 3, "kind": "controller", "argument": "fl"}
+    write_record(folder, build_header(), [(3, old)], 0, build_samples(5))
+    assert read_record(folder).commands == [(3, {"tick": 3, "kind": "law", "argument": "fl"})]

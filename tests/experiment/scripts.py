@@ -74,7 +74,7 @@ rivals = st.lists(
 ARGUMENTS = {
     "position": positions,
     "stiffness": stiffnesses,
-    "controller": laws,
+    "law": laws,
     "gains": gains,
     "observer": observers,
     "actuator": actuators,
@@ -86,7 +86,7 @@ ARGUMENTS = {
 }
 REFUSED = [
     ("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=500.0)),
-    ("controller", "pid"),
+    ("law", "pid"),
     ("gains", {"position_coefficients": (1.0, 1.0, 1.0, 1.0)}),
     ("rivals", (svsa.Lane(law="fl"),) * 4),
     ("unload", 99),
@@ -109,11 +109,11 @@ scripts = st.lists(st.tuples(gaps, commands), min_size=6, max_size=16)
 BUSY = [
     (0, ("effects", EVERY_EFFECT)),
     (30, ("load", svsa.ConstantLoad(torque_nm=(0.4, 0.1, -0.05)))),
-    (17, ("controller", "fl")),
+    (17, ("law", "fl")),
     (0, ("position", svsa.ConstantPosition(position_rad=0.3, transition_s=0.2))),
     (40, ("unload", 2)),
     (11, ("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))),
-    (5, ("controller", "ndobc")),
+    (5, ("law", "ndobc")),
     (25, ("rivals", (svsa.Lane(law="fl"),))),
 ]
 

@@ -33,12 +33,12 @@ def runs():
 
 @pytest.fixture(scope="module")
 def numbers(runs):
-    return {(run.figure, run.controller): run.numbers for run in runs}
+    return {(run.figure, run.law): run.numbers for run in runs}
 
 
 def test_all_figures_run_with_both_laws_in_the_order_of_the_paper(runs):
     expected = [(figure, law) for figure in FIGURES for law in ("fl", "ndobc")]
-    assert [(run.figure, run.controller) for run in runs] == expected
+    assert [(run.figure, run.law) for run in runs] == expected
 
 
 @pytest.mark.parametrize("figure", FIGURES)

@@ -94,7 +94,7 @@ def test_a_part_of_a_record_is_simulated_from_the_start_and_cut_out():
 
 def test_a_record_without_a_sample_is_no_error():
     """A session that was changed and never run, or a run that ended at its first tick."""
-    commands = [Command(0, "controller", "fl")]
+    commands = [Command(0, "law", "fl")]
     assert list(simulate_again(build_configuration(), commands, 0, 0)) == []
     assert list(simulate_again(build_configuration(), commands, 7, 0)) == []
 
@@ -125,7 +125,7 @@ GARBAGE = {
     "no argument": ({"tick": 3, "kind": "load"}, "load"),
     "an unknown load": ({"tick": 3, "kind": "load", "argument": {"kind": "wind"}}, "kind"),
     "a field too much": ({"tick": 3, "kind": "load", "argument": PAPER | {"x": 1}}, "x is 1"),
-    "an unknown law": ({"tick": 3, "kind": "controller", "argument": "pid"}, "'ndobc' or 'fl'"),
+    "an unknown law": ({"tick": 3, "kind": "law", "argument": "pid"}, "'ndobc' or 'fl'"),
     "a number as a text": ({"tick": 3, "kind": "unload", "argument": "1"}, "whole number"),
     "a list": ([], "command"),
     "null": (None, "command"),

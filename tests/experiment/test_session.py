@@ -116,7 +116,7 @@ def test_a_fault_stops_the_session_until_it_is_reset():
 
 def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
     session = build_session(PULSE)
-    session.change("controller", "fl")
+    session.change("law", "fl")
     session.change("load", svsa.PaperLoad())
     session.step(60)
     runs = session.run_number

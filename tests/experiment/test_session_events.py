@@ -92,7 +92,7 @@ def test_every_command_is_logged_with_its_tick():
     session = build_session()
     session.step(5)
     design = svsa.load_prototype()
-    session.change("controller", "fl")
+    session.change("law", "fl")
     session.change("position", svsa.ConstantPosition(position_rad=0.1))
     session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0))
     session.change("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
@@ -163,7 +163,7 @@ def test_the_version_grows_with_every_change_and_not_with_time():
         session.start,
         session.pause,
         lambda: session.set_speed(0.5),
-        lambda: session.change("controller", "fl"),
+        lambda: session.change("law", "fl"),
         lambda: session.change("load", svsa.PaperLoad()),
         session.clear_loads,
         session.reset,

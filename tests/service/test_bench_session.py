@@ -203,8 +203,8 @@ def test_a_run_takes_commands_at_a_tick_and_carries_its_twin(bench: BenchLab) ->
         bench.ask("/position", {"kind": "constant", "position_rad": 0.3}, "PUT")
         bench.ask("/stiffness", {"kind": "constant", "stiffness_nm_per_rad": 40.0}, "PUT")
         bench.ask("/gains", {"stiffness_coefficients": [900.0, 60.0]}, "PUT")
-        bench.ask("/controller", {"law": "fl"}, "PUT")
-        bench.ask("/controller", {"law": "ndobc"}, "PUT")
+        bench.ask("/law", {"law": "fl"}, "PUT")
+        bench.ask("/law", {"law": "ndobc"}, "PUT")
         bench.ask("/loads", {"kind": "constant", "torque_nm": [1.0, 0.0, 0.0]})
         state = bench.wait_for_ticks(1500)
         assert state["status"] == "running"

@@ -10,7 +10,7 @@ def predict(lab: Lab, **request: dict) -> dict:
 
 
 def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> None:
-    lab.load_figure(controller="fl")
+    lab.load_figure(law="fl")
     before = lab.read()["configuration"]
     found = predict(lab)
     assert found["verdict"] == "ok"
@@ -34,7 +34,7 @@ def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> Non
 def test_a_bad_choice_is_told_with_its_reason(
     lab: Lab, request_: dict, verdict: str, code: str
 ) -> None:
-    lab.load_figure(controller="ndobc")
+    lab.load_figure(law="ndobc")
     found = predict(lab, **request_)
     reasons = {reason["code"]: reason for reason in found["reasons"]}
     assert code in reasons, found

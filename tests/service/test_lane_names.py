@@ -29,8 +29,8 @@ def find_names(
     [
         (1, [], [], ["NDOBC"]),
         (2, [], [(100, "rivals", [FL])], ["NDOBC", "FL"]),
-        (1, [], [(100, "controller", "fl")], ["FL"]),
-        (2, [FL], [(500, "controller", "fl")], ["NDOBC → FL", "FL"]),
+        (1, [], [(100, "law", "fl")], ["FL"]),
+        (2, [FL], [(500, "law", "fl")], ["NDOBC → FL", "FL"]),
         (3, [FL, FL], [], ["NDOBC", "FL (2)", "FL (3)"]),
         (2, [], [], ["lane1", "lane2"]),
         (2, [None], [(0, "rivals", [7])], ["lane1", "lane2"]),

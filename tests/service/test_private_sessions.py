@@ -33,7 +33,7 @@ def list_names(lab: Lab) -> list[str]:
 
 
 def test_a_private_session_is_one_s_own(lab: Lab) -> None:
-    own = create(lab, figure="4b", controller="fl")
+    own = create(lab, figure="4b", law="fl")
     name = own["session"]
     assert own["status"] == "running"
     assert own["configuration"]["stiffness"]["stiffness_nm_per_rad"] == 60

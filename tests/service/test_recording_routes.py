@@ -20,7 +20,7 @@ def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
     state = answer.json()
     assert state["recording"]["state"] == "recording"
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})
-    lab.client.put(lab.session + "/controller", json={"law": "fl"})
+    lab.client.put(lab.session + "/law", json={"law": "fl"})
     lab.jump(seconds)
     stopped = lab.client.delete(lab.session + "/recording").raise_for_status().json()
     assert stopped["recording"] is None
@@ -58,7 +58,7 @@ def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> No
     assert state["tick"] == tick
     assert state["configuration"]["law"] == "fl"
     branch = f"/api/v1/sessions/{state['session']}"
-    lab.client.put(branch + "/controller", json={"law": "ndobc"}).raise_for_status()
+    lab.client.put(branch + "/law", json={"law": "ndobc"}).raise_for_status()
     after = lab.client.post(branch + "/step", json={"ticks": 2000}).json()
     assert abs(after["sample"]["position_error_rad"]) < 1e-3
     assert abs(lab.read()["sample"]["position_error_rad"]) > 0.1

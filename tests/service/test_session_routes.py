@@ -44,11 +44,11 @@ def test_step_while_running_is_refused_with_what_to_do(lab: Lab) -> None:
 
 
 def test_reset_begins_a_new_run_with_what_is_set(lab: Lab) -> None:
-    lab.client.put(lab.session + "/controller", json={"law": "fl"})
+    lab.client.put(lab.session + "/law", json={"law": "fl"})
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})
     before = lab.jump(1)
     after = lab.client.post(lab.session + "/reset").json()
-    assert after["run"] == before["run"] + 1
+    assert after["run_number"] == before["run_number"] + 1
     assert after["tick"] == 0
     assert after["loads"] == []
     assert after["events"] == []

@@ -77,7 +77,7 @@ REFUSED = [
         "N·m/rad",
         "from 1.7 to",
     ),
-    ("PUT", "controller", {"law": "pid"}, "law", "", "'ndobc' or 'fl'"),
+    ("PUT", "law", {"law": "pid"}, "law", "", "'ndobc' or 'fl'"),
     ("PUT", "gains", {}, "gains", "", "poles or coefficients"),
     (
         "PUT",

@@ -104,7 +104,7 @@ def test_changes_are_told_to_every_client(lab: Lab) -> None:
     first, _ = open_stream(lab)
     second, _ = open_stream(lab)
     with first, second:
-        lab.client.put(lab.session + "/controller", json={"law": "fl"})
+        lab.client.put(lab.session + "/law", json={"law": "fl"})
         for stream in (first, second):
             law = None
             while law != "fl":

@@ -6,7 +6,6 @@ from typing import Any
 
 from fastapi import APIRouter
 
-from svsa.experiment.paper import get_figure
 from svsa.runtime.recording.header import PlantKind
 from svsa_server.routes.depends import NamedSession, RunId, Runs
 from svsa_server.run_schemas import RunCommand, RunOrigin
@@ -27,10 +26,10 @@ async def read_origin(session: NamedSession) -> RunOrigin:
     )
 
 
-@router.get("/runs/{run}/origin")
-def read_run_origin(runs: Runs, run: RunId) -> RunOrigin:
+@router.get("/runs/{run_id}/origin")
+def read_run_origin(runs: Runs, run_id: RunId) -> RunOrigin:
     """A recorded run: how it stood at its t = 0 and what was changed, to its last sample."""
-    record = runs.open(run)
+    record = runs.open(run_id)
     header = record.header
     return _tell(
         header.configuration,
@@ -60,6 +59,4 @@ def _tell(
 
 @cache
 def _build_defaults() -> dict[str, Any]:
-    wanted = SessionRequest()
-    figure = get_figure(wanted.figure)
-    return figure.build_configuration(wanted.controller, wanted.load).model_dump(mode="json")
+    return SessionRequest(load=False).build_configuration().model_dump(mode="json")

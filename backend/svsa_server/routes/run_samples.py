@@ -28,10 +28,10 @@ RunTime = Annotated[
 ]
 
 
-@router.get("/runs/{run}/samples", response_model=RunSamples)
+@router.get("/runs/{run_id}/samples", response_model=RunSamples)
 def read_samples(
     runs: Runs,
-    run: RunId,
+    run_id: RunId,
     channels: Annotated[
         str | None,
         Query(
@@ -45,7 +45,7 @@ def read_samples(
     points: Annotated[int, Query(ge=2, le=MOST_POINTS, description="At most so many")] = 2000,
 ) -> Response:
     """A stretch of the run for a plot; least and greatest values are kept."""
-    record = runs.open(run)
+    record = runs.open(run_id)
     names = _choose_channels(record, channels)
     start, stop = _choose_rows(record, start_s, end_s)
     thinned = decimate(record.read_channels(names, start, stop), points)
@@ -65,12 +65,12 @@ def read_samples(
     return Response(msgspec.json.encode(answer), media_type="application/json")
 
 
-@router.get("/runs/{run}/metrics")
+@router.get("/runs/{run_id}/metrics")
 def read_metrics(
-    runs: Runs, run: RunId, start_s: RunTime = None, end_s: RunTime = None
+    runs: Runs, run_id: RunId, start_s: RunTime = None, end_s: RunTime = None
 ) -> RunMetrics:
     """How good every lane is over a stretch of the run, such as from its load on."""
-    record = runs.open(run)
+    record = runs.open(run_id)
     start, stop = _choose_rows(record, start_s, end_s)
     measured = record.read_channels(MEASURED, start, stop)
     period = record.header.period_s
@@ -84,10 +84,10 @@ def read_metrics(
     )
 
 
-@router.get("/runs/{run}/replay", response_class=HTMLResponse)
-def show_replay(runs: Runs, run: RunId) -> HTMLResponse:
+@router.get("/runs/{run_id}/replay", response_class=HTMLResponse)
+def show_replay(runs: Runs, run_id: RunId) -> HTMLResponse:
     """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
-    page = build_replay(runs.open(run))
+    page = build_replay(runs.open(run_id))
     return HTMLResponse(page, headers={"Cache-Control": f"private, max-age={REPLAY_AGE_S}"})
 
 

@@ -63,10 +63,10 @@ def list_runs(
     )
 
 
-@router.get("/runs/{run}")
-def read_run(runs: Runs, run: RunId) -> RunDetails:
+@router.get("/runs/{run_id}")
+def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     """A run with its configuration, its channels and the commands given while it went on."""
-    entry, record = runs.get(run), runs.open(run)
+    entry, record = runs.get(run_id), runs.open(run_id)
     return RunDetails(
         **_list_values(entry),
         lane_names=name_lanes(record),
@@ -78,41 +78,41 @@ def read_run(runs: Runs, run: RunId) -> RunDetails:
     )
 
 
-@router.patch("/runs/{run}")
+@router.patch("/runs/{run_id}")
 def change_run(
     runs: Runs,
-    run: RunId,
+    run_id: RunId,
     patch: Annotated[RunPatch, Body(examples=[{"name": "Group 3", "tags": ["class"]}])],
 ) -> RunSummary:
     """Rename a run, tag it, write notes."""
-    entry = runs.update(run, name=patch.name, tags=patch.tags, notes=patch.notes)
+    entry = runs.update(run_id, name=patch.name, tags=patch.tags, notes=patch.notes)
     return RunSummary(**_list_values(entry))
 
 
-@router.delete("/runs/{run}")
-def delete_run(runs: Runs, run: RunId) -> RunSummary:
+@router.delete("/runs/{run_id}")
+def delete_run(runs: Runs, run_id: RunId) -> RunSummary:
     """Put a run into the trash, from which `restore` takes it back."""
-    return RunSummary(**_list_values(runs.delete(run)))
+    return RunSummary(**_list_values(runs.delete(run_id)))
 
 
-@router.post("/runs/{run}/restore")
-def restore_run(runs: Runs, run: RunId) -> RunSummary:
+@router.post("/runs/{run_id}/restore")
+def restore_run(runs: Runs, run_id: RunId) -> RunSummary:
     """Take a run out of the trash."""
-    return RunSummary(**_list_values(runs.restore(run)))
+    return RunSummary(**_list_values(runs.restore(run_id)))
 
 
 @router.get(
-    "/runs/{run}/export",
+    "/runs/{run_id}/export",
     response_class=StreamingResponse,
     responses={200: {"content": {"application/octet-stream": {}}, "description": "The file"}},
 )
 def export_run(
     runs: Runs,
-    run: RunId,
+    run_id: RunId,
     kind: Annotated[ExportName, Query(description="Format of the file")],
 ) -> StreamingResponse:
     """The run as a file of another program."""
-    record = runs.open(run)
+    record = runs.open(run_id)
     file = tempfile.TemporaryFile()  # noqa: SIM115
     try:
         export(record, kind, file)

@@ -99,7 +99,7 @@ async def set_speed(
 async def load_experiment(
     session: NamedSession,
     request: Annotated[
-        ExperimentRequest, Body(examples=[{"figure": "4a", "controller": "ndobc", "load": True}])
+        ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])
     ],
 ) -> SessionState:
     """Start one of the paper's figures from t = 0, with its load at 5 s unless told not to.

@@ -11,9 +11,9 @@ from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.schemas import (
-    ControllerRequest,
     GainsRequest,
     LanesRequest,
+    LawRequest,
     SessionState,
     build_patch,
 )
@@ -68,12 +68,12 @@ async def set_stiffness(
     return build_state(session)
 
 
-@router.put("/controller")
-async def set_controller(
-    session: NamedSession, request: Annotated[ControllerRequest, Body(examples=[{"law": "fl"}])]
+@router.put("/law")
+async def set_law(
+    session: NamedSession, request: Annotated[LawRequest, Body(examples=[{"law": "fl"}])]
 ) -> SessionState:
     """Control with FL or NDOBC."""
-    session.change("controller", request.law)
+    session.change("law", request.law)
     return build_state(session)
 
 

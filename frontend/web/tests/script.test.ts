@@ -96,7 +96,7 @@ describe("an experiment as a script", () => {
     const script = writeExperiment(
       origin({}, [
         given(2500, "load", { kind: "paper", start_s: null }),
-        given(2500, "controller", "fl"),
+        given(2500, "law", "fl"),
         given(4000, "unload", 1),
       ]),
       "3 kg",
@@ -107,7 +107,7 @@ describe("an experiment as a script", () => {
     expect(lines.slice(from + 1, from + 7)).toEqual([
       "run_until(2.5)",
       'call("POST", "/loads", {"kind": "paper"})',
-      'call("PUT", "/controller", {"law": "fl"})',
+      'call("PUT", "/law", {"law": "fl"})',
       "run_until(4)",
       'call("DELETE", "/loads/1")',
       "state = run_until(7.25)",

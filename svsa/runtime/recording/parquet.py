@@ -23,6 +23,9 @@ from svsa.runtime.recording.stream import build_schema, read_stream
 COMMANDS_KEY = b"svsa.commands"
 ROWS_A_GROUP = 65_536
 
+FORMER_KINDS = {"controller": "law"}
+"""Kinds of commands as older records name them, and what they are called today."""
+
 Commands = list[tuple[int, dict[str, Any]]]
 Batches = Iterable[pa.RecordBatch]
 
@@ -106,7 +109,10 @@ def read_commands(folder: Path) -> tuple[Commands, int]:
     for number, line in enumerate(content[:whole].splitlines(), 1):
         try:
             written = json.loads(line)
-            commands.append((_check(written["tick"], int), _check(written["command"], dict)))
+            command = _check(written["command"], dict)
+            kind = command.get("kind")
+            named = command | {"kind": FORMER_KINDS[kind]} if kind in FORMER_KINDS else command
+            commands.append((_check(written["tick"], int), named))
         except (ValueError, KeyError, TypeError) as error:
             text = f"{COMMANDS_FILE} of record {folder.name} is damaged in line {number}: {error}"
             raise RecordError(text) from None

@@ -82,7 +82,7 @@ export const putPosition = (reference: Sent<PositionReference>) =>
   call("put", "/position", reference);
 export const putStiffness = (reference: Sent<StiffnessReference>) =>
   call("put", "/stiffness", reference);
-export const putController = (law: Law) => call("put", "/controller", { law });
+export const putLaw = (law: Law) => call("put", "/law", { law });
 export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
@@ -109,9 +109,9 @@ export const step = (ticks: number) => call("post", "/step", { ticks });
 /** kept: lanes and effects that the figure by itself has not. */
 export const runFigure = (
   figure: Figure,
-  controller: Law,
+  law: Law,
   kept: { rivals?: Configuration["rivals"]; effects?: EffectsRequest },
-) => send("post", "/experiment", { figure, controller, load: true, ...kept });
+) => send("post", "/experiment", { figure, law, load: true, ...kept });
 export const addLoad = (load: Load) => call("post", "/loads", load);
 export const removeLoad = (id: number) =>
   request("delete", `${SESSION}/loads/${id}`) as Promise<SessionState>;

@@ -447,7 +447,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/sessions/{session}/controller": {
+    "/api/v1/sessions/{session}/law": {
         parameters: {
             query?: never;
             header?: never;
@@ -456,10 +456,10 @@ export interface paths {
         };
         get?: never;
         /**
-         * Set Controller
+         * Set Law
          * @description Control with FL or NDOBC.
          */
-        put: operations["set_controller_api_v1_sessions__session__controller_put"];
+        put: operations["set_law_api_v1_sessions__session__law_put"];
         post?: never;
         delete?: never;
         options?: never;
@@ -739,7 +739,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run}/samples": {
+    "/api/v1/runs/{run_id}/samples": {
         parameters: {
             query?: never;
             header?: never;
@@ -750,7 +750,7 @@ export interface paths {
          * Read Samples
          * @description A stretch of the run for a plot; least and greatest values are kept.
          */
-        get: operations["read_samples_api_v1_runs__run__samples_get"];
+        get: operations["read_samples_api_v1_runs__run_id__samples_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -759,7 +759,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run}/metrics": {
+    "/api/v1/runs/{run_id}/metrics": {
         parameters: {
             query?: never;
             header?: never;
@@ -770,7 +770,7 @@ export interface paths {
          * Read Metrics
          * @description How good every lane is over a stretch of the run, such as from its load on.
          */
-        get: operations["read_metrics_api_v1_runs__run__metrics_get"];
+        get: operations["read_metrics_api_v1_runs__run_id__metrics_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -779,7 +779,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run}/replay": {
+    "/api/v1/runs/{run_id}/replay": {
         parameters: {
             query?: never;
             header?: never;
@@ -790,7 +790,7 @@ export interface paths {
          * Show Replay
          * @description The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s.
          */
-        get: operations["show_replay_api_v1_runs__run__replay_get"];
+        get: operations["show_replay_api_v1_runs__run_id__replay_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -819,7 +819,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run}/origin": {
+    "/api/v1/runs/{run_id}/origin": {
         parameters: {
             query?: never;
             header?: never;
@@ -830,7 +830,7 @@ export interface paths {
          * Read Run Origin
          * @description A recorded run: how it stood at its t = 0 and what was changed, to its last sample.
          */
-        get: operations["read_run_origin_api_v1_runs__run__origin_get"];
+        get: operations["read_run_origin_api_v1_runs__run_id__origin_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -859,7 +859,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run}": {
+    "/api/v1/runs/{run_id}": {
         parameters: {
             query?: never;
             header?: never;
@@ -870,24 +870,24 @@ export interface paths {
          * Read Run
          * @description A run with its configuration, its channels and the commands given while it went on.
          */
-        get: operations["read_run_api_v1_runs__run__get"];
+        get: operations["read_run_api_v1_runs__run_id__get"];
         put?: never;
         post?: never;
         /**
          * Delete Run
          * @description Put a run into the trash, from which `restore` takes it back.
          */
-        delete: operations["delete_run_api_v1_runs__run__delete"];
+        delete: operations["delete_run_api_v1_runs__run_id__delete"];
         options?: never;
         head?: never;
         /**
          * Change Run
          * @description Rename a run, tag it, write notes.
          */
-        patch: operations["change_run_api_v1_runs__run__patch"];
+        patch: operations["change_run_api_v1_runs__run_id__patch"];
         trace?: never;
     };
-    "/api/v1/runs/{run}/restore": {
+    "/api/v1/runs/{run_id}/restore": {
         parameters: {
             query?: never;
             header?: never;
@@ -900,14 +900,14 @@ export interface paths {
          * Restore Run
          * @description Take a run out of the trash.
          */
-        post: operations["restore_run_api_v1_runs__run__restore_post"];
+        post: operations["restore_run_api_v1_runs__run_id__restore_post"];
         delete?: never;
         options?: never;
         head?: never;
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run}/export": {
+    "/api/v1/runs/{run_id}/export": {
         parameters: {
             query?: never;
             header?: never;
@@ -918,7 +918,7 @@ export interface paths {
          * Export Run
          * @description The run as a file of another program.
          */
-        get: operations["export_run_api_v1_runs__run__export_get"];
+        get: operations["export_run_api_v1_runs__run_id__export_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1285,18 +1285,6 @@ export interface components {
             watching: number;
         };
         /**
-         * ControllerRequest
-         * @description Which law controls.
-         */
-        ControllerRequest: {
-            /**
-             * Law
-             * @description ndobc (Eq 24) or fl (Eq 36)
-             * @enum {string}
-             */
-            law: "ndobc" | "fl";
-        };
-        /**
          * CurrentLag
          * @description The current loop of the drives as a first-order lag.
          */
@@ -1409,12 +1397,12 @@ export interface components {
              */
             figure: "4a" | "4b" | "5";
             /**
-             * Controller
-             * @description ndobc or fl
+             * Law
+             * @description ndobc (Eq 24) or fl (Eq 36)
              * @default ndobc
              * @enum {string}
              */
-            controller: "ndobc" | "fl";
+            law: "ndobc" | "fl";
             /**
              * Load
              * @description With the paper's 3 kg load at 5 s
@@ -1691,6 +1679,18 @@ export interface components {
              * @description Up to three
              */
             rivals: components["schemas"]["Lane"][];
+        };
+        /**
+         * LawRequest
+         * @description Which law controls.
+         */
+        LawRequest: {
+            /**
+             * Law
+             * @description ndobc (Eq 24) or fl (Eq 36)
+             * @enum {string}
+             */
+            law: "ndobc" | "fl";
         };
         /**
          * Limits
@@ -2231,7 +2231,7 @@ export interface components {
             plant: "simulated" | "emulated" | "bench";
             /**
              * Defaults
-             * @description The configuration of a new private session
+             * @description Of a new private session, `load` false
              */
             defaults: {
                 [key: string]: unknown;
@@ -2413,16 +2413,16 @@ export interface components {
              */
             figure: "4a" | "4b" | "5";
             /**
-             * Controller
-             * @description ndobc or fl
+             * Law
+             * @description ndobc (Eq 24) or fl (Eq 36)
              * @default ndobc
              * @enum {string}
              */
-            controller: "ndobc" | "fl";
+            law: "ndobc" | "fl";
             /**
              * Load
              * @description With the paper's 3 kg load at 5 s
-             * @default false
+             * @default true
              */
             load: boolean;
             /**
@@ -2457,10 +2457,10 @@ export interface components {
              */
             status: "running" | "paused" | "fault";
             /**
-             * Run
+             * Run Number
              * @description Counts up whenever a run begins anew at t = 0
              */
-            run: number;
+            run_number: number;
             /** Tick */
             tick: number;
             /** Time S */
@@ -3874,7 +3874,7 @@ export interface operations {
             };
         };
     };
-    set_controller_api_v1_sessions__session__controller_put: {
+    set_law_api_v1_sessions__session__law_put: {
         parameters: {
             query?: never;
             header?: {
@@ -3889,7 +3889,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ControllerRequest"];
+                "application/json": components["schemas"]["LawRequest"];
             };
         };
         responses: {
@@ -4755,7 +4755,7 @@ export interface operations {
             };
         };
     };
-    read_samples_api_v1_runs__run__samples_get: {
+    read_samples_api_v1_runs__run_id__samples_get: {
         parameters: {
             query?: {
                 /** @description Names with commas between them; left out, those of the plots */
@@ -4770,7 +4770,7 @@ export interface operations {
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -4814,7 +4814,7 @@ export interface operations {
             };
         };
     };
-    read_metrics_api_v1_runs__run__metrics_get: {
+    read_metrics_api_v1_runs__run_id__metrics_get: {
         parameters: {
             query?: {
                 /** @description Time of the run, s */
@@ -4825,7 +4825,7 @@ export interface operations {
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -4869,13 +4869,13 @@ export interface operations {
             };
         };
     };
-    show_replay_api_v1_runs__run__replay_get: {
+    show_replay_api_v1_runs__run_id__replay_get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -4972,13 +4972,13 @@ export interface operations {
             };
         };
     };
-    read_run_origin_api_v1_runs__run__origin_get: {
+    read_run_origin_api_v1_runs__run_id__origin_get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -5080,13 +5080,13 @@ export interface operations {
             };
         };
     };
-    read_run_api_v1_runs__run__get: {
+    read_run_api_v1_runs__run_id__get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -5130,13 +5130,13 @@ export interface operations {
             };
         };
     };
-    delete_run_api_v1_runs__run__delete: {
+    delete_run_api_v1_runs__run_id__delete: {
         parameters: {
             query?: never;
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -5180,13 +5180,13 @@ export interface operations {
             };
         };
     };
-    change_run_api_v1_runs__run__patch: {
+    change_run_api_v1_runs__run_id__patch: {
         parameters: {
             query?: never;
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -5234,13 +5234,13 @@ export interface operations {
             };
         };
     };
-    restore_run_api_v1_runs__run__restore_post: {
+    restore_run_api_v1_runs__run_id__restore_post: {
         parameters: {
             query?: never;
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -5284,7 +5284,7 @@ export interface operations {
             };
         };
     };
-    export_run_api_v1_runs__run__export_get: {
+    export_run_api_v1_runs__run_id__export_get: {
         parameters: {
             query: {
                 /** @description Format of the file */
@@ -5293,7 +5293,7 @@ export interface operations {
             header?: never;
             path: {
                 /** @description Id of a run */
-                run: string;
+                run_id: string;
             };
             cookie?: never;
         };

@@ -55,4 +55,5 @@ export type RunPatch = Schemas["RunPatch"];
 export type RunSamples = Schemas["RunSamples"];
 export type RunMetrics = Schemas["RunMetrics"];
 export type RunOrigin = Schemas["RunOrigin"];
-export type ExportName = paths["/api/v1/runs/{run}/export"]["get"]["parameters"]["query"]["kind"];
+export type ExportName =
+  paths["/api/v1/runs/{run_id}/export"]["get"]["parameters"]["query"]["kind"];

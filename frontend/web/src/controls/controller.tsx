@@ -1,5 +1,5 @@
 import { useId } from "preact/hooks";
-import { putController, putLanes } from "../api/client";
+import { putLanes, putLaw } from "../api/client";
 import type { Law, SessionState } from "../api/types";
 import { perform } from "../state/actions";
 import { otherLaw, rivalsOf } from "../state/lanes";
@@ -18,7 +18,7 @@ const LAWS = [
 /** Takes a law; one that ran beside as a rival changes places with it. */
 async function chooseLaw(law: Law, state: SessionState): Promise<SessionState> {
   const rivals = rivalsOf(state);
-  const answer = await putController(law);
+  const answer = await putLaw(law);
   const isDouble = rivals.length === 1 && rivals[0]?.law === law && state.recording === null;
   return isDouble ? putLanes([otherLaw(law)]) : answer;
 }

@@ -48,7 +48,16 @@ const surroundings = computed(() => {
   const state = session.value;
   if (state === null) return "";
   const { gains, observer, law, stiffness, position, effects, limits } = state.configuration;
-  return JSON.stringify([state.run, gains, observer, law, stiffness, position, effects, limits]);
+  return JSON.stringify([
+    state.run_number,
+    gains,
+    observer,
+    law,
+    stiffness,
+    position,
+    effects,
+    limits,
+  ]);
 });
 
 function requestOf(wanted: Draft): Parameters<typeof predict>[0] {

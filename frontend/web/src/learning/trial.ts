@@ -17,7 +17,7 @@ const ask = (method: "post" | "get" | "delete" | "put", path: string, body?: unk
 export async function runFigureApart(figure: Figure): Promise<Course> {
   const { session } = await ask("post", "sessions", {
     figure,
-    controller: "fl",
+    law: "fl",
     rivals: [{ law: "ndobc" }],
     load: true,
   });

@@ -61,9 +61,9 @@ export const behindS = (): number => {
 
 /** A run that begins anew has no past to stand still on; new channels get theirs there too. */
 export function followSession(): () => void {
-  let run = session.peek()?.run;
+  let run = session.peek()?.run_number;
   const stopRun = effect(() => {
-    const next = session.value?.run;
+    const next = session.value?.run_number;
     if (run !== undefined && next !== run) goLive();
     run = next;
   });

@@ -28,8 +28,8 @@ function differences(wanted: Values, known: Values): Values {
 /** The public call that gives a command again. */
 export function stepOf(kind: string, argument: unknown): Step {
   switch (kind) {
-    case "controller":
-      return { method: "PUT", path: "/controller", body: { law: argument } };
+    case "law":
+      return { method: "PUT", path: "/law", body: { law: argument } };
     case "rivals":
       return { method: "PUT", path: "/lanes", body: { rivals: prune(argument) } };
     case "actuator":
@@ -56,7 +56,7 @@ function writeCreation({ configuration, defaults }: RunOrigin): string {
     (key) => !isSame(configuration[key], defaults[key]),
   );
   const wanted = Object.fromEntries(keys.map((key) => [key, configuration[key]]));
-  const body = { figure: "4a", controller: configuration.law, ...wanted };
+  const body = { figure: "4a", law: configuration.law, load: false, ...wanted };
   return callInPython('call("POST", "/sessions", ', prune(body));
 }
 

@@ -17,7 +17,7 @@ interface Hello {
   state: SessionState;
 }
 /** After a change the whole state; once a second only the fields that move by themselves. */
-type Progress = Pick<SessionState, "run" | "tick"> & Partial<SessionState>;
+type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
 type TextMessage = Hello | { type: "state"; state: Progress };
 
 export const session = signal<SessionState | null>(null);
@@ -47,7 +47,7 @@ export const selectionCount = signal(0);
 /** Takes over what the server sent, unless something newer of the same run is known. */
 export function acceptState(state: Progress): void {
   const known = session.peek();
-  if (known === null || (known.run === state.run && state.tick < known.tick)) return;
+  if (known === null || (known.run_number === state.run_number && state.tick < known.tick)) return;
   session.value = { ...known, ...state };
 }
 
@@ -59,9 +59,9 @@ function acceptText(message: string): void {
   }
   if (content.type !== "hello") return;
   const names = content.channels.map((channel) => channel.name);
-  const continues = selection.continues && content.state.run === run;
+  const continues = selection.continues && content.state.run_number === run;
   periodS = content.period_s;
-  run = content.state.run;
+  run = content.state.run_number;
   samples.ring = continues ? samples.ring.reselect(names) : new SampleRing(CAPACITY, names);
   session.value = content.state;
   received.count++;
