@@ -4,8 +4,10 @@ One root, `SvsaError`. Bad input is a `ParameterError`; a run that leaves the do
 the model ends in a `Fault`, which is data, and a `FaultError` where nobody looks at it.
 """
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, Self
+
+_LONGEST_NUMBER = 8
 
 
 class SvsaError(Exception):
@@ -14,20 +16,34 @@ class SvsaError(Exception):
 
 @dataclass(frozen=True)
 class Violation:
-    """One refused value: its name, the value as given, its unit and the bound it broke."""
+    """One refused value: its name, the value as given, its unit and the bound it broke.
+
+    `name` is the path of the field from what was given down, as `motor1.gear_ratio`.
+    `limits` are the numbers of the bound in `unit`, by ge, gt, le or lt; empty where it is no
+    range. `finding` says what is wrong where "name is value: it must be bound" would not.
+    """
 
     name: str
     value: Any
     unit: str
     bound: str
+    limits: dict[str, float] = field(default_factory=dict)
+    finding: str = ""
 
     @property
     def message(self) -> str:
         """The violation as a sentence; a value of None reads as missing."""
+        if self.finding:
+            return f"{self.name}: {self.finding}."
         if self.value is None:
             return f"{self.name} is missing: it must be {self.bound}."
         unit = f" {self.unit}" if self.unit not in ("", "1") and _is_number(self.value) else ""
         return f"{self.name} is {_shorten(self.value)}{unit}: it must be {self.bound}."
+
+    def within(self, path: str) -> Self:
+        """The violation as it is called from the value that holds this one at `path`."""
+        joint = "." if path and not self.name.startswith("[") else ""
+        return replace(self, name=path + joint + self.name)
 
 
 class ParameterError(SvsaError, ValueError):
@@ -36,6 +52,10 @@ class ParameterError(SvsaError, ValueError):
     def __init__(self, *violations: Violation) -> None:
         self.violations = violations
         super().__init__(" ".join(violation.message for violation in violations))
+
+    def within(self, path: str) -> "ParameterError":
+        """The same refusal, its fields called from the value that holds them at `path`."""
+        return ParameterError(*(violation.within(path) for violation in self.violations))
 
 
 class StateError(SvsaError):
@@ -74,5 +94,11 @@ def _is_number(value: Any) -> bool:
 
 
 def _shorten(value: Any, longest: int = 80) -> str:
-    text = repr(value)
+    """As Python writes it, but numbers to six digits, and cut where it is long."""
+    if isinstance(value, float) and len(repr(value)) > _LONGEST_NUMBER:
+        return f"{value:.6g}"
+    if isinstance(value, list | tuple):
+        text = f"[{', '.join(_shorten(item) for item in value[: longest // 2])}]"
+    else:
+        text = repr(value)
     return text if len(text) <= longest else text[: longest - 1] + "…"

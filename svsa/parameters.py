@@ -57,7 +57,8 @@ class Limits(Checked):
         least, greatest = self.stiffness_min_nm_per_rad, self.stiffness_max_nm_per_rad
         if not least < greatest:
             bound = f"less than stiffness_max_nm_per_rad, {greatest:g} N·m/rad"
-            raise ParameterError(Violation("stiffness_min_nm_per_rad", least, "N·m/rad", bound))
+            violation = Violation("stiffness_min_nm_per_rad", least, "N·m/rad", bound)
+            raise ParameterError(violation)
         return self
 
     def check_stiffness(self, name: str, low: float, high: float) -> None:
@@ -66,4 +67,5 @@ class Limits(Checked):
         for value in (low, high):
             if not least <= value <= greatest:
                 bound = f"from {least:g} to {greatest:g} N·m/rad at all times"
-                raise ParameterError(Violation(name, value, "N·m/rad", bound))
+                limits = {"ge": least, "le": greatest}
+                raise ParameterError(Violation(name, value, "N·m/rad", bound, limits))

@@ -1,15 +1,19 @@
 """Errors on the wire: one shape, with name, value, unit and bound of what was refused."""
 
+import json
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
+from starlette.exceptions import HTTPException
 
-from svsa.checked import explain_problems
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.explanation import explain_problems
 from svsa.runtime.catalogue.entry import CatalogueError, UnknownRunError
 from svsa.runtime.recording.header import RecordError
 from svsa_server.control import HeldError
@@ -20,10 +24,21 @@ LONGEST_ECHO = 200
 class ViolationModel(BaseModel):
     """One refused value."""
 
-    name: str = Field(examples=["frequency_hz"])
+    name: str = Field(
+        examples=["frequency_hz"],
+        description="Path of the field in what was sent, such as rivals[0].law",
+    )
     value: Any = Field(examples=[9.0], description="As it was given; cut short when long")
     unit: str = Field(examples=["Hz"])
     bound: str = Field(examples=["at most 5 Hz"])
+    limits: dict[str, float] = Field(
+        default={},
+        examples=[{"le": 5.0}],
+        description="The numbers of the bound in the unit, by ge, gt, le or lt",
+    )
+    finding: str = Field(
+        default="", description="What is wrong, where the bound is not of the value itself"
+    )
     message: str = Field(examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."])
 
 
@@ -43,8 +58,12 @@ def install_error_handlers(app: FastAPI) -> None:
     """Answer every refusal of the library and of the schemas in the shape of `ErrorModel`."""
 
     @app.exception_handler(RequestValidationError)
-    def refuse_request(_: Request, error: RequestValidationError) -> JSONResponse:
-        return _refuse_values(explain_problems(error.errors()))
+    def refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
+        return _refuse_request(request, error)
+
+    @app.exception_handler(HTTPException)
+    def refuse_route(request: Request, error: HTTPException) -> JSONResponse:
+        return _refuse_route(request, error)
 
     @app.exception_handler(ParameterError)
     def refuse_parameters(_: Request, error: ParameterError) -> JSONResponse:
@@ -80,6 +99,8 @@ def build_refusal(violations: tuple[Violation, ...] | list[Violation]) -> ErrorM
             value=_make_safe(item.value),
             unit=item.unit,
             bound=item.bound,
+            limits=item.limits,
+            finding=item.finding,
             message=item.message,
         )
         for item in violations
@@ -88,12 +109,54 @@ def build_refusal(violations: tuple[Violation, ...] | list[Violation]) -> ErrorM
     return ErrorModel(error="out_of_range", message=message, violations=models)
 
 
+def _refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
+    """A body that is no JSON, or was not sent as such, is told as that."""
+    body: list[Any] = []
+    others: list[Any] = []
+    for problem in error.errors():
+        where, *rest = problem["loc"]
+        if problem["type"] == "json_invalid":
+            found = json.JSONDecodeError(problem["ctx"]["error"], str(error.body), rest[0])
+            place = f"line {found.lineno}, column {found.colno}"
+            return _answer(422, "malformed_json", f"The body is no JSON: {found.msg} at {place}.")
+        (body if where == "body" else others).append(problem | {"loc": rest})
+    if body and isinstance(error.body, bytes):
+        given = request.headers.get("content-type")
+        said = f"its Content-Type is {given[:80]!r}" if given else "it has no Content-Type"
+        message = f"The body was not read, because {said}: send Content-Type: application/json."
+        return _answer(422, "content_type", message)
+    violations = [
+        replace(violation, name="body") if violation.name == "value" else violation
+        for violation in explain_problems(body)
+    ]
+    return _refuse_values(violations + explain_problems(others, {}))
+
+
+def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
+    """What the routing refuses, in the same shape; the headers, such as Allow, stay."""
+    path, status = request.url.path[:LONGEST_ECHO], error.status_code
+    if status == 404:
+        kind, message = "not_found", f"There is nothing at {path}; /docs has all there is."
+    elif status == 405:
+        allowed = (error.headers or {}).get("Allow", "another method")
+        kind = "method_not_allowed"
+        message = f"{request.method} is not possible at {path}, but {allowed} is."
+    elif status == 400:
+        status, kind = 422, "malformed_json"
+        message = "The body is no JSON that can be read: it is not UTF-8, or nested too deeply."
+    else:
+        kind, message = "refused", str(error.detail)
+    return _answer(status, kind, message, error.headers)
+
+
 def _refuse_values(violations: tuple[Violation, ...] | list[Violation]) -> JSONResponse:
     return JSONResponse(build_refusal(violations).model_dump(mode="json"), 422)
 
 
-def _answer(status: int, error: str, message: str) -> JSONResponse:
-    return JSONResponse(ErrorModel(error=error, message=message).model_dump(), status)
+def _answer(
+    status: int, error: str, message: str, headers: Mapping[str, str] | None = None
+) -> JSONResponse:
+    return JSONResponse(ErrorModel(error=error, message=message).model_dump(), status, headers)
 
 
 def _make_safe(value: Any) -> Any:

@@ -1,6 +1,7 @@
 """What goes over the wire besides the library's own values."""
 
-from typing import Annotated, Any, Literal, Optional, Self
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar, Literal, Optional, Self
 
 from pydantic import BaseModel, Field, create_model, model_validator
 
@@ -60,7 +61,17 @@ class GainsRequest(Checked):
     def apply_to(self, gains: Gains) -> Gains:
         """The gains with these changes; raises `ParameterError` with the roots if unstable."""
         position, stiffness = self.choose_coefficients(gains)
-        return Gains(position_coefficients=position, stiffness_coefficients=stiffness)
+        try:
+            return Gains(position_coefficients=position, stiffness_coefficients=stiffness)
+        except ParameterError as error:
+            raise ParameterError(*map(self._call_as_given, error.violations)) from None
+
+    def _call_as_given(self, violation: Violation) -> Violation:
+        name = violation.name.replace("_coefficients", "_poles_rad_per_s")
+        poles = getattr(self, name, None)
+        if poles is None:
+            return violation
+        return replace(violation, name=name, value=list(poles), unit="rad/s")
 
     def choose_coefficients(
         self, gains: Gains
@@ -82,13 +93,27 @@ def _read_pole(pole: float | tuple[float, float]) -> complex:
     return complex(*pole) if isinstance(pole, tuple) else complex(pole)
 
 
-def build_patch(model: type[ActuatorParameters]) -> type[Checked]:
+class _Patch(Checked):
+    """Changes to a section, which its errors name: two sections may have the same fields."""
+
+    section: ClassVar[str] = ""
+
+    def __init__(self, /, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ParameterError as error:
+            raise error.within(self.section) from None
+
+
+def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
     """`model` with every field optional, for PATCH; bounds, units and words stay."""
     fields: dict[str, Any] = {
         name: (Optional[field.annotation], field.merge_field_infos(field, default=None))  # noqa: UP045
         for name, field in model.model_fields.items()
     }
-    return create_model(f"{model.__name__}Patch", __base__=Checked, **fields)
+    patch = create_model(f"{section.title()}Patch", __base__=_Patch, **fields)
+    patch.section = section
+    return patch
 
 
 class LanesRequest(Checked):

@@ -44,17 +44,19 @@ class Gains(Checked):
         for name in ("position_coefficients", "stiffness_coefficients"):
             coefficients = getattr(self, name)
             roots = compute_roots(coefficients)
-            listed = ", ".join(f"{root:.4g}" for root in roots)
-            if not all(root.real < 0.0 for root in roots):
-                bound = (
-                    f"Hurwitz: every root left of the imaginary axis; the roots are {listed} rad/s"
-                )
-                raise ParameterError(Violation(name, list(coefficients), "", bound))
-            if max(abs(root) for root in roots) > FASTEST_POLE_RAD_PER_S:
-                bound = (
-                    f"slower than {FASTEST_POLE_RAD_PER_S:g} rad/s; the roots are {listed} rad/s"
-                )
-                raise ParameterError(Violation(name, list(coefficients), "", bound))
+            unstable = [root for root in roots if not root.real < 0.0]
+            fast = [root for root in roots if abs(root) > FASTEST_POLE_RAD_PER_S]
+            if not unstable and not fast:
+                continue
+            if unstable:
+                bound = "Hurwitz: every root left of the imaginary axis"
+                side = "right of" if unstable[0].real > 0.0 else "on"
+                finding = _say(unstable, f"lies {side} the imaginary axis")
+            else:
+                bound = f"slower than {FASTEST_POLE_RAD_PER_S:g} rad/s"
+                finding = _say(fast, f"is faster than {FASTEST_POLE_RAD_PER_S:g} rad/s")
+            bound += f"; the roots are {describe_roots(roots)} rad/s"
+            raise ParameterError(Violation(name, list(coefficients), "", bound, finding=finding))
         return self
 
 
@@ -78,3 +80,17 @@ def compute_roots(coefficients: Sequence[float]) -> list[complex]:
     """The roots of s^n + c_{n−1} s^{n−1} + … + c0 (Eq 25), rad/s, slowest first."""
     roots = np.roots([1.0, *coefficients[::-1]])
     return sorted((complex(root) for root in roots), key=lambda root: (-root.real, root.imag))
+
+
+def describe_roots(roots: Sequence[complex]) -> str:
+    """Roots as they are read, rad/s: "24.4 ± 24.4j, -60", a conjugate pair once."""
+    return ", ".join(
+        f"{root.real:.4g}" if root.imag == 0.0 else f"{root.real:.4g} ± {root.imag:.4g}j"
+        for root in roots
+        if root.imag >= 0.0
+    )
+
+
+def _say(roots: Sequence[complex], finding: str) -> str:
+    """The finding with the gravest of these roots, which stands for its conjugate too."""
+    return f"{describe_roots([max(roots, key=lambda root: (root.real, root.imag))])} {finding}"

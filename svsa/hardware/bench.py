@@ -154,7 +154,7 @@ class BenchFile(Checked):
             "deflection": ("counts_per_rev",),
         }
         return [
-            f"[{section}] {name} is not given"
+            f"{section}.{name} is not given"
             for section, names in wanted.items()
             for name in (*names, "sign")
             if getattr(getattr(self, section), name) is None
@@ -171,26 +171,18 @@ def read_bench(path: Path | str) -> BenchFile:
     bench = BenchFile(**{**written, "path": str(path)})
     for name in ("motor1", "motor2"):
         motor: MotorSettings = getattr(bench, name)
-        if not motor.position_min_rad < motor.position_max_rad:
-            bound = f"less than position_max_rad = {motor.position_max_rad:g} rad"
-            raise ParameterError(
-                Violation(f"[{name}] position_min_rad", motor.position_min_rad, "rad", bound)
-            )
-        if motor.peak_current_a < motor.nominal_current_a:
+        lowest, highest, peak = motor.position_min_rad, motor.position_max_rad, motor.peak_current_a
+        if not lowest < highest:
+            bound = f"less than position_max_rad = {highest:g} rad"
+            raise ParameterError(Violation(f"{name}.position_min_rad", lowest, "rad", bound))
+        if peak < motor.nominal_current_a:
             bound = f"at least nominal_current_a = {motor.nominal_current_a:g} A"
-            raise ParameterError(
-                Violation(f"[{name}] peak_current_a", motor.peak_current_a, "A", bound)
-            )
+            raise ParameterError(Violation(f"{name}.peak_current_a", peak, "A", bound))
     if bench.timing.period_s not in PERIODS_S:
         bound = "0.001 or 0.002 s: a drive takes a command each ms at most"
-        raise ParameterError(Violation("[timing] period_s", bench.timing.period_s, "s", bound))
-    if (bench.motor1.drive_group, bench.motor1.drive_number) == (
-        bench.motor2.drive_group,
-        bench.motor2.drive_number,
-    ):
-        raise ParameterError(
-            Violation(
-                "[motor2] drive_number", bench.motor2.drive_number, "", "another than motor1's"
-            )
-        )
+        raise ParameterError(Violation("timing.period_s", bench.timing.period_s, "s", bound))
+    numbers = [(motor.drive_group, motor.drive_number) for motor in (bench.motor1, bench.motor2)]
+    if numbers[0] == numbers[1]:
+        number = bench.motor2.drive_number
+        raise ParameterError(Violation("motor2.drive_number", number, "", "another than motor1's"))
     return bench

@@ -19,6 +19,19 @@ _ACKNOWLEDGEMENTS = 8
 _SLCAN = "slcan"
 
 
+_DRIVERS = {
+    "gs_usb": "pip install 'python-can[gs-usb]', and the system's libusb (libusb-1.0-0)",
+    "kvaser": "Kvaser's driver with CANlib (linuxcan on Linux, from kvaser.com)",
+    "pcan": "PEAK's PCAN-Basic library (libpcanbasic, from peak-system.com)",
+    "neovi": "pip install 'python-can[neovi]'",
+    "canalystii": "pip install 'python-can[canalystii]'",
+    "cantact": "pip install 'python-can[cantact]'",
+    "ixxat": "HMS' VCI driver; it is there for Windows only",
+    "vector": "Vector's XL driver library; it is there for Windows only",
+}
+"""What to install where python-can brings an interface without its driver."""
+
+
 class BusError(SvsaError):
     """A bus that cannot be opened or used; the message says what to look at."""
 
@@ -40,14 +53,23 @@ def open_bus(settings: BusSettings) -> can.BusABC:
             bitrate=settings.bitrate,
             **_choose_options(settings),
         )
-    except (can.CanError, OSError, ValueError, TypeError, ImportError) as error:
-        raise BusError(
-            f"The CAN bus {settings.interface} {settings.channel} cannot be opened: {error}. Check"
-            " that the adapter is plugged in, its driver is there, the channel's name, and that no"
-            " other program holds it."
-        ) from None
+    except Exception as error:  # a driver that is missing shows as any kind, even NameError
+        raise BusError(_describe_failure(settings, error)) from None
     finally:
         socket.setdefaulttimeout(before)
+
+
+def _describe_failure(settings: BusSettings, error: Exception) -> str:
+    name, driver = settings.interface, _DRIVERS.get(settings.interface)
+    if name not in can.VALID_INTERFACES:
+        there = ", ".join(sorted(can.VALID_INTERFACES))
+        return f"The CAN bus cannot be opened: bus.interface is {name!r}, python-can has {there}."
+    needed = f" This interface needs {driver}." if driver else ""
+    return (
+        f"The CAN bus {name} {settings.channel} cannot be opened: {str(error).rstrip('.')}.{needed}"
+        " Check that the adapter is plugged in, its driver is there, the channel's name, and that"
+        " no other program holds it."
+    )
 
 
 def _ask_for_server(settings: BusSettings) -> None:

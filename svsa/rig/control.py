@@ -15,8 +15,8 @@ from typing import Any, Self
 
 from pydantic import TypeAdapter, ValidationError
 
-from svsa.checked import explain
 from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.explanation import explain
 from svsa.plant.disturbances import Load
 from svsa.rig.faults import RigFault
 from svsa.rig.rig import Rig

@@ -7,9 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from svsa.checked import Whole, explain
+from svsa.checked import Whole
 from svsa.control.gains import Gains
 from svsa.errors import ParameterError, StateError, Violation
+from svsa.explanation import explain
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load

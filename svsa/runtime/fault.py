@@ -16,11 +16,14 @@ from svsa.runtime.loop import Blocks
 from svsa.signals import State
 
 
-def build_fault(code: int, lane: int, tick: int, blocks: Blocks, x: State) -> Fault:
-    """The fault of the domain code `code` at the state x, with the values that broke it."""
+def build_fault(code: int, lane: int, tick: int, blocks: Blocks, x: State, name: str = "") -> Fault:
+    """The fault of the domain code `code` at the state x, with the values that broke it.
+
+    name: of the lane, by its law, where several run.
+    """
     values, message = _describe(code, tick * blocks.period, blocks, x)
-    if lane > 0:
-        message = f"Lane {lane + 1}: {message}"
+    if name:
+        message = f"{name}: {message}"
     return Fault(FAULT_CODES[code], lane, tick, tick * blocks.period, message, values)
 
 

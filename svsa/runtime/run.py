@@ -105,13 +105,24 @@ class Run:
             reached[number], ticks[number], code = self._advance_lane(number, rows)
             if code != INSIDE:
                 done, x = ticks[number], reached[number].x
-                self.fault = build_fault(code, number, self.tick + done, self.blocks[number], x)
+                name = self._name_lane(number)
+                self.fault = build_fault(
+                    code, number, self.tick + done, self.blocks[number], x, name
+                )
         for number in range(len(self.lanes)):
             if ticks[number] > done:
                 reached[number], _, _ = self._advance_lane(number, samples[number, :done])
         self.lanes = reached
         self.tick += done
         return done
+
+    def _name_lane(self, number: int) -> str:
+        """The law of a lane, with its number where another has the same; "" where it is alone."""
+        laws = [lane.law.upper() for lane in self.configuration.lanes]
+        if len(laws) == 1:
+            return ""
+        law = laws[number]
+        return f"{law} ({number + 1})" if laws.count(law) > 1 else law
 
     def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
         """One lane from the present tick on; the first comes last, so that it is asked once."""

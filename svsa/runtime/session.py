@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Self
 
 from svsa.errors import Fault, StateError
+from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad
 from svsa.runtime.clock import SimulationClock
 from svsa.runtime.command import KINDS, Command, build_command
@@ -263,7 +264,7 @@ class Session:
                     running.update(samples[lane, :done])
             if self.run.fault is not None:
                 self.clock.stop()
-                self._log("fault", self.run.fault.code)
+                self._log("fault", label_fault(self.run.fault.code))
 
     def _log_loads(self) -> None:
         for _, load, start, end in self.run.loads:

@@ -15,19 +15,21 @@ def test_gains_and_poles_are_two_forms_of_one_thing():
 
 
 @pytest.mark.parametrize(
-    ("position", "word"),
+    ("position", "word", "finding"),
     [
-        ((1.0, 1.0, 1.0, -1.0), "Hurwitz"),
-        ((0.0, 1.0, 1.0, 1.0), "Hurwitz"),
-        ((1e14,) * 4, "slower"),
+        ((1.0, 1.0, 1.0, -1.0), "Hurwitz", "0.9334 ± 1.132j lies right of the imaginary axis"),
+        ((0.0, 1.0, 1.0, 1.0), "Hurwitz", "0 lies on the imaginary axis"),
+        ((1e14,) * 4, "slower", "is faster than 1000 rad/s"),
     ],
 )
-def test_unstable_and_too_fast_gains_are_refused_with_their_roots(position, word):
+def test_unstable_and_too_fast_gains_are_refused_with_their_roots(position, word, finding):
     with pytest.raises(svsa.ParameterError) as refused:
         svsa.Gains(position_coefficients=position, stiffness_coefficients=(1600.0, 80.0))
     (violation,) = refused.value.violations
     assert violation.name == "position_coefficients"
     assert word in violation.bound
+    assert finding in violation.message
+    assert len(violation.message) < 90
     assert "roots are" in violation.bound
 
 

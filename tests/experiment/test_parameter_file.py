@@ -3,6 +3,7 @@
 import tomllib
 
 import pytest
+import tomli_w
 
 import svsa
 
@@ -113,5 +114,27 @@ def test_all_wrong_values_are_named_at_once(tmp_path):
     with pytest.raises(svsa.ParameterError) as refused:
         svsa.read_design(path)
     names = {violation.name for violation in refused.value.violations}
-    assert names >= {"link_inertia_kg_m2", "motor1_inertia_kg_m2", "nominal", "gains"}
+    assert names >= {
+        "actuator.link_inertia_kg_m2",
+        "actuator.motor1_inertia_kg_m2",
+        "nominal",
+        "gains",
+    }
     assert refused.value.violations[0].unit == "kg·m²"
+
+
+@pytest.mark.parametrize("section", ["actuator", "nominal"])
+def test_fields_of_one_name_are_told_apart_by_their_section(tmp_path, section):
+    """Plant and model have the same fields: only the path says which one is wrong."""
+    design = svsa.load_prototype()
+    path = tmp_path / "design.toml"
+    svsa.write_design(path, design, "a test")
+    sections = tomllib.loads(path.read_text(encoding="utf-8"))
+    sections[section]["radius_m"] = 0.0
+    path.write_text(tomli_w.dumps(sections), encoding="utf-8")
+    with pytest.raises(svsa.ParameterError) as refused:
+        svsa.read_design(path)
+    (violation,) = refused.value.violations
+    assert violation.name == f"{section}.radius_m"
+    assert violation.message == f"{section}.radius_m is 0.0 m: it must be at least 0.001 m."
+    assert violation.limits == {"ge": 0.001}

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.fault_labels import label_fault
 from svsa.runtime.clock import LONGEST_BACKLOG_S
 
 from .sessions import PULSE, build_session, list_events, read_samples
@@ -105,6 +106,7 @@ def test_a_fault_stops_the_session_until_it_is_reset():
     session.wake(0.4)
     assert list_events(session)[-1] == (session.run.tick, "fault")
     assert [kind for _, kind in list_events(session)].count("fault") == 1
+    assert session.events[-1].label == label_fault(session.run.fault.code) != session.run.fault.code
     for refused in (session.start, lambda: session.step(1)):
         with pytest.raises(svsa.StateError, match="fault"):
             refused()

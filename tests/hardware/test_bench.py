@@ -38,27 +38,31 @@ def test_what_belongs_to_a_motor_has_no_default(tmp_path: Path) -> None:
     changes = {f"motor1__{name}": None for name in names}
     bench = read_bench(write(tmp_path, **changes, deflection__sign=None))
     missing = " ".join(bench.find_missing())
-    assert all(f"[motor1] {name}" in missing for name in names)
-    assert "[deflection] sign" in missing
+    assert all(f"motor1.{name}" in missing for name in names)
+    assert "deflection.sign" in missing
     assert len(bench.find_missing()) == 6
 
 
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
-        ("motor1__gear_ratio", 0.0, "gear_ratio is 0.0: it must be greater than 0"),
+        ("motor1__gear_ratio", 0.0, "motor1.gear_ratio is 0.0: it must be greater than 0"),
         ("motor1__sign", 2, "sign"),
         ("motor1__torque_constant_nm_per_a", float("nan"), "torque_constant_nm_per_a"),
-        ("motor1__efficiency", 1.2, "efficiency is 1.2: it must be at most 1"),
-        ("motor2__drive_number", 0, "drive_number"),
+        ("motor1__efficiency", 1.2, "motor1.efficiency is 1.2: it must be at most 1"),
+        ("motor2__drive_number", 0, "motor2.drive_number is 0"),
         ("motor2__drive_number", 1, "another than motor1's"),
-        ("motor2__position_min_rad", 9.0, "less than position_max_rad = 3 rad"),
+        (
+            "motor2__position_min_rad",
+            9.0,
+            "motor2.position_min_rad is 9.0 rad: it must be less than position_max_rad = 3 rad",
+        ),
         ("motor2__peak_current_a", 1.0, "at least nominal_current_a = 1.16 A"),
         ("deflection__source", "guess", "source"),
-        ("timing__period_s", 0.003, "period_s"),
+        ("timing__period_s", 0.003, "timing.period_s"),
         ("safety__torque_rate_nm_per_s", -1.0, "torque_rate_nm_per_s"),
         ("safety__dead_man", "no", "dead_man"),
-        ("motor1__gearratio", 50.0, "gearratio"),
+        ("motor1__gearratio", 50.0, "motor1.gearratio"),
         ("home__lever_ratio", 1.0, "lever_ratio"),
     ],
 )

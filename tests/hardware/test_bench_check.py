@@ -2,6 +2,7 @@
 
 import contextlib
 import itertools
+import re
 import socket
 import threading
 
@@ -211,7 +212,7 @@ def test_an_uncalibrated_bench_can_be_checked(tmp_path, bus):
     )
     steps = check(path, bus, move=True)
     assert steps["file"].result is Result.WARN
-    assert "[motor1] efficiency is not given" in steps["file"].measured
+    assert "motor1.efficiency is not given" in steps["file"].measured
     assert steps["motor1: sign"].result is Result.WARN
     assert steps["calibration"].result is Result.WARN
 
@@ -303,6 +304,28 @@ def test_unknown_interfaces_and_wrong_options_are_errors_of_the_bus():
     for options in ({"interface": "nonesuch"}, {"interface": "socketcand", "options": {"x": 1}}):
         with pytest.raises(BusError, match="cannot be opened"):
             open_bus(BusSettings(**{"channel": "can0", **options}))
+
+
+@pytest.mark.parametrize(
+    ("interface", "package", "raised"),
+    [
+        ("kvaser", "CANlib", NameError("name 'canGetNumberOfChannels' is not defined")),
+        ("gs_usb", "pip install 'python-can[gs-usb]'", can.CanInterfaceNotImplementedError("usb")),
+        ("pcan", "libpcanbasic", OSError("PCANBasic library not found.")),
+    ],
+)
+def test_an_interface_without_its_driver_names_what_to_install(
+    monkeypatch, interface, package, raised
+):
+    """python-can's kvaser ends in a NameError where CANlib is not there."""
+
+    def fail(**_):
+        raise raised
+
+    monkeypatch.setattr(can, "Bus", fail)
+    with pytest.raises(BusError, match=re.escape(package)) as refused:
+        open_bus(BusSettings(interface=interface, channel="0"))
+    assert str(raised).rstrip(".") in str(refused.value)
 
 
 def test_a_daemon_that_says_nothing_is_not_waited_for(monkeypatch):

@@ -30,12 +30,11 @@ def test_the_command_ends_with_an_error_where_a_step_fails(tmp_path):
     assert "Correct the bench file" in result.output
 
 
-def test_the_command_prints_sections_of_the_bench_file_as_they_are_written(tmp_path):
-    """A printer that takes [motor1] for markup would leave out the very word that matters."""
+def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_path):
     path = copy_bench(tmp_path, lambda text: text.replace("sign = 1\n", "").replace("29536", "1"))
     result = CliRunner().invoke(APP, ["bench-check", str(path)])
-    assert "[motor1] sign is not given" in result.output
-    assert "[deflection] sign is not given" in " ".join(result.output.split())
+    assert "motor1.sign is not given" in result.output
+    assert "deflection.sign is not given" in " ".join(result.output.split())
 
 
 def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):

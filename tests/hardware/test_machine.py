@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from svsa.errors import ParameterError, StateError
+from svsa.fault_labels import FAULT_LABELS
 from svsa.hardware.bench import read_bench
 from svsa.hardware.faults import FAULTS, Alarm
 from svsa.hardware.homing import STEPS
@@ -191,3 +192,8 @@ def test_a_fault_has_the_time_of_its_run() -> None:
     assert machine.fault is not None
     assert (machine.fault.code, machine.fault.tick) == ("bus_error", 250)
     assert machine.fault.time_s == pytest.approx(0.25)
+
+
+def test_every_fault_of_a_bench_has_words_for_a_mark() -> None:
+    assert FAULTS.keys() <= FAULT_LABELS.keys()
+    assert all(0 < len(label) < 26 and "_" not in label for label in FAULT_LABELS.values())

@@ -46,7 +46,8 @@ def test_unstable_gains_come_with_their_roots_and_the_page_can_show_them(lab: La
     poles = [-60, -60, [5, 30], [5, -30]]
     found = predict(lab, gains={"position_poles_rad_per_s": poles})
     assert max(root["re"] for root in found["position_roots_rad_per_s"]) == pytest.approx(5)
-    assert "Hurwitz" in found["reasons"][0]["message"]
+    message = found["reasons"][0]["message"]
+    assert message == "Position poles: 5 ± 30j lies right of the imaginary axis."
     assert found["fl"] is found["noise"] is found["demand"] is None
 
 

@@ -60,7 +60,7 @@ REFUSED = [
     ("PUT", "position", SINE | {"amplitude_rad": True}, "amplitude_rad", "rad", "a number"),
     ("PUT", "position", SINE | {"speed": 1}, "speed", "", "no such field"),
     ("PUT", "position", {"kind": "square"}, "kind", "", "'sine', 'constant'"),
-    ("PUT", "position", {"kind": "sine"}, "amplitude_rad", "rad", "given"),
+    ("PUT", "position", {"kind": "sine", "frequency_hz": 1}, "amplitude_rad", "rad", "given"),
     (
         "PUT",
         "stiffness",
@@ -103,10 +103,50 @@ REFUSED = [
         "rad/s",
         "at most 1000 rad/s",
     ),
-    ("PUT", "observer", {"bandwidth_rad_per_s": [60]}, "bandwidth_rad_per_s[1]", "rad/s", "given"),
-    ("PATCH", "actuator", {"radius_m": 0}, "radius_m", "m", "at least 0.001 m"),
-    ("PATCH", "nominal", {"mass": 1}, "mass", "", "no such field"),
+    (
+        "PUT",
+        "observer",
+        {"bandwidth_rad_per_s": [60, 60]},
+        "bandwidth_rad_per_s[2]",
+        "rad/s",
+        "given",
+    ),
+    ("PATCH", "actuator", {"radius_m": 0}, "actuator.radius_m", "m", "at least 0.001 m"),
+    ("PATCH", "nominal", {"radius_m": 0}, "nominal.radius_m", "m", "at least 0.001 m"),
+    ("PATCH", "nominal", {"mass": 1}, "nominal.mass", "", "no such field"),
+    (
+        "PUT",
+        "lanes",
+        {"rivals": [{"law": "fl"}, {"law": "pid"}]},
+        "rivals[1].law",
+        "",
+        "'ndobc' or 'fl'",
+    ),
+    (
+        "PUT",
+        "effects",
+        {"noise": {"motor_std_rad": -1}},
+        "noise.motor_std_rad",
+        "rad",
+        "at least 0 rad",
+    ),
     ("PUT", "speed", {"factor": 1e9}, "factor", "1", "at most 20"),
+    (
+        "PUT",
+        "gains",
+        {"position_poles_rad_per_s": [24.4, -60, -40, -40]},
+        "position_poles_rad_per_s",
+        "rad/s",
+        "left of the imaginary axis",
+    ),
+    (
+        "POST",
+        "loads",
+        {"kind": "series", "time_s": [0, 1], "torque_nm": [[99, 0, 0], [0, 0, 0]]},
+        "torque_nm[0][0]",
+        "N·m",
+        "at most 50 N·m",
+    ),
     ("POST", "step", {"ticks": 1.5}, "ticks", "ticks", "a whole number"),
     ("POST", "experiment", {"figure": "9"}, "figure", "", "'4a', '4b' or '5'"),
     ("POST", "loads", {"kind": "mass", "mass_kg": -3}, "mass_kg", "kg", "greater than 0 kg"),
@@ -129,7 +169,7 @@ def test_wrong_input_names_field_unit_and_bound_and_changes_nothing(
     before = lab.read()
     answer = lab.client.request(method, f"{lab.session}/{path}", json=body)
     assert answer.status_code == 422
-    violation = answer.json()["violations"][0]
+    (violation,) = answer.json()["violations"]
     assert violation["name"] == name
     assert violation["unit"] == unit
     assert bound in violation["bound"]
@@ -157,6 +197,60 @@ def test_a_body_that_is_no_reference_is_refused_clearly(lab: Lab, text: str) -> 
     )
     assert answer.status_code == 422
     assert answer.json()["message"]
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "words"),
+    [
+        ('{"law": }', "malformed_json", "line 1, column 9"),
+        ('{\n  "law": "fl",\n}', "malformed_json", "line 3, column 1"),
+        (b'{"law": "\xff"}', "malformed_json", "UTF-8"),
+    ],
+)
+def test_malformed_json_is_named_as_such_with_its_place(
+    lab: Lab, text: str | bytes, kind: str, words: str
+) -> None:
+    answer = lab.client.put(
+        lab.session + "/controller", content=text, headers={"Content-Type": "application/json"}
+    )
+    assert answer.status_code == 422
+    assert answer.json()["error"] == kind
+    assert words in answer.json()["message"]
+    assert answer.json()["violations"] == []
+
+
+@pytest.mark.parametrize(
+    ("header", "words"), [(None, "it has no Content-Type"), ("text/plain", "'text/plain'")]
+)
+def test_a_body_that_was_not_sent_as_json_is_named_as_such(
+    lab: Lab, header: str | None, words: str
+) -> None:
+    headers = {"Content-Type": header} if header else {}
+    answer = lab.client.put(lab.session + "/controller", content=b'{"law":"fl"}', headers=headers)
+    assert answer.status_code == 422
+    assert answer.json()["error"] == "content_type"
+    assert words in answer.json()["message"]
+    assert "application/json" in answer.json()["message"]
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status", "kind"),
+    [
+        ("GET", "/api/v1/nowhere", 404, "not_found"),
+        ("GET", "/nowhere", 404, "not_found"),
+        ("GET", "/assets/nothing.js", 404, "not_found"),
+        ("PATCH", "/api/v1/sessions/lab/start", 405, "method_not_allowed"),
+    ],
+)
+def test_a_route_that_is_none_is_refused_in_the_labs_own_form(
+    lab: Lab, method: str, path: str, status: int, kind: str
+) -> None:
+    answer = lab.client.request(method, path)
+    assert answer.status_code == status
+    assert answer.json()["error"] == kind
+    assert path in answer.json()["message"]
+    assert answer.json()["violations"] == []
+    assert ("Allow" in answer.headers) == (status == 405)
 
 
 def test_a_huge_body_is_refused(lab: Lab) -> None:

@@ -54,7 +54,7 @@ async def predict_design(
         try:
             gains = Gains(position_coefficients=position, stiffness_coefficients=stiffness)
         except ParameterError as error:
-            return _refuse(str(error), position, stiffness, sigma)
+            return _refuse(_describe(error), position, stiffness, sigma)
         configuration = configuration.changed(gains=gains)
     found = await asyncio.to_thread(prediction.predict, configuration, sigma)
     return _build_prediction(configuration, found, sigma)
@@ -67,6 +67,14 @@ def _read_stiffness(session: Session) -> float:
     if newest is None:
         return compute_start_value(configuration.stiffness)
     return float(newest[CHANNEL_INDEX["stiffness_reference_nm_per_rad"]])
+
+
+def _describe(error: ParameterError) -> str:
+    """The refusal of gains as it is read in a panel: "Position poles: … lies right of …"."""
+    return " ".join(
+        f"{violation.name.partition('_')[0].capitalize()} poles: {violation.finding}."
+        for violation in error.violations
+    )
 
 
 def _refuse(

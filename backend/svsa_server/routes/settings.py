@@ -23,8 +23,10 @@ router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=RE
 
 if TYPE_CHECKING:
     ActuatorPatch = Checked
+    NominalPatch = Checked
 else:
-    ActuatorPatch = build_patch(ActuatorParameters)
+    ActuatorPatch = build_patch("actuator", ActuatorParameters)
+    NominalPatch = build_patch("nominal", ActuatorParameters)
 
 
 @router.put("/position")
@@ -120,7 +122,7 @@ async def change_actuator(
 @router.patch("/nominal")
 async def change_nominal(
     session: NamedSession,
-    patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
+    patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
 ) -> SessionState:
     """Change parameters of the model that controller and observer believe in."""
     session.change("nominal", _apply(patch, session.run.configuration.nominal))

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
+from svsa.fault_labels import label_fault
 from svsa.hardware.bench import read_bench
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.homing import Axis
@@ -203,7 +204,7 @@ class BenchSession(Session):
 
     def _latch(self, fault: Fault) -> None:
         self._fault = fault
-        self._log("fault", fault.code)
+        self._log("fault", label_fault(fault.code))
 
     def _ask(self, wanted: str, argument: object = None) -> dict:
         """Have the loop do it; what it says of its state is known when this returns."""

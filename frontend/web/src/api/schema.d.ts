@@ -988,8 +988,8 @@ export interface components {
              */
             reaction_torque: "energy" | "printed";
         };
-        /** ActuatorParametersPatch */
-        ActuatorParametersPatch: {
+        /** ActuatorPatch */
+        ActuatorPatch: {
             /**
              * Link Inertia Kg M2
              * @description Output link inertia M, kg·m²
@@ -1895,6 +1895,59 @@ export interface components {
             /** Recovery Time S */
             recovery_time_s: number | null;
         };
+        /** NominalPatch */
+        NominalPatch: {
+            /**
+             * Link Inertia Kg M2
+             * @description Output link inertia M, kg·m²
+             */
+            link_inertia_kg_m2?: number | null;
+            /**
+             * Motor1 Inertia Kg M2
+             * @description Principal motor inertia B1, kg·m²
+             */
+            motor1_inertia_kg_m2?: number | null;
+            /**
+             * Motor2 Inertia Kg M2
+             * @description Stiffness motor inertia B2, kg·m²
+             */
+            motor2_inertia_kg_m2?: number | null;
+            /**
+             * Link Damping Nms Per Rad
+             * @description Link damping D, N·m·s/rad
+             */
+            link_damping_nms_per_rad?: number | null;
+            /**
+             * Motor1 Damping Nms Per Rad
+             * @description Motor 1 damping D1, N·m·s/rad
+             */
+            motor1_damping_nms_per_rad?: number | null;
+            /**
+             * Motor2 Damping Nms Per Rad
+             * @description Motor 2 damping D2, N·m·s/rad
+             */
+            motor2_damping_nms_per_rad?: number | null;
+            /**
+             * Spring Stiffness N Per M
+             * @description Spring stiffness K_s, N/m
+             */
+            spring_stiffness_n_per_m?: number | null;
+            /**
+             * Radius M
+             * @description Radius R, m
+             */
+            radius_m?: number | null;
+            /**
+             * Spiral Reduction
+             * @description Reduction γ of the spiral, 1
+             */
+            spiral_reduction?: number | null;
+            /**
+             * Reaction Torque
+             * @description τ_r: energy-consistent, or as printed in Eq 5
+             */
+            reaction_torque?: ("energy" | "printed") | null;
+        };
         /**
          * ObserverBandwidth
          * @description β_i = k_i/J_i: how fast the estimation error decays (Eq 12) on channels 2, 4, 6.
@@ -2696,6 +2749,7 @@ export interface components {
         ViolationModel: {
             /**
              * Name
+             * @description Path of the field in what was sent, such as rivals[0].law
              * @example frequency_hz
              */
             name: string;
@@ -2715,6 +2769,23 @@ export interface components {
              * @example at most 5 Hz
              */
             bound: string;
+            /**
+             * Limits
+             * @description The numbers of the bound in the unit, by ge, gt, le or lt
+             * @default {}
+             * @example {
+             *       "le": 5
+             *     }
+             */
+            limits: {
+                [key: string]: number;
+            };
+            /**
+             * Finding
+             * @description What is wrong, where the bound is not of the value itself
+             * @default
+             */
+            finding: string;
             /**
              * Message
              * @example frequency_hz is 9.0 Hz: it must be at most 5 Hz.
@@ -4060,7 +4131,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ActuatorParametersPatch"];
+                "application/json": components["schemas"]["ActuatorPatch"];
             };
         };
         responses: {
@@ -4117,7 +4188,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ActuatorParametersPatch"];
+                "application/json": components["schemas"]["NominalPatch"];
             };
         };
         responses: {
