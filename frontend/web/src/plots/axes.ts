@@ -1,15 +1,12 @@
 /** The axes of every plot look the same, and stand at the same place. */
 import type uPlot from "uplot";
 import { palette } from "./palette";
-import { formatTicks } from "./ticks";
+import { formatTicks, timeStep } from "./ticks";
 
 /** Room left and right of the curves, CSS pixels; also the place of everything laid over the plots. */
 export const LEFT_PX = 50;
 export const RIGHT_PX = 10;
 export const FONT = "11px system-ui, sans-serif";
-/** Steps of a time axis, s. */
-export const TIME_STEPS_S = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
-
 export const plainAxis = (): uPlot.Axis => ({
   stroke: () => palette.peek().axis,
   grid: { stroke: () => palette.peek().grid, width: 1 },
@@ -29,8 +26,8 @@ export const valueAxis = (): uPlot.Axis => ({
 export const timeGrid = (): uPlot.Axis => ({
   ...plainAxis(),
   size: 0,
-  space: 60,
-  incrs: TIME_STEPS_S,
+  space: 1,
+  incrs: (_plot, _axis, from, to, width) => [timeStep({ from, to }, width)],
   values: (_, splits) => splits.map(() => ""),
 });
 

@@ -85,7 +85,7 @@ export class Chart {
     if (this.#perBucketS > 0 && width > 0 && height > 0) {
       const frame = { ring: shownRing(), span: shownSpan(), min, max, width, height };
       this.#layer.draw({ ...frame, shown: this.#shown }, this.#perBucketS);
-      ctx.drawImage(this.#layer.canvas, bbox.left, bbox.top);
+      this.#layer.paint(ctx, bbox.left, bbox.top);
     }
     drawBounds(this.#plot, this.#bounds);
     drawCursorSamples(this.#plot, this.#shown);

@@ -1,11 +1,14 @@
 /**
- * The strokes of a plot on a canvas of their own. While time goes on they are moved to the left by
- * whole pixels and only what is new is stroked; anything else draws them all again.
+ * The strokes of a plot on a canvas of their own. While time goes on only what is new is stroked,
+ * over what has left the plot: the canvas is a roll on which the plot's left edge moves, and each
+ * pixel stays where it was stroked, for moving it again and again would blur it. Anything else draws
+ * them all again.
  */
 import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { type Curve, drawSigns, type Place } from "./curves";
 import { palette } from "./palette";
+import { type Piece, piecesOf } from "./roll";
 import type { Span } from "./spans";
 
 /** Everything that the strokes depend on but time. */
@@ -48,9 +51,11 @@ function isContinued(drawn: Drawn, next: Frame): boolean {
 }
 
 export class StrokeLayer {
-  readonly canvas = document.createElement("canvas");
-  readonly #context = this.canvas.getContext("2d") as CanvasRenderingContext2D;
+  readonly #canvas = document.createElement("canvas");
+  readonly #context = this.#canvas.getContext("2d") as CanvasRenderingContext2D;
   #drawn: Drawn | null = null;
+  /** Which pixel since time 0 stands at the roll's beginning, as do those whole widths after it. */
+  #origin = 0;
 
   /** @param perBucketS time between two points of a curve */
   draw(frame: Frame, perBucketS: number): void {
@@ -63,41 +68,57 @@ export class StrokeLayer {
     };
     const from = this.#makeRoom(frame, left, place, perBucketS);
     const context = this.#context;
-    context.save();
-    context.beginPath();
-    context.rect(from, 0, width - from, height);
-    context.clip();
-    for (const curve of shown) {
-      curve.stroke(context, place, from - STROKE_PX * uPlot.pxRatio);
-      drawSigns(context, curve, place, from);
+    for (const piece of this.#piecesFrom(from, left)) {
+      context.save();
+      context.clearRect(piece.from, 0, piece.to - piece.from, this.#canvas.height);
+      context.beginPath();
+      context.rect(piece.from, 0, piece.to - piece.from, this.#canvas.height);
+      context.clip();
+      context.translate(piece.shift, 0);
+      for (const curve of shown) {
+        curve.stroke(context, place, from - STROKE_PX * uPlot.pxRatio);
+        drawSigns(context, curve, place, from);
+      }
+      context.restore();
     }
-    context.restore();
     const newest = ring.newestTime;
     this.#drawn = { ...frame, look: palette.peek(), left, newest };
   }
 
-  /** Moves what stays and clears the rest; returns where the rest begins. */
+  /** Puts what was drawn onto a plot, pixel by pixel. */
+  paint(context: CanvasRenderingContext2D, x: number, y: number): void {
+    if (this.#drawn === null) return;
+    const { width, height } = this.#canvas;
+    if (width === 0 || height === 0) return;
+    context.save();
+    context.imageSmoothingEnabled = false;
+    for (const { from, to, shift } of this.#piecesFrom(0, this.#drawn.left)) {
+      const [across, left] = [to - from, Math.round(x) + from - shift];
+      context.drawImage(this.#canvas, from, 0, across, height, left, Math.round(y), across, height);
+    }
+    context.restore();
+  }
+
+  #piecesFrom(first: number, left: number): Piece[] {
+    const { width } = this.#canvas;
+    return piecesOf((left - this.#origin) % width, first, width);
+  }
+
+  /** Lets stay what stands; returns where the rest begins, in pixels of the plot. */
   #makeRoom(frame: Frame, left: number, place: Place, perBucketS: number): number {
-    const { width, height } = frame;
-    const context = this.#context;
+    const [width, height] = [Math.round(frame.width), Math.round(frame.height)];
     const drawn = this.#drawn;
     const shift = drawn === null ? -1 : left - drawn.left;
     if (drawn === null || !isContinued(drawn, frame) || shift < 0 || shift >= width) {
-      if (this.canvas.width !== width) this.canvas.width = width;
-      if (this.canvas.height !== height) this.canvas.height = height;
-      context.clearRect(0, 0, width, height);
+      if (this.#canvas.width !== width) this.#canvas.width = width;
+      if (this.#canvas.height !== height) this.#canvas.height = height;
+      this.#origin = left;
       for (const curve of frame.shown) curve.forget();
       return 0;
-    }
-    if (shift > 0) {
-      context.globalCompositeOperation = "copy";
-      context.drawImage(this.canvas, -shift, 0);
-      context.globalCompositeOperation = "source-over";
     }
     const settled = place.x(drawn.newest - UNSETTLED_BUCKETS * perBucketS);
     const entered = width - shift;
     const from = Math.max(0, Math.floor(Math.min(settled, entered) - STROKE_PX * uPlot.pxRatio));
-    context.clearRect(from, 0, width - from, height);
     return Math.min(from, width);
   }
 }

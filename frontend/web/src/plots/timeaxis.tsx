@@ -1,12 +1,12 @@
 import { useEffect, useRef } from "preact/hooks";
 import { text } from "../text/en";
-import { FONT, TIME_STEPS_S } from "./axes";
+import { FONT } from "./axes";
 import { onFrame } from "./frame";
 import { palette } from "./palette";
 import { goLive, isHeld, pan, shownRing, shownSpan, showSpan, zoom } from "./span";
 import type { Span } from "./spans";
+import { placeWords, timeStep } from "./ticks";
 
-const LEAST_BETWEEN_PX = 64;
 const PAN_SHARE = 0.1;
 const ZOOM = 1.25;
 const TOLD_MS = 1000;
@@ -43,14 +43,13 @@ function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
   context.font = FONT;
   context.fillStyle = palette.peek().axis;
   context.textBaseline = "middle";
-  const most = clientWidth / LEAST_BETWEEN_PX;
-  const step = TIME_STEPS_S.find((one) => (to - from) / one <= most) ?? 10;
+  const step = timeStep({ from, to }, clientWidth);
+  const perStep = (step / (to - from)) * clientWidth;
   for (let index = Math.ceil(from / step - 1e-9); index * step <= to + 1e-9; index++) {
     const x = ((index * step - from) / (to - from)) * clientWidth;
-    const isFirst = x < 12;
-    const isLast = x > clientWidth - 14;
-    context.textAlign = isFirst ? "left" : isLast ? "right" : "center";
-    context.fillText(text.plots.timeTick(index * step), x, clientHeight / 2 + 1);
+    const words = text.plots.timeTick(index * step);
+    const left = placeWords(x, context.measureText(words).width, clientWidth, perStep);
+    if (left !== null) context.fillText(words, left, clientHeight / 2 + 1);
   }
 }
 

@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { addressOf, branchRun, exportPath } from "../api/runs";
 import type { ExportName, RunDetails } from "../api/types";
+import { Popup } from "../panel/popup";
 import { noteDownload } from "../script/calls";
 import { CopyButton } from "../script/copybutton";
 import { makeRunScript, scriptProblem } from "../script/repeat";
@@ -43,28 +44,29 @@ function Branch({ run, moment }: { run: RunDetails; moment: number }) {
 
 function Exports({ run }: { run: RunDetails }) {
   return (
-    <details class="menu">
-      <summary class="button">{words.download}</summary>
-      <ul>
-        {KINDS.map((kind) => {
-          const path = exportPath(run.id, kind);
-          return (
-            <li key={kind}>
-              <a
-                href={addressOf(path)}
-                download
-                onClick={(event) => {
-                  noteDownload(path);
-                  event.currentTarget.closest("details")?.removeAttribute("open");
-                }}
-              >
-                <strong>{words.kinds[kind].name}</strong> <small>{words.kinds[kind].does}</small>
-              </a>
-            </li>
-          );
-        })}
-      </ul>
-    </details>
+    <Popup class="button run-exports" title={words.downloadHint} button={words.download}>
+      {(close) => (
+        <ul class="exports">
+          {KINDS.map((kind) => {
+            const path = exportPath(run.id, kind);
+            return (
+              <li key={kind}>
+                <a
+                  href={addressOf(path)}
+                  download
+                  onClick={() => {
+                    noteDownload(path);
+                    close();
+                  }}
+                >
+                  <strong>{words.kinds[kind].name}</strong> <small>{words.kinds[kind].does}</small>
+                </a>
+              </li>
+            );
+          })}
+        </ul>
+      )}
+    </Popup>
   );
 }
 

@@ -71,6 +71,7 @@ export const runsText = {
     scriptHint: "A Python file that does this run again",
     copied: "Copied",
     download: "Export",
+    downloadHint: "The whole run as a file",
     kinds: {
       csv: { name: "CSV", does: "a table for any program" },
       parquet: { name: "Parquet", does: "for pandas, Polars, DuckDB" },
