@@ -13,6 +13,7 @@ from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
+VELOCITIES = ("velocity_reference_rad_per_s", "velocity_rad_per_s")
 NEWEST = "() => window.svsa.series('position_error_rad').time.at(-1)"
 STREAMED = "channel => window.svsa.channels().includes(channel)"
 
@@ -66,7 +67,7 @@ def test_plots_are_added_removed_kept_and_reset(page: Page, lab: Lab) -> None:
     for name in ("Deflection", "Phase plane", "Lever ratio μ"):
         expect(find_plot(page, name)).to_be_visible()
     expect(find_plot(page, "Stiffness")).to_have_count(0)
-    for channel in ("deflection_rad", "deflection_limit_rad", "lever_ratio", "velocity_rad_per_s"):
+    for channel in ("deflection_rad", "deflection_limit_rad", "lever_ratio", *VELOCITIES):
         page.wait_for_function(STREAMED, arg=channel)
     assert not page.evaluate(STREAMED, "stiffness_nm_per_rad")
 
@@ -89,7 +90,8 @@ def test_every_channel_of_the_server_can_be_picked(page: Page, lab: Lab) -> None
     expect(picker).to_be_visible()
     options = picker.locator("option")
     values = options.evaluate_all("all => all.map(option => option.value).filter(Boolean)")
-    assert sorted(values) == sorted(set(CHANNEL_NAMES) - {"time_s"})
+    derived = {"velocity_error_rad_per_s"}
+    assert sorted(values) == sorted(set(CHANNEL_NAMES) - {"time_s"} | derived)
 
 
 def test_a_channel_more_keeps_the_past_of_the_others(page: Page, lab: Lab) -> None:
@@ -160,6 +162,13 @@ def test_cursors_measure_the_samples_between_them(page: Page, lab: Lab) -> None:
     expect(table.get_by_role("columnheader")).to_have_text(
         ["Curve", "at A", "at B", "Δy", "min", "max", "rms"]
     )
+    axis = find_axis(page).bounding_box()
+    for name in ("Position", "Position error", "Stiffness", "Torque", "Disturbance"):
+        plot = find_plot(page, name).bounding_box()
+        assert plot is not None
+        assert axis is not None
+        assert plot["height"] >= 50
+        assert plot["y"] + plot["height"] <= axis["y"] + 1
     first.focus()
     page.keyboard.press("ArrowRight")
     before = float(first.get_attribute("aria-valuenow") or "nan")

@@ -21,6 +21,16 @@ describe("what the browser kept of the plots", () => {
     ]);
   });
 
+  it("has the two axes of the phase plane as they were chosen, at first velocity error over error", () => {
+    const stored = JSON.stringify([
+      { preset: "phase", channels: ["torque1_nm", "deflection_rad"] },
+    ]);
+    expect(readSetups(stored)?.[0]?.channels).toEqual(["torque1_nm", "deflection_rad"]);
+    const odd = JSON.stringify([{ preset: "phase", channels: ["torque1_nm"] }]);
+    const atFirst = ["position_error_rad", "velocity_error_rad_per_s"];
+    expect(readSetups(odd)?.[0]?.channels).toEqual(atFirst);
+  });
+
   it("is taken as far as it makes sense", () => {
     expect(readSetups(null)).toBeNull();
     expect(readSetups("{")).toBeNull();
@@ -77,7 +87,7 @@ describe("the curves of a plot", () => {
   it("have one unit a plot, and every channel stands under one", () => {
     const names = CHANNELS_BY_UNIT.flatMap(({ channels }) => channels);
     expect(new Set(names).size).toBe(names.length);
-    expect(names).toHaveLength(27);
+    expect(names).toHaveLength(28);
   });
 });
 

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Batch } from "../src/stream/decoder";
+import { sourcesOf } from "../src/stream/derived";
 import { SampleRing } from "../src/stream/ring";
 
 /** Samples at the ticks given, 5 apart; channel a is the tick, channel b its negative. */
@@ -204,5 +205,58 @@ describe("a SampleRing whose channels change", () => {
     expect(ring.stretch("a", 1, 1, 3)?.number).toBe(2);
     expect(ring.stretch("b", 1, 0, 3)).toBeNull();
     expect(new SampleRing(3, []).nearestTo(1)).toBe(-1);
+  });
+});
+
+describe("a channel that is derived", () => {
+  const VELOCITIES = ["velocity_reference_rad_per_s", "velocity_rad_per_s"];
+  const of = (tick: number, ...values: number[]): Batch => ({
+    ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0, lanes: 1 },
+    values: new Float32Array(values),
+  });
+  const derived = (ring: SampleRing) =>
+    Array.from({ length: ring.length }, (_, index) =>
+      ring.valueAt("velocity_error_rad_per_s", index),
+    );
+
+  it("is the difference of its two, sample by sample, and no channel of the stream", () => {
+    const ring = new SampleRing(10, VELOCITIES);
+    ring.append(of(0, 3, 1), 1);
+    ring.append(of(2, 1, 4), 1);
+    expect(derived(ring)).toEqual([2, Number.NaN, -3]);
+    expect(ring.channels).toEqual(VELOCITIES);
+    expect(sourcesOf("velocity_error_rad_per_s")).toEqual(VELOCITIES);
+    expect(sourcesOf("torque1_nm")).toEqual(["torque1_nm"]);
+  });
+
+  it("comes and goes with them", () => {
+    const ring = new SampleRing(10, VELOCITIES.slice(0, 1));
+    ring.append(of(0, 3), 1);
+    const held = ring.copy();
+    const both = ring.reselect(VELOCITIES);
+    both.append(of(0, 3, 1), 1);
+    expect(derived(both)).toEqual([2]);
+    held.adopt(both);
+    expect(derived(held)).toEqual([2]);
+    expect(derived(both.reselect(VELOCITIES.slice(0, 1)))).toEqual([Number.NaN]);
+  });
+});
+
+describe("a reading", () => {
+  it("is of the nearest sample, and of none before the oldest and after the newest", () => {
+    const ring = new SampleRing(10, ["a"]);
+    ring.append(batch(1000, 3), 0.01);
+    const times = [9.9, 9.99, 10.04, 10.1, 10.11, 10.2];
+    expect(times.map((time) => ring.sampleAt(time))).toEqual([-1, 0, 1, 2, 2, -1]);
+    expect(new SampleRing(3, []).sampleAt(0)).toBe(-1);
+  });
+
+  it("of a channel that came later begins where it has numbers", () => {
+    const ring = new SampleRing(10, ["a"]);
+    ring.append(pair(0, 1), 1);
+    ring.append(pair(1, 2, 20), 1);
+    expect(ring.beginningOf("a", 1)).toBe(0);
+    expect(ring.beginningOf("a", 2)).toBe(1);
+    expect(ring.beginningOf("b", 1)).toBeNaN();
   });
 });

@@ -30,7 +30,10 @@ const angle = (colour: PlotColour, span = 2): ChannelLook => ({
   span,
   colour,
 });
-const speed = (colour: PlotColour): ChannelLook => ({ ...angle(colour), unit: "deg/s" });
+const speed = (colour: PlotColour, span = 2): ChannelLook => ({
+  ...angle(colour, span),
+  unit: "deg/s",
+});
 const stiffness = (colour: PlotColour, span = 2): ChannelLook => ({
   unit: "N·m/rad",
   factor: 1,
@@ -52,6 +55,7 @@ export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
   velocity_reference_rad_per_s: { ...speed("reference"), isReference: true },
   velocity_rad_per_s: speed("blue"),
   velocity_estimate_rad_per_s: speed("orange"),
+  velocity_error_rad_per_s: speed("vermilion", 0.02),
   motor1_velocity_rad_per_s: speed("green"),
   motor2_velocity_rad_per_s: speed("purple"),
   stiffness_reference_nm_per_rad: { ...stiffness("reference"), isReference: true },

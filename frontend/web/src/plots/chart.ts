@@ -7,7 +7,7 @@ import { Curve } from "./curves";
 import { extentOf } from "./decimation";
 import type { Bound, Trace } from "./definitions";
 import { StrokeLayer } from "./layer";
-import { drawBounds, drawCursorSamples, drawEvents } from "./marks";
+import { drawBeginning, drawBounds, drawCursorSamples, drawEvents } from "./marks";
 import { includeBounds, niceRange } from "./range";
 import { shownRing, shownSpan } from "./span";
 
@@ -88,6 +88,7 @@ export class Chart {
       this.#layer.paint(ctx, bbox.left, bbox.top);
     }
     drawBounds(this.#plot, this.#bounds);
+    drawBeginning(this.#plot, this.#shown);
     drawCursorSamples(this.#plot, this.#shown);
   }
 

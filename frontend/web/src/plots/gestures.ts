@@ -21,6 +21,10 @@ const isOverCurves = (event: Event) =>
 export function listenToGestures(stage: HTMLElement, box: HTMLElement): () => void {
   let drag: { x: number; span: Span; isMoving: boolean } | null = null;
 
+  const showHover = (share: number | null) => {
+    hoverShare.value = share;
+    stage.toggleAttribute("data-hovered", share !== null);
+  };
   const wheel = (event: WheelEvent) => {
     if (!isOverCurves(event) || event.ctrlKey) return;
     event.preventDefault();
@@ -41,7 +45,7 @@ export function listenToGestures(stage: HTMLElement, box: HTMLElement): () => vo
   const move = (event: PointerEvent) => {
     const share = shareAt(box, event.clientX);
     const isOver = event.pointerType === "mouse" && share >= 0 && share <= 1 && isOverCurves(event);
-    hoverShare.value = isOver ? share : null;
+    showHover(isOver ? share : null);
     if (drag === null || !event.isPrimary) return;
     const by = event.clientX - drag.x;
     if (!drag.isMoving && Math.abs(by) < DRAG_PX) return;
@@ -57,9 +61,7 @@ export function listenToGestures(stage: HTMLElement, box: HTMLElement): () => vo
   const up = () => {
     drag = null;
   };
-  const leave = () => {
-    hoverShare.value = null;
-  };
+  const leave = () => showHover(null);
   const double = (event: MouseEvent) => {
     if (isOverCurves(event)) goLive();
   };

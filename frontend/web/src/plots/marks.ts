@@ -2,6 +2,7 @@
 import type uPlot from "uplot";
 import type { SessionEvent } from "../api/types";
 import { session } from "../state/session";
+import { text } from "../text/en";
 import { cursorSamples } from "./cursors";
 import { addSign, type Curve, placeOn } from "./curves";
 import type { Bound } from "./definitions";
@@ -99,5 +100,26 @@ export function drawCursorSamples(plot: uPlot, curves: readonly Curve[]): void {
       context.stroke(path);
     });
   }
+  context.restore();
+}
+
+/** Where no curve has samples as old as those held: from when on there are some. */
+export function drawBeginning(plot: uPlot, curves: readonly Curve[]): void {
+  const ring = shownRing();
+  const times = curves.map(({ trace }) => ring.beginningOf(trace.channel, trace.lane));
+  const begin = Math.min(...times.filter((time) => !Number.isNaN(time)));
+  if (!(begin > ring.oldestTime) || begin === Number.POSITIVE_INFINITY) return;
+  const { ctx: context, bbox } = plot;
+  const x = Math.min(placeOn(plot).x(begin), bbox.left + bbox.width);
+  if (x <= bbox.left) return;
+  const words = text.plots.beginning(begin.toFixed(2));
+  const gap = 5 * devicePixelRatio;
+  context.save();
+  context.font = `${LABEL_PX * devicePixelRatio}px system-ui, sans-serif`;
+  context.textBaseline = "middle";
+  context.fillStyle = palette.peek().axis;
+  const isRoomLeft = x - bbox.left > context.measureText(words).width + 2 * gap;
+  context.textAlign = isRoomLeft ? "right" : "left";
+  context.fillText(words, isRoomLeft ? x - gap : x + gap, bbox.top + bbox.height / 2);
   context.restore();
 }

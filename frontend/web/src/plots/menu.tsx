@@ -1,9 +1,10 @@
 import { Popup } from "../panel/popup";
 import { text } from "../text/en";
-import { CHANNELS_BY_UNIT, unitOf } from "./channels";
+import { ChannelChoice } from "./channelchoice";
+import { CHANNELS_BY_UNIT, type ChannelName, unitOf } from "./channels";
 import type { Trace } from "./definitions";
 import { savePlotCsv, savePng, saveSvg } from "./save";
-import { type PlotSetup, removePlot, toggleChannel } from "./setups";
+import { choosePhase, type PlotSetup, removePlot, toggleChannel } from "./setups";
 
 interface PlotMenuProps {
   setup: PlotSetup;
@@ -38,6 +39,26 @@ function Curves({ setup }: { setup: PlotSetup }) {
   );
 }
 
+/** The two channels of the phase plane. */
+function Axes({ channels }: PlotSetup) {
+  const [across, up] = channels as readonly [ChannelName, ChannelName];
+  return (
+    <fieldset class="popup-axes">
+      <legend>{text.picker.axes}</legend>
+      <ChannelChoice
+        name={text.picker.up}
+        value={up}
+        onChoose={(next) => choosePhase(across, next)}
+      />
+      <ChannelChoice
+        name={text.picker.across}
+        value={across}
+        onChoose={(next) => choosePhase(next, up)}
+      />
+    </fieldset>
+  );
+}
+
 /** What can be done with one plot. */
 export function PlotMenu({ setup, title, traces, hidden }: PlotMenuProps) {
   const shown = traces.filter(({ key, follows }) => !hidden.has(follows ?? key));
@@ -50,7 +71,7 @@ export function PlotMenu({ setup, title, traces, hidden }: PlotMenuProps) {
     >
       {(close) => (
         <>
-          {setup.preset !== "phase" && <Curves setup={setup} />}
+          {setup.preset === "phase" ? <Axes {...setup} /> : <Curves setup={setup} />}
           <fieldset class="popup-row">
             <legend>{text.save.title}</legend>
             <button

@@ -1,4 +1,4 @@
-/** The phase plane: velocity over position error, a curve a lane, of the span that all plots show. */
+/** The phase plane: one channel over another, a curve a lane, of the span that all plots show. */
 import uPlot from "uplot";
 import type { SampleRing, Stretch } from "../stream/ring";
 import { LEFT_PX, otherAxis, RIGHT_PX, valueAxis } from "./axes";

@@ -1,38 +1,7 @@
-import { useId } from "preact/hooks";
 import { Popup } from "../panel/popup";
 import { text } from "../text/en";
-import { CHANNELS_BY_UNIT, isChannel } from "./channels";
+import { ChannelChoice } from "./channelchoice";
 import { addOwnPlot, MOST_PLOTS, PRESET_NAMES, resetPlots, setups, togglePreset } from "./setups";
-
-/** Begins another plot with the channel chosen. */
-function AddPlot({ isFull }: { isFull: boolean }) {
-  const id = useId();
-  return (
-    <p class="popup-add">
-      <label for={id}>{text.picker.add}</label>
-      <select
-        id={id}
-        value=""
-        disabled={isFull}
-        onChange={({ currentTarget }) => {
-          if (isChannel(currentTarget.value)) addOwnPlot(currentTarget.value);
-          currentTarget.value = "";
-        }}
-      >
-        <option value="">{text.picker.addHint}</option>
-        {CHANNELS_BY_UNIT.map(({ unit, channels }) => (
-          <optgroup key={unit} label={unit}>
-            {channels.map((channel) => (
-              <option key={channel} value={channel}>
-                {text.channelNames[channel]}
-              </option>
-            ))}
-          </optgroup>
-        ))}
-      </select>
-    </p>
-  );
-}
 
 /** Which plots there are. */
 export function PlotPicker() {
@@ -59,7 +28,13 @@ export function PlotPicker() {
               );
             })}
           </fieldset>
-          <AddPlot isFull={isFull} />
+          <ChannelChoice
+            name={text.picker.add}
+            hint={text.picker.addHint}
+            value=""
+            disabled={isFull}
+            onChoose={addOwnPlot}
+          />
           {isFull && <p class="hint">{text.picker.full}</p>}
           <button type="button" class="button" onClick={resetPlots}>
             {text.picker.reset}

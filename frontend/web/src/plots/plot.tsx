@@ -162,7 +162,7 @@ export function Plot({ setup }: { setup: PlotSetup }) {
           <Chooser title={title} groups={content.groups} shown={shown} onChoose={setChosen} />
         )}
         <Legend
-          note={phaseOrTruth(isPhase, hasTruth && !isSideBySide)}
+          note={noteOf(setup, hasTruth && !isSideBySide)}
           traces={traces}
           hidden={hidden}
           readings={readings}
@@ -175,7 +175,9 @@ export function Plot({ setup }: { setup: PlotSetup }) {
   );
 }
 
-function phaseOrTruth(isPhase: boolean, hasTruth: boolean): string | undefined {
-  if (isPhase) return text.plots.phaseNote;
+function noteOf({ preset, channels: [across] }: PlotSetup, hasTruth: boolean): string | undefined {
+  if (preset === "phase" && across !== undefined) {
+    return text.plots.phaseNote(text.channelNames[across], CHANNELS[across].unit);
+  }
   return hasTruth ? text.plots.disturbanceNote : undefined;
 }

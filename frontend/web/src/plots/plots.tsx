@@ -2,7 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { CursorHandles, CursorLines } from "./cursorlines";
-import { releaseCursors } from "./cursors";
+import { areCursorsOn, releaseCursors } from "./cursors";
 import { EventMarks } from "./events";
 import { listenToGestures } from "./gestures";
 import { MeasureTable } from "./measures";
@@ -57,7 +57,7 @@ export function Plots() {
   const isCut = !isLive.value && !isHeld.value;
   return (
     <section
-      class={`plots ${isCut ? "is-frozen" : ""}`}
+      class={`plots ${isCut ? "is-frozen" : ""} ${areCursorsOn.value ? "is-measured" : ""}`}
       aria-label={text.plots.heading}
       id="plots"
       tabIndex={-1}

@@ -72,11 +72,14 @@ function drawPhasePlane(title: string, { channels }: PlotSetup, traces: readonly
   const turned = curves.map(({ points: { x, count } }) => ({ x, y: x, count }));
   const [left, right] = niceRange(...extentOf(turned), CHANNELS[across].span);
   const [bottom, top] = niceRange(...extentOf(curves.map((c) => c.points)), CHANNELS[up].span);
-  const { x, y } = text.plots.phaseAxes;
   return {
     title,
-    x: { label: text.save.axis(x, CHANNELS[across].unit), from: left, to: right },
-    y: { label: text.save.axis(y, CHANNELS[up].unit), from: bottom, to: top },
+    x: {
+      label: text.save.axis(text.channelNames[across], CHANNELS[across].unit),
+      from: left,
+      to: right,
+    },
+    y: { label: text.save.axis(text.channelNames[up], CHANNELS[up].unit), from: bottom, to: top },
     curves,
     bounds: [],
     events: [],

@@ -1,6 +1,7 @@
 /** Which plots there are and what is in them, as the reader arranged them and the browser keeps them. */
 import { computed, signal } from "@preact/signals";
 import { remember, remembered } from "../state/storage";
+import { sourcesOf } from "../stream/derived";
 import { CHANNELS, type ChannelName, isChannel } from "./channels";
 
 const EVERY_PRESET = {
@@ -18,8 +19,8 @@ const EVERY_PRESET = {
     "disturbance_motor2_nm",
   ],
   deflection: ["deflection_rad", "deflection_limit_rad"],
-  /** Velocity over position error, not over time. */
-  phase: ["position_error_rad", "velocity_rad_per_s"],
+  /** Across and up; at first ė over e. */
+  phase: ["position_error_rad", "velocity_error_rad_per_s"],
 } as const satisfies Record<string, readonly ChannelName[]>;
 
 export type PresetName = keyof typeof EVERY_PRESET;
@@ -48,6 +49,11 @@ const ofPreset = (preset: PresetName): PlotSetup => ({
   channels: PRESETS[preset],
 });
 
+const phaseOf = (channels: readonly ChannelName[]): PlotSetup => ({
+  ...ofPreset("phase"),
+  channels,
+});
+
 export const setupsAtFirst = (): PlotSetup[] => AT_FIRST.map(ofPreset);
 
 function readSetup(stored: unknown, index: number): PlotSetup[] {
@@ -55,7 +61,7 @@ function readSetup(stored: unknown, index: number): PlotSetup[] {
   const { preset, channels } = stored as { preset?: unknown; channels?: unknown };
   const known = Array.isArray(channels) ? channels.filter(isChannel) : [];
   const ofOneUnit = known.filter((name) => CHANNELS[name].unit === CHANNELS[known[0] ?? name].unit);
-  if (preset === "phase") return [ofPreset(preset)];
+  if (preset === "phase") return [known.length === 2 ? phaseOf(known) : ofPreset(preset)];
   if (isPreset(preset)) {
     return [ofOneUnit.length > 0 ? { key: preset, preset, channels: ofOneUnit } : ofPreset(preset)];
   }
@@ -83,7 +89,7 @@ export const setups = signal<readonly PlotSetup[]>(
 
 /** What the stream has to carry. */
 export const channelsInUse = computed(() => [
-  ...new Set([...ALWAYS, ...setups.value.flatMap((setup) => setup.channels)]),
+  ...new Set([...ALWAYS, ...setups.value.flatMap(({ channels }) => channels)].flatMap(sourcesOf)),
 ]);
 
 function arrange(next: readonly PlotSetup[]): void {
@@ -125,6 +131,12 @@ export function toggleChannel(key: string, channel: ChannelName): void {
       return { ...setup, channels: isThere ? rest : [...rest, channel] };
     }),
   );
+}
+
+/** Which two channels the phase plane is of: across and up. */
+export function choosePhase(across: ChannelName, up: ChannelName): void {
+  const setup = phaseOf([across, up]);
+  arrange(setups.peek().map((one) => (one.preset === "phase" ? setup : one)));
 }
 
 export function resetPlots(): void {

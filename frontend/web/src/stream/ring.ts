@@ -3,11 +3,14 @@
  * reallocated. A lane is there from the first batch that has it, with no number before, and goes
  * with its past with the first batch that has it no more.
  *
+ * Channels that are derived from others stand beside them.
+ *
  * Samples that a slow client was not sent are a gap: the first and the last of them stand in their
  * places as samples without numbers, and nothing between them, so that no reader of the ring joins
  * what lies before to what lies after.
  */
 import type { Batch } from "./decoder";
+import { DERIVED, type DerivedName, derivedFrom } from "./derived";
 
 /** A piece of one column where it lies: sample i is at (start + i) mod the columns' length. */
 export interface Stretch {
@@ -18,6 +21,9 @@ export interface Stretch {
   /** Which sample since the beginning the first one is; the same sample keeps its number. */
   number: number;
 }
+
+/** So far from a sample it is still the one meant, s. */
+const REACH_S = 0.02;
 
 export class SampleRing {
   readonly capacity: number;
@@ -70,6 +76,7 @@ export class SampleRing {
     this.#setLanes(batch.lanes);
     this.#dropFrom(batch.firstTick * periodS);
     this.#markGap(batch, periodS);
+    const derived = derivedFrom(this.#channels);
     const width = batch.lanes * this.#channels.length;
     const skipped = Math.max(0, batch.count - this.capacity);
     for (let row = skipped; row < batch.count; row++) {
@@ -78,9 +85,21 @@ export class SampleRing {
         for (const channel of this.#channels) {
           (columns.get(channel) as Float32Array)[this.#next] = batch.values[source++] as number;
         }
+        for (const name of derived) this.#derive(columns, name);
       }
       this.#advance(batch.firstTick + row * batch.stride, batch.stride, periodS);
     }
+  }
+
+  /** The channels streamed, and those that are derived from them. */
+  get #columns(): readonly string[] {
+    return [...this.#channels, ...derivedFrom(this.#channels)];
+  }
+
+  #derive(columns: ReadonlyMap<string, Float32Array>, name: DerivedName): void {
+    const { of, less } = DERIVED[name];
+    const value = (channel: string) => (columns.get(channel) as Float32Array)[this.#next] as number;
+    (columns.get(name) as Float32Array)[this.#next] = value(of) - value(less);
   }
 
   /** A ring for other channels that begins with what this one holds of them. */
@@ -88,8 +107,9 @@ export class SampleRing {
     const other = this.copy();
     other.#channels = channels;
     for (const columns of other.#lanes) {
-      for (const name of [...columns.keys()]) if (!channels.includes(name)) columns.delete(name);
-      for (const name of channels) if (!columns.has(name)) columns.set(name, this.#blank());
+      const kept = other.#columns;
+      for (const name of [...columns.keys()]) if (!kept.includes(name)) columns.delete(name);
+      for (const name of kept) if (!columns.has(name)) columns.set(name, this.#blank());
     }
     return other;
   }
@@ -109,8 +129,9 @@ export class SampleRing {
 
   /** Takes over the channels that it lacks, where the other ring has a sample of the same time. */
   adopt(source: SampleRing): void {
-    const missing = source.#channels.filter((name) => !this.#channels.includes(name));
-    this.#channels = [...this.#channels, ...missing];
+    const known = this.#columns;
+    const missing = source.#columns.filter((name) => !known.includes(name));
+    this.#channels = [...new Set([...this.#channels, ...source.#channels])];
     this.#lanes.forEach((columns, lane) => {
       for (const name of missing) {
         const column = this.#blank();
@@ -162,6 +183,20 @@ export class SampleRing {
     const after = Math.min(this.firstAt(timeS), this.#length - 1);
     const before = Math.max(0, after - 1);
     return timeS - this.timeAt(before) <= this.timeAt(after) - timeS ? before : after;
+  }
+
+  /** Index of the sample at a time, the nearest; -1 before the oldest and after the newest. */
+  sampleAt(timeS: number): number {
+    const isHeld = timeS >= this.oldestTime - REACH_S && timeS <= this.newestTime + REACH_S;
+    return isHeld ? this.nearestTo(timeS) : -1;
+  }
+
+  /** Time of the first sample that has a number of a channel and lane, s; NaN where none has. */
+  beginningOf(channel: string, lane: number): number {
+    for (let index = 0; index < this.#length; index++) {
+      if (!Number.isNaN(this.valueAt(channel, index, lane))) return this.timeAt(index);
+    }
+    return Number.NaN;
   }
 
   /** Samples from index `first` up to before `end` of a channel and lane; null where it is not. */
@@ -226,7 +261,7 @@ export class SampleRing {
   #setLanes(count: number): void {
     this.#lanes.length = Math.min(this.#lanes.length, count);
     while (this.#lanes.length < count) {
-      this.#lanes.push(new Map(this.#channels.map((name) => [name, this.#blank()])));
+      this.#lanes.push(new Map(this.#columns.map((name) => [name, this.#blank()])));
     }
   }
 
