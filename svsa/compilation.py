@@ -11,16 +11,17 @@ named after the text of every file that has a compiled function and of all that 
 A change in any other file compiles nothing anew.
 """
 
+import contextlib
 import hashlib
 import os
 import platform
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numba
-from numba.core import config
+from numba.core import config, event
 
 _LIBRARY = Path(__file__).parent
 _COMPILES = re.compile(r"^from svsa\.compilation import compiled$", re.MULTILINE)
@@ -92,6 +93,25 @@ def _prepare_cache() -> Path | None:
 _CACHE = _prepare_cache()
 
 compiled = numba.njit(cache=_CACHE is not None, nogil=True, error_model="numpy", forceinline=True)
+
+
+class _CompilationListener(event.Listener):
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self._tell = tell
+
+    def on_start(self, event: event.Event) -> None:
+        pass
+
+    def on_end(self, event: event.Event) -> None:
+        self._tell(event.data["dispatcher"].py_func.__name__)
+
+
+def watch_compilation(tell: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
+    """While this is open, `tell` gets the name of every function once it is compiled.
+
+    What comes out of the cache is not told: it takes no time.
+    """
+    return event.install_listener("numba:compile", _CompilationListener(tell))
 
 
 def is_compiled_before() -> bool:

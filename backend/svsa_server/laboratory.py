@@ -15,6 +15,7 @@ from svsa.plant.disturbances import Load
 from svsa.rig.control import RigControl, RigError
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
+from svsa.runtime.realtime.launch import Teller, keep_quiet
 from svsa.runtime.realtime.session import BenchSession, Hands
 from svsa.runtime.session import Session
 from svsa_server.control import get_hand
@@ -146,14 +147,15 @@ class Laboratory:
         del self._last_use[name]
 
 
-def build_shared_session(bench: Path | None) -> Session:
+def build_shared_session(bench: Path | None, tell: Teller = keep_quiet) -> Session:
     """The session that everyone shares: Figure 4A running with the load in your hand, or a bench.
 
-    Raises `BenchError` where the bench cannot be opened.
+    tell: hears what a bench's loop does while it starts. Raises `BenchError` where the bench
+    cannot be opened.
     """
     configuration = get_figure("4a").build_configuration(load=False)
     if bench is not None:
-        return BenchSession(SHARED_SESSION, bench, configuration, find_hands(bench))
+        return BenchSession(SHARED_SESSION, bench, configuration, find_hands(bench), tell)
     session = Session(SHARED_SESSION, configuration)
     session.start()
     return session

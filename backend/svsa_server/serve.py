@@ -9,7 +9,7 @@ from rich.console import Console
 from svsa.cli import prepare
 from svsa.errors import SvsaError
 from svsa_server.config import Settings
-from svsa_server.console import HINT, watch_keyboard
+from svsa_server.console import HINT, show_bench_start, watch_keyboard
 
 SEND_BUFFER_BYTES = 64 * 1024
 
@@ -63,7 +63,8 @@ def run_server(host: str, port: int, bench: Path | None) -> None:
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
     from svsa_server.laboratory import build_shared_session
 
-    shared = build_shared_session(bench)
+    with show_bench_start() as tell:
+        shared = build_shared_session(bench, tell)
     server = AnnouncedServer(
         uvicorn.Config(
             build_app(config, shared),

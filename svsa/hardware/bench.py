@@ -83,6 +83,13 @@ class TimingSettings(Checked):
     feedback_age_s: Number = quantity(
         "s", "Age of a count when its frame is stamped", ge=0, le=0.005, default=0.0002
     )
+    start_silence_s: Number = quantity(
+        "s",
+        "A loop that starts is given up when it has not got on for so long",
+        ge=1,
+        le=3600,
+        default=60.0,
+    )
 
 
 class SafetySettings(Checked):

@@ -4,6 +4,7 @@ import contextlib
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +14,15 @@ from svsa.runtime.configuration import Configuration
 from svsa.runtime.realtime.link import LinkClosedError, build_links
 from svsa.runtime.realtime.memory import LoopMemory
 
-READY_S = 60.0
+LISTEN_S = 0.1
 ANSWER_S = 0.5
 END_S = 5.0
+
+Teller = Callable[[str, float], None]
+
+
+def keep_quiet(step: str, seconds: float) -> None:
+    """Tell nobody what a loop does while it starts."""
 
 
 class BenchError(SvsaError):
@@ -25,12 +32,15 @@ class BenchError(SvsaError):
 class BenchProcesses:
     """The loop and the supervisor of one bench, each a process.
 
-    Raises `BenchError` where the loop cannot open the bench. `memory`: see `LoopMemory`.
-    `events`: what the loop has said and nobody has read yet. `notes`: what real time was
-    granted.
+    Raises `BenchError` where the loop cannot open the bench, ends, or says nothing for
+    silence_s while it starts. tell: hears what it is doing until it is ready, with the seconds
+    since its start. `memory`: see `LoopMemory`. `events`: what the loop has said and nobody has
+    read yet. `notes`: what real time was granted.
     """
 
-    def __init__(self, bench: Path, configuration: Configuration) -> None:
+    def __init__(
+        self, bench: Path, configuration: Configuration, silence_s: float, tell: Teller
+    ) -> None:
         self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
         self.events: list[dict[str, Any]] = []
         self.notes: list[str] = []
@@ -44,23 +54,35 @@ class BenchProcesses:
         theirs.close()
         try:
             self._link.send({"configuration": configuration.model_dump(mode="json")})
-            self._wait_until_ready()
+            self._wait_until_ready(silence_s, tell)
         except (LinkClosedError, BenchError) as error:
             self.close()
             raise BenchError(f"The bench cannot be opened: {error}") from None
 
-    def _wait_until_ready(self) -> None:
-        end = time.monotonic() + READY_S
-        while time.monotonic() < end:
-            self._read(0.1)
-            for event in self.events:
-                if event["event"] == "failed":
-                    raise BenchError(event["message"])
-                if event["event"] == "ready":
-                    self.notes = event["notes"]
-                    self.events.remove(event)
-                    return
-        raise BenchError(f"its loop was not ready within {READY_S:g} s.")
+    def _wait_until_ready(self, silence_s: float, tell: Teller) -> None:
+        """Wait as long as the loop gets on: a first compilation takes what it takes."""
+        step, begin = "starting its process", time.monotonic()
+        heard = begin
+        while (now := time.monotonic()) - heard < silence_s:
+            tell(step, now - begin)
+            try:
+                self._read(LISTEN_S)
+            except LinkClosedError:
+                raise BenchError(f"its loop has ended, which was {step}.") from None
+            while self.events:
+                heard, event = time.monotonic(), self.events.pop(0)
+                match event["event"]:
+                    case "starting":
+                        step = event["step"]
+                    case "failed":
+                        raise BenchError(event["message"])
+                    case "ready":
+                        self.notes = event["notes"]
+                        return
+        raise BenchError(
+            f"its loop has not got on for {silence_s:g} s: it was {step}. On a slow machine set"
+            " [timing] start_silence_s in the bench file."
+        )
 
     @property
     def alive(self) -> bool:

@@ -11,6 +11,7 @@ import gc
 import sys
 from typing import Any
 
+from svsa.compilation import watch_compilation
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.hardware.bench import read_bench
 from svsa.hardware.calibration import find_calibration
@@ -151,12 +152,31 @@ class LoopProcess:
             self._link, self._ending = None, True
 
 
+class Progress:
+    """What a loop that starts is doing, told to the server."""
+
+    def __init__(self, link: Link) -> None:
+        self._link = link
+        self._functions = 0
+
+    def __call__(self, step: str) -> None:
+        """The loop begins this step."""
+        self._link.send({"event": "starting", "step": step})
+
+    def count_function(self, name: str) -> None:
+        """One more function is compiled."""
+        self._functions += 1
+        self(f"compiling the loop, once: {self._functions} functions, {name} the last")
+
+
 def main(arguments: list[str]) -> int:
     """Run the loop of a bench; the exit code is 0 unless the bench could not be opened."""
     path, memory_name, heartbeat_name, descriptor = arguments
     link = Link.from_descriptor(int(descriptor))
     memory, beats = LoopMemory.attach(memory_name), Heartbeats.attach(heartbeat_name)
+    tell = Progress(link)
     try:
+        tell("opening the bus")
         bench, clock = read_bench(path), WallClock()
         plant = CanPlant(bench, find_calibration(bench), clock, build_guard(bench), beats)
         plant.open()
@@ -165,8 +185,11 @@ def main(arguments: list[str]) -> int:
         return 1
     try:
         (first,) = link.receive(FIRST_MESSAGE_S)
-        loop = BenchLoop(plant, bench, Configuration(**first["configuration"]), memory)
-        loop.warm_up()
+        tell("loading the compiled loop")
+        with watch_compilation(tell.count_function):
+            loop = BenchLoop(plant, bench, Configuration(**first["configuration"]), memory)
+            loop.warm_up()
+        tell("asking for real time")
         link.send({"event": "ready", "notes": request_real_time(LOOP_PRIORITY)})
         LoopProcess(loop, clock, link, memory, beats).run()
     except LinkClosedError:

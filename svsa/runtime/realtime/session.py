@@ -14,7 +14,7 @@ from svsa.runtime.command import Command, build_command
 from svsa.runtime.configuration import Configuration, Lane
 from svsa.runtime.loop import AT_REST
 from svsa.runtime.realtime.configuration import build_bench_configuration
-from svsa.runtime.realtime.launch import BenchProcesses
+from svsa.runtime.realtime.launch import BenchProcesses, Teller, keep_quiet
 from svsa.runtime.realtime.run import BenchRun
 from svsa.runtime.recording.header import PlantKind
 from svsa.runtime.run import Start
@@ -39,15 +39,22 @@ class BenchSession(Session):
     """A bench as a session: `start` begins a run at t = 0, `pause` ramps to zero torque.
 
     Every start begins a new run, from where the bench stands. hands: told of the loads that
-    are on whenever they change, and of the marks. `bench`: the bench file. Raises
-    `BenchError` where the bench cannot be opened, `MissingExtraError` without the extra `bench`.
+    are on whenever they change, and of the marks. tell: hears what the loop does while it starts.
+    `bench`: the bench file. Raises `BenchError` where the bench cannot be opened,
+    `MissingExtraError` without the extra `bench`.
     """
 
     def __init__(
-        self, name: str, path: Path, wanted: Configuration, hands: Hands | None = None
+        self,
+        name: str,
+        path: Path,
+        wanted: Configuration,
+        hands: Hands | None = None,
+        tell: Teller = keep_quiet,
     ) -> None:
         require_extra("bench")
         self.bench, self._path, self._hands = read_bench(path), path, hands or Hands()
+        self._tell_start = tell
         self.calibration = find_calibration(self.bench)
         self.bench_status = BenchStatus.OFF
         self.problems: list[str] = []
@@ -58,7 +65,9 @@ class BenchSession(Session):
         super().__init__(name, wanted)
 
     def _open(self, configuration: Configuration) -> None:
-        self.processes = BenchProcesses(self._path, configuration)
+        self.processes = BenchProcesses(
+            self._path, configuration, self.bench.timing.start_silence_s, self._tell_start
+        )
         self.memory = self.processes.memory
 
     @property

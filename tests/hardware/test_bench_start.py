@@ -1,0 +1,113 @@
+"""A bench's loop that starts: waited for as long as it gets on, and heard meanwhile."""
+
+import io
+import types
+
+import pytest
+from rich.console import Console
+
+from svsa.compilation import compiled, watch_compilation
+from svsa.experiment.paper import get_figure
+from svsa.runtime.realtime import launch
+from svsa.runtime.realtime.launch import BenchError, BenchProcesses
+from svsa.runtime.realtime.link import LinkClosedError
+from svsa_server.console import show_bench_start
+
+
+class ScriptedLink:
+    """Says each message at its time; its waiting is what makes the time go on."""
+
+    def __init__(self, messages):
+        self.now, self._messages = 0.0, list(messages)
+
+    def receive(self, timeout_s=0.0):
+        self.now += timeout_s
+        due = [message for at, message in self._messages if at <= self.now]
+        self._messages = self._messages[len(due) :]
+        if "closed" in due:
+            raise LinkClosedError("the other side has closed")
+        return due
+
+    def send(self, message):
+        if message.get("do") == "end":
+            raise LinkClosedError("gone")
+
+    def close(self):
+        pass
+
+
+@pytest.fixture
+def start(monkeypatch):
+    """Starts a bench whose loop says these messages, and gives what was told of it."""
+
+    def begin(messages, silence_s):
+        link, told = ScriptedLink(messages), []
+        theirs = types.SimpleNamespace(fileno=lambda: 0, close=lambda: None)
+        process = types.SimpleNamespace(
+            poll=lambda: None, wait=lambda _=None: 0, terminate=lambda: None
+        )
+        monkeypatch.setattr(launch, "build_links", lambda: (link, theirs))
+        monkeypatch.setattr(launch, "_start", lambda *_: process)
+        monkeypatch.setattr(launch, "time", types.SimpleNamespace(monotonic=lambda: link.now))
+        configuration = get_figure("4a").build_configuration()
+        processes = BenchProcesses(
+            "bench.toml", configuration, silence_s, lambda *what: told.append(what)
+        )
+        return processes, told
+
+    return begin
+
+
+def starting(step):
+    return {"event": "starting", "step": step}
+
+
+def test_a_loop_that_gets_on_is_waited_for_and_shown(start):
+    compiling = [(50.0 * n, starting(f"compiling, {n} functions")) for n in range(1, 8)]
+    state = {"event": "state"}
+    processes, told = start(
+        [*compiling, (380.0, {"event": "ready", "notes": []}), (380, state)], 60
+    )
+    assert processes.events == [state], "what it says once it is ready is kept"
+    assert ("compiling, 7 functions", pytest.approx(360.0, abs=1.0)) in told
+    assert told[0] == ("starting its process", 0.0)
+    processes.close()
+
+
+def test_a_loop_that_stands_still_is_given_up_with_what_it_was_doing(start):
+    with pytest.raises(BenchError, match=r"not got on for 60 s.*opening the bus.*start_silence_s"):
+        start([(1.0, starting("opening the bus"))], 60.0)
+
+
+def test_a_loop_that_ends_is_not_waited_for(start):
+    with pytest.raises(BenchError, match="has ended, which was opening the bus"):
+        start([(1.0, starting("opening the bus")), (2.0, "closed")], 1e9)
+
+
+def test_a_bench_that_cannot_be_opened_says_why(start):
+    with pytest.raises(BenchError, match="no adapter"):
+        start([(1.0, {"event": "failed", "message": "no adapter"})], 60.0)
+
+
+def test_every_compiled_function_is_told_once():
+    @compiled
+    def double(x):
+        return 2.0 * x
+
+    names = []
+    with watch_compilation(names.append):
+        double(1.0)
+        double(2.0)
+    assert names.count("double") == 1
+
+
+def test_a_log_gets_a_line_every_ten_seconds():
+    console = Console(file=io.StringIO(), force_terminal=False, width=100)
+    with show_bench_start(console) as tell:
+        for second in range(25):
+            tell("compiling the loop", float(second))
+    lines = console.file.getvalue().splitlines()
+    assert [line for line in lines if line] == [
+        "The bench is compiling the loop (10 s) …",
+        "The bench is compiling the loop (20 s) …",
+    ]
