@@ -1,12 +1,16 @@
 """A DBC file of the bench, so that standard tools decode what was captured from its bus.
 
-Made from the addresses of the two drives, from `LAYOUTS` and from the deflection encoder's frame:
-nothing in it is written twice. Numbers are those of the wire (counts, mA, rev/min); each command
-is a message of its own, since every mode lays its bytes out differently.
+Made by cantools from the addresses of the two drives, from `LAYOUTS` and from the deflection
+encoder's frame: nothing in it is written twice. Numbers are those of the wire (counts, mA,
+rev/min); each command is a message of its own, since every mode lays its bytes out differently.
 """
 
+from collections import OrderedDict
 from collections.abc import Iterator
-from typing import NamedTuple
+
+from cantools.database import Database
+from cantools.database.can import Message, Node, Signal
+from cantools.database.conversion import BaseConversion
 
 from svsa.errors import ParameterError, Violation
 from svsa.hardware.bench import BenchFile, MotorSettings
@@ -24,28 +28,10 @@ from svsa.hardware.robomodule import (
 
 HOST, ENCODER = "host", "deflection_encoder"
 _FROM_DRIVE = (Command.FEEDBACK, Command.INPUTS, Command.ERROR)
-_EXTENDED = 1 << 31
-
-
-class _Signal(NamedTuple):
-    name: str
-    first_bit: int
-    bits: int
-    big_endian: bool
-    signed: bool
-    least: int
-    most: int
-    unit: str
-
-
-class _Message(NamedTuple):
-    number: int
-    name: str
-    length: int
-    senders: tuple[str, ...]
-    receivers: tuple[str, ...]
-    signals: tuple[_Signal, ...]
-    meaning: str
+_CHOICES = {
+    "mode": {mode.value: mode.name.lower() for mode in Mode},
+    "code": {STALL_PROTECTION: "stall_protection"},
+}
 
 
 def describe_bench(bench: BenchFile) -> str:
@@ -62,7 +48,7 @@ def build_dbc(motor1: Address, motor2: Address, deflection: CanNodeSettings | No
     has, and `ParameterError` where two frames have one identifier.
     """
     drives = {"motor1": motor1, "motor2": motor2}
-    messages: list[_Message] = []
+    messages: list[Message] = []
     for name, address in drives.items():
         messages += _list_messages(name, address, (name,))
     for group in sorted({address.group for address in drives.values()}):
@@ -70,24 +56,16 @@ def build_dbc(motor1: Address, motor2: Address, deflection: CanNodeSettings | No
         messages += _list_messages(f"group{group}", Address(group, 0), members)
     if deflection is not None:
         messages.append(_describe_encoder(deflection))
-    _check_numbers(messages)
+    _check_identifiers(messages)
     nodes = [HOST, *drives] + [ENCODER] * (deflection is not None)
-    lines = ['VERSION ""', "NS_ :", "BS_:", f"BU_: {' '.join(nodes)}", ""]
-    for message in messages:
-        lines += [*_write_message(message), ""]
-    for message in messages:
-        if len(message.senders) > 1:
-            lines.append(f"BO_TX_BU_ {message.number} : {','.join(message.senders)};")
-    lines += [f'CM_ BO_ {m.number} "{m.meaning}";' for m in messages]
-    lines += [line for message in messages for line in _name_values(message)]
-    return "\n".join(lines) + "\n"
+    return Database(messages, [Node(name) for name in nodes]).as_dbc_string()
 
 
 def _read_address(motor: MotorSettings) -> Address:
     return Address(motor.drive_group, motor.drive_number)
 
 
-def _list_messages(name: str, address: Address, drives: tuple[str, ...]) -> Iterator[_Message]:
+def _list_messages(name: str, address: Address, drives: tuple[str, ...]) -> Iterator[Message]:
     """What is said to a drive and by it; a group as such says nothing."""
     for command, layout in LAYOUTS.items():
         if command not in _FROM_DRIVE:
@@ -98,68 +76,61 @@ def _list_messages(name: str, address: Address, drives: tuple[str, ...]) -> Iter
             continue
         if command is Command.ONLINE and address.number:
             senders, receivers = (HOST, *drives), (HOST, *drives)
-        yield _Message(
+        yield Message(
             build_id(address, command),
             f"{name}_{command.name.lower()}",
             LENGTH,
-            senders,
-            receivers,
-            tuple(map(_describe_field, layout.fields)),
-            " ".join((layout.message.__doc__ or "").split()),
+            [_describe_field(field, receivers) for field in layout.fields],
+            comment=" ".join((layout.message.__doc__ or "").split()),
+            senders=list(senders),
         )
 
 
-def _describe_field(field: Field) -> _Signal:
-    kind = field.packer.format[-1]
-    bits, signed = 8 * field.packer.size, kind.islower()
-    return _Signal(
-        field.name, 8 * field.start, bits, True, signed, field.least, field.most, field.unit
+def _describe_field(field: Field, receivers: tuple[str, ...]) -> Signal:
+    choices = _CHOICES.get(field.name)
+    return Signal(
+        field.name,
+        8 * field.start + 7,
+        8 * field.packer.size,
+        byte_order="big_endian",
+        is_signed=field.packer.format[-1].islower(),
+        conversion=BaseConversion.factory(choices=OrderedDict(choices) if choices else None),
+        minimum=field.least,
+        maximum=field.most,
+        unit=field.unit,
+        receivers=list(receivers),
     )
 
 
-def _describe_encoder(node: CanNodeSettings) -> _Message:
+def _describe_encoder(node: CanNodeSettings) -> Message:
     least = -(1 << node.width - 1) if node.signed else 0
-    most = least + (1 << node.width) - 1
-    counts = _Signal(
+    counts = Signal(
         "counts",
-        8 * node.offset,
+        8 * node.offset + (7 if node.big_endian else 0),
         node.width,
-        node.big_endian,
-        node.signed,
-        least,
-        most,
-        "counts",
+        byte_order="big_endian" if node.big_endian else "little_endian",
+        is_signed=node.signed,
+        minimum=least,
+        maximum=least + (1 << node.width) - 1,
+        unit="counts",
+        receivers=[HOST],
     )
-    number = node.id | _EXTENDED if node.extended else node.id
-    end = node.offset + node.width // 8
-    meaning = "Counts of the deflection encoder, by itself."
-    return _Message(number, "deflection", end, (ENCODER,), (HOST,), (counts,), meaning)
+    return Message(
+        node.id,
+        "deflection",
+        node.offset + node.width // 8,
+        [counts],
+        comment="Counts of the deflection encoder, by itself.",
+        senders=[ENCODER],
+        is_extended_frame=node.extended,
+    )
 
 
-def _check_numbers(messages: list[_Message]) -> None:
-    names: dict[int, str] = {}
+def _check_identifiers(messages: list[Message]) -> None:
+    names: dict[tuple[int, bool], str] = {}
     for message in messages:
-        if message.number in names:
-            bound = f"another than that of {names[message.number]}"
-            raise ParameterError(Violation(f"id of {message.name}", message.number, "", bound))
-        names[message.number] = message.name
-
-
-def _write_message(message: _Message) -> Iterator[str]:
-    receivers = ",".join(message.receivers)
-    yield f"BO_ {message.number} {message.name}: {message.length} {message.senders[0]}"
-    for s in message.signals:
-        start = s.first_bit + 7 if s.big_endian else s.first_bit
-        coding = f"{start}|{s.bits}@{0 if s.big_endian else 1}{'-' if s.signed else '+'}"
-        yield f' SG_ {s.name} : {coding} (1,0) [{s.least}|{s.most}] "{s.unit}" {receivers}'
-
-
-def _name_values(message: _Message) -> Iterator[str]:
-    for signal in message.signals:
-        if signal.name == "mode":
-            names = " ".join(f'{mode.value} "{mode.name.lower()}"' for mode in Mode)
-        elif signal.name == "code":
-            names = f'{STALL_PROTECTION} "stall_protection"'
-        else:
-            continue
-        yield f"VAL_ {message.number} {signal.name} {names} ;"
+        identifier = (message.frame_id, message.is_extended_frame)
+        if identifier in names:
+            bound = f"another than that of {names[identifier]}"
+            raise ParameterError(Violation(f"id of {message.name}", message.frame_id, "", bound))
+        names[identifier] = message.name
