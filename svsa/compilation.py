@@ -103,7 +103,8 @@ class _CompilationListener(event.Listener):
         pass
 
     def on_end(self, event: event.Event) -> None:
-        self._tell(event.data["dispatcher"].py_func.__name__)
+        if event.data is not None:
+            self._tell(event.data["dispatcher"].py_func.__name__)
 
 
 def watch_compilation(tell: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
