@@ -5,7 +5,7 @@ FAULT_LABELS = {
     "lever_end": "End of the spiral",
     "deflection_limit": "Deflection too large",
     "singular_decoupling": "Decoupling near singular",
-    "emergency_stop": "Quick stop",
+    "quick_stop": "Quick stop",
     "stale_feedback": "Feedback too old",
     "missed_ticks": "Ticks missed",
     "drive_error": "Drive error",
