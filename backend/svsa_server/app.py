@@ -12,6 +12,7 @@ from svsa_server.access import AccessGuard, SharedSecret
 from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
 from svsa_server.laboratory import Laboratory, build_shared_session
+from svsa_server.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
 from svsa_server.routes import (
@@ -20,6 +21,7 @@ from svsa_server.routes import (
     design,
     lab,
     loads,
+    outcomes,
     recordings,
     runs,
     sessions,
@@ -51,10 +53,23 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
     app.state.secret = secret
     app.state.config = config
     app.state.shared = shared
+    app.state.outcomes = Outcomes()
+    app.add_middleware(OutcomeKeeper, outcomes=app.state.outcomes)
     app.add_middleware(AccessGuard, secret=secret)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
-    for part in (lab, sessions, control, bench, settings, design, loads, recordings, runs):
+    for part in (
+        lab,
+        sessions,
+        control,
+        bench,
+        settings,
+        design,
+        loads,
+        recordings,
+        runs,
+        outcomes,
+    ):
         api.include_router(part.router)
     app.include_router(api)
     app.router.routes.extend(build_page_routes())

@@ -26,6 +26,8 @@ describe("the states of a bench", () => {
     expect(places("config")).toEqual(["done", "done", "here", "ahead", "ahead", "ahead"]);
     expect(places("ramp")).toEqual(places("run"));
     expect(new Set(places("fault"))).toEqual(new Set(["ahead"]));
+    const unknown = STAGES.map((stage) => placeOf(stage, null));
+    expect(new Set(unknown), "without a connection it is nowhere").toEqual(new Set(["ahead"]));
   });
 
   it("allow what the server takes, and nothing while the drives come up", () => {
@@ -36,6 +38,7 @@ describe("the states of a bench", () => {
     const deadMan = bench({ status: "ready", dead_man: true });
     expect([allowedOn(deadMan).run, allowedOn(deadMan, true).run]).toEqual([false, true]);
     expect(allowed({ status: "ready", homing: UNHOMED })).toEqual(["home"]);
+    expect(allowed({ homing: UNHOMED }), "marks are confirmed in READY only").toEqual(["arm"]);
     expect(allowed({ status: "run" })).toEqual(["stop"]);
     expect(allowed({ status: "ramp" })).toEqual([]);
     expect(allowed({ status: "fault", homing: UNHOMED })).toEqual(["clear"]);
@@ -43,6 +46,11 @@ describe("the states of a bench", () => {
 
   it("tell what to do next", () => {
     expect(adviceFor(bench({ problems: ["No calibration."] }))).toBe("problems");
+    const off = { loop: { alive: true }, supervised: true, ages_s: [1000, 1000, 0.001] };
+    expect(adviceFor(bench(off))).toBe("arm");
+    expect(adviceFor(bench({ ...off, ages_s: [1000, 1000, 1000] }))).toBe("unheard");
+    expect(adviceFor(bench({ ...off, supervised: false }))).toBe("unsupervised");
+    expect(adviceFor(bench({ ...off, loop: { alive: false } }))).toBe("loop");
     expect(adviceFor(bench({ status: "ready", homing: UNHOMED }))).toBe("home");
     expect(adviceFor(bench({ status: "reset" }))).toBe("wait");
     expect(adviceFor(bench({ status: "fault" }))).toBe("clear");
@@ -79,7 +87,7 @@ describe("lateness", () => {
   });
 
   it("calls a reading stale above 5 ms and lost above 20 ms", () => {
-    expect([0.001, 0.005, 0.006, 0.02, 0.021, Number.NaN].map(freshnessOf)).toEqual([
+    expect([0.001, 0.005, 0.006, 0.02, 0.021, Number.NaN].map((age) => freshnessOf(age))).toEqual([
       "fresh",
       "fresh",
       "stale",
@@ -87,5 +95,10 @@ describe("lateness", () => {
       "lost",
       "lost",
     ]);
+  });
+
+  it("calls what need not speak yet silent, never lost", () => {
+    expect(freshnessOf(1000, false)).toBe("silent");
+    expect(freshnessOf(0.001, false)).toBe("fresh");
   });
 });

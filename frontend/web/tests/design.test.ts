@@ -11,7 +11,7 @@ import {
   stepPole,
   toRequest,
 } from "../src/design/poles";
-import { describePole, describePoles } from "../src/design/words";
+import { describePole, describePoles, verdictOf } from "../src/design/words";
 
 const MIXED = [
   { re: -60, im: 0 },
@@ -42,6 +42,16 @@ describe("poles from the server", () => {
       { re: -40, im: 30 },
       { re: -40, im: -30 },
     ]);
+  });
+});
+
+describe("a verdict", () => {
+  const found = (verdict: string, reasons: object[]) => ({ verdict, reasons }) as never;
+
+  it("is good only where nothing goes beyond a limit, however shortly", () => {
+    expect(verdictOf(found("ok", []))).toBe("ok");
+    expect(verdictOf(found("ok", [{ kind: "note", code: "saturation" }]))).toBe("note");
+    expect(verdictOf(found("warn", [{ kind: "warn" }]))).toBe("warn");
   });
 });
 

@@ -1,7 +1,8 @@
 /** The public REST API, one function a call. The page has no other door to the server. */
-import { noteCall } from "../script/calls";
-import { LockedError, RefusedError, UnreachableError } from "./errors";
+import { UnansweredError } from "./errors";
 import { client } from "./identity";
+import { learnOutcome } from "./outcome";
+import { API, request, sessionName } from "./request";
 import type {
   Axis,
   Body,
@@ -12,7 +13,6 @@ import type {
   Load,
   Method,
   PositionReference,
-  Refusal,
   Sent,
   SessionPath,
   SessionState,
@@ -20,53 +20,18 @@ import type {
   StiffnessReference,
 } from "./types";
 
-export const API = new URL("api/v1/", document.baseURI);
-const SHARED = "lab";
-/** The session that this page shows: the shared one, or the private one that its address names. */
-export const sessionName = new URLSearchParams(location.search).get("session") ?? SHARED;
-export const isPrivate = sessionName !== SHARED;
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
-const CLIENT_HEADER = "SVSA-Client";
-const LONGEST_WAIT_MS = 6000;
 const LONGEST_STOP_MS = 1500;
 
-export async function request(
-  method: Method,
-  path: string,
-  body?: unknown,
-  waitMs = LONGEST_WAIT_MS,
-): Promise<unknown> {
-  const init: RequestInit = {
-    method: method.toUpperCase(),
-    cache: "no-store",
-    headers: { [CLIENT_HEADER]: client },
-    signal: AbortSignal.timeout(waitMs),
-  };
-  if (body !== undefined) {
-    init.headers = { [CLIENT_HEADER]: client, "Content-Type": "application/json" };
-    init.body = JSON.stringify(body);
-  }
-  let response: Response;
+/** Where no answer comes, the server is asked what became of it, and for its state. */
+async function send(method: Method, path: string, body?: unknown): Promise<SessionState> {
   try {
-    response = await fetch(new URL(path, API), init);
-  } catch (cause) {
-    noteCall(method, path, body, null);
-    throw new UnreachableError(cause);
+    return (await request(method, SESSION + path, body)) as SessionState;
+  } catch (error) {
+    if (!(error instanceof UnansweredError) || error.request === null) throw error;
+    await learnOutcome(error);
+    return readState();
   }
-  const answer: unknown = await response.json().catch(() => null);
-  noteCall(method, path, body, response.status, answer);
-  if (response.ok) return answer;
-  const refusal = answer as Partial<Refusal> | null;
-  const message =
-    refusal?.violations?.[0]?.message ??
-    refusal?.message ??
-    `${response.status} ${response.statusText}`;
-  if (response.status === 401) throw new LockedError(message);
-  throw new RefusedError(response.status, message);
-}
-
-function send(method: Method, path: SessionPath, body?: unknown) {
-  return request(method, SESSION + path, body) as Promise<SessionState>;
 }
 
 /** One call on the session; path and body are checked against the server's schema. */
@@ -113,8 +78,7 @@ export const runFigure = (
   kept: { rivals?: Configuration["rivals"]; effects?: EffectsRequest },
 ) => send("post", "/experiment", { figure, law, load: true, ...kept });
 export const addLoad = (load: Load) => call("post", "/loads", load);
-export const removeLoad = (id: number) =>
-  request("delete", `${SESSION}/loads/${id}`) as Promise<SessionState>;
+export const removeLoad = (id: number) => send("delete", `/loads/${id}`);
 export const removeAllLoads = () => call("delete", "/loads");
 export const takeControl = (by: string, takeOver: boolean) =>
   call("put", "/control", { by, take_over: takeOver });

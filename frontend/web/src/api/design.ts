@@ -1,5 +1,5 @@
 /** Ask the server what gains and observer would do; nothing is changed by it. */
-import { request, sessionName } from "./client";
+import { request, sessionName } from "./request";
 import type { components } from "./schema";
 
 type Schemas = components["schemas"];

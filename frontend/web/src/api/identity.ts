@@ -2,7 +2,8 @@
 
 const KEY = "svsa.client";
 
-function draw(): string {
+/** 128 random bits as text. */
+export function drawText(): string {
   const bytes = crypto.getRandomValues(new Uint8Array(16));
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
@@ -18,7 +19,7 @@ function takeKept(): string | null {
   }
 }
 
-export const client = takeKept() ?? draw();
+export const client = takeKept() ?? drawText();
 
 window.addEventListener("pagehide", () => {
   try {

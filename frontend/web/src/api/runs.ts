@@ -1,5 +1,5 @@
 /** The public REST API of the recorded runs, one function a call. */
-import { API, request, sessionName } from "./client";
+import { API, request, sessionName } from "./request";
 import type {
   ExportName,
   RunDetails,

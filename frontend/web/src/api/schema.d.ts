@@ -927,6 +927,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/requests/{request_name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Outcome
+         * @description Whether a request whose answer did not come was carried out.
+         */
+        get: operations["read_outcome_api_v1_requests__request_name__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1962,6 +1982,28 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /**
+         * OutcomeState
+         * @description What became of a request.
+         */
+        OutcomeState: {
+            /**
+             * Outcome
+             * @description unknown: it has not come to this server, or 1000 others have come since; pending: it is being worked on
+             * @enum {string}
+             */
+            outcome: "unknown" | "pending" | "carried_out" | "refused";
+            /**
+             * Status
+             * @description That it was answered with
+             */
+            status: number | null;
+            /**
+             * Age S
+             * @description For how long this server has run, s
+             */
+            age_s: number;
         };
         /**
          * PaperLoad
@@ -5395,6 +5437,38 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_outcome_api_v1_requests__request_name__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description As the request named itself in its header `SVSA-Request` */
+                request_name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OutcomeState"];
                 };
             };
             /** @description Refused values; nothing was changed */

@@ -27,6 +27,7 @@ export type LoopState = BenchState["loop"];
 export type Axis = Schemas["HomingRequest"]["step"];
 export type Figure = Schemas["ExperimentRequest"]["figure"];
 export type Refusal = Schemas["ErrorModel"];
+export type OutcomeState = Schemas["OutcomeState"];
 
 /** What has a default may be left out of a request. */
 type Defaulted = "transition_s" | "phase_rad" | "offset_rad" | "start_s";

@@ -1,4 +1,5 @@
 import type { BenchState } from "../api/types";
+import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { formatLapse, formatNumber } from "../units";
 import { Homing } from "./homing";
@@ -6,6 +7,8 @@ import { freshnessOf } from "./lateness";
 import { Loop } from "./loop";
 
 const SIGNS = { fresh: "✓", stale: "▲", lost: "▲" } as const;
+/** Drives say nothing before they are brought up, nor after a fault. */
+const QUIET: readonly BenchState["status"][] = ["off", "reset", "config", "mode", "fault"];
 
 function Problems({ problems }: { problems: readonly string[] }) {
   return (
@@ -22,9 +25,11 @@ function Problems({ problems }: { problems: readonly string[] }) {
   );
 }
 
-function Age({ seconds }: { seconds: number }) {
+function Age({ seconds, speaks }: { seconds: number; speaks: boolean }) {
   const { drives } = text.bench;
-  const level = freshnessOf(seconds);
+  const level = freshnessOf(seconds, speaks);
+  if (!isLive.value) return <td>{drives.notKnown}</td>;
+  if (level === "silent") return <td>{drives.silent}</td>;
   return (
     <td class={level === "fresh" ? "is-good" : "is-bad"}>
       <span aria-hidden="true">{SIGNS[level]}</span> {drives.ago(formatLapse(seconds))}
@@ -62,16 +67,21 @@ function Drives({ bench }: { bench: BenchState }) {
                     ? drives.none
                     : drives.amperes(formatNumber(current, 3, 2))}
                 </td>
-                <Age seconds={age} />
+                <Age
+                  seconds={age}
+                  speaks={current === undefined || !QUIET.includes(bench.status)}
+                />
               </tr>
             );
           })}
         </tbody>
       </table>
-      <p class={supervised ? "is-good" : "is-bad"}>
-        <span aria-hidden="true">{supervised ? "✓" : "▲"}</span>{" "}
-        {supervised ? drives.supervised : drives.unsupervised}
-      </p>
+      {isLive.value && (
+        <p class={supervised ? "is-good" : "is-bad"}>
+          <span aria-hidden="true">{supervised ? "✓" : "▲"}</span>{" "}
+          {supervised ? drives.supervised : drives.unsupervised}
+        </p>
+      )}
     </section>
   );
 }

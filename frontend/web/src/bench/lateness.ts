@@ -25,12 +25,15 @@ export const decadesIn = (counts: readonly number[]): number =>
 const FOOT = 0.3;
 const decadesOf = (count: number): number => (count <= 0 ? 0 : FOOT + Math.log10(count));
 
-export type Freshness = "fresh" | "stale" | "lost";
+export type Freshness = "fresh" | "stale" | "lost" | "silent";
 const STALE_S = 0.005;
 const LOST_S = 0.02;
 
-/** The bounds of the safety rules: above 5 ms the torque goes to zero, above 20 ms it is a fault. */
-export function freshnessOf(ageS: number): Freshness {
-  if (!(ageS <= LOST_S)) return "lost";
+/**
+ * The bounds of the safety rules: above 5 ms the torque goes to zero, above 20 ms it is a fault.
+ * speaks: whether it should be heard at all; a drive that is not armed says nothing.
+ */
+export function freshnessOf(ageS: number, speaks = true): Freshness {
+  if (!(ageS <= LOST_S)) return speaks ? "lost" : "silent";
   return ageS > STALE_S ? "stale" : "fresh";
 }

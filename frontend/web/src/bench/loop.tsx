@@ -1,4 +1,5 @@
 import type { LoopState } from "../api/types";
+import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { formatLapse } from "../units";
 import { barsOf, decadesIn } from "./lateness";
@@ -72,10 +73,14 @@ export function Loop({ loop }: { loop: LoopState }) {
     <section class="bench-card is-loop" aria-label={words.heading}>
       <h2>
         {words.heading}{" "}
-        <small class={loop.alive ? "is-good" : "is-bad"}>
-          <span aria-hidden="true">{loop.alive ? "✓" : "▲"}</span>{" "}
-          {loop.alive ? words.alive : words.dead}, {text.status.rate(loop.rate_hz)}
-        </small>
+        {isLive.value ? (
+          <small class={loop.alive ? "is-good" : "is-bad"}>
+            <span aria-hidden="true">{loop.alive ? "✓" : "▲"}</span>{" "}
+            {loop.alive ? words.alive : words.dead}, {text.status.rate(loop.rate_hz)}
+          </small>
+        ) : (
+          <small>{text.bench.drives.notKnown}</small>
+        )}
       </h2>
       <div class="loop-columns">
         <Lateness loop={loop} />

@@ -1,13 +1,14 @@
 /** Where a bench is, what may be done there, and what comes next. */
 import type { BenchState, BenchStatus, SessionState } from "../api/types";
+import { freshnessOf } from "./lateness";
 
 export const STAGES = ["off", "reset", "config", "mode", "ready", "run"] as const;
 export type Stage = (typeof STAGES)[number];
 export type Place = "done" | "here" | "ahead";
 
-/** A ramp is the end of a run; a fault is nowhere on the way. */
-export function placeOf(stage: Stage, status: BenchStatus): Place {
-  if (status === "fault") return "ahead";
+/** A ramp is the end of a run; a fault is nowhere on the way; null: nobody knows where it is. */
+export function placeOf(stage: Stage, status: BenchStatus | null): Place {
+  if (status === "fault" || status === null) return "ahead";
   const here = STAGES.indexOf(status === "ramp" ? "run" : status);
   const index = STAGES.indexOf(stage);
   if (index === here) return "here";
@@ -32,17 +33,36 @@ export function allowedOn(bench: BenchState, held = false): Allowed {
     run: status === "ready" && isHomed(bench) && (held || !bench.dead_man),
     stop: status === "run",
     clear: status === "fault",
-    home: !isHomed(bench) && (status === "off" || status === "ready"),
+    home: !isHomed(bench) && status === "ready",
   };
 }
 
-export type Advice = "problems" | "arm" | "wait" | "home" | "run" | "running" | "ramping" | "clear";
+export type Advice =
+  | "problems"
+  | "loop"
+  | "unsupervised"
+  | "unheard"
+  | "arm"
+  | "wait"
+  | "home"
+  | "run"
+  | "running"
+  | "ramping"
+  | "clear";
+
+/** The encoder may be heard before the drives are armed; they speak only then. */
+function adviceBeforeArming({ problems, loop, supervised, ages_s: ages }: BenchState): Advice {
+  if (problems.length > 0) return "problems";
+  if (!loop.alive) return "loop";
+  if (!supervised) return "unsupervised";
+  return freshnessOf(ages[2]) === "lost" ? "unheard" : "arm";
+}
 
 /** The next thing to do. */
 export function adviceFor(bench: BenchState): Advice {
   switch (bench.status) {
     case "off":
-      return bench.problems.length > 0 ? "problems" : "arm";
+      return adviceBeforeArming(bench);
     case "ready":
       return isHomed(bench) ? "run" : "home";
     case "run":

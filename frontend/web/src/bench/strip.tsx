@@ -2,6 +2,7 @@ import { useId, useState } from "preact/hooks";
 import type { BenchState } from "../api/types";
 import { Problem } from "../controls/problem";
 import { mark } from "../state/bench";
+import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
@@ -9,9 +10,9 @@ import { HoldRow } from "./holdrow";
 import { adviceFor, needsDetails, placeOf, STAGES } from "./status";
 
 /** OFF → RUN as one line; the place is told by sign and word, not by colour alone. */
-function Progress({ status }: { status: BenchState["status"] }) {
+function Progress({ status }: { status: BenchState["status"] | null }) {
   return (
-    <ol class={`stages is-${status}`} aria-label={text.bench.stages}>
+    <ol class={`stages is-${status ?? "unknown"}`} aria-label={text.bench.stages}>
       {STAGES.map((stage) => {
         const place = placeOf(stage, status);
         return (
@@ -37,6 +38,8 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
   const [chosen, choose] = useState<{ isNeeded: boolean; isOpen: boolean } | null>(null);
   const isOpen = chosen?.isNeeded === isNeeded ? chosen.isOpen : isNeeded;
   const kind = mark.value ?? "real";
+  const status = text.bench.status[bench.status];
+  const advice = text.bench.advice[adviceFor(bench)];
   return (
     <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
       <div class="bench-strip">
@@ -44,10 +47,10 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
           <strong>{text.mark[kind].name}</strong>
           <small>{text.mark[kind].means}</small>
         </p>
-        <Progress status={bench.status} />
+        <Progress status={isLive.value ? bench.status : null} />
         <p class="bench-advice" role="status">
-          <strong>{text.bench.status[bench.status]}</strong>
-          <span>{text.bench.advice[adviceFor(bench)]}</span>
+          <strong>{isLive.value ? status : text.bench.unknown}</strong>
+          <span>{isLive.value ? advice : text.bench.lastHeard(status)}</span>
           {bench.operator_required && <span> {text.bench.watch}</span>}
         </p>
         <BenchButtons bench={bench} />

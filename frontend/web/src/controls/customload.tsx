@@ -1,6 +1,7 @@
 import { useId, useState } from "preact/hooks";
 import { addLoad } from "../api/client";
 import type { Load } from "../api/types";
+import { type Quantity, shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
 import { Choice } from "./choice";
@@ -26,9 +27,7 @@ function loadOf(kind: Kind, channel: Channel, torque: number, detail: number): L
   return { kind, torque_nm };
 }
 
-interface NumberBoxProps {
-  label: string;
-  unit: string;
+interface NumberBoxProps extends Quantity {
   value: string;
   onInput: (value: string) => void;
 }
@@ -74,12 +73,12 @@ export function CustomLoad() {
         value={channel}
         onChoose={setChannel}
       />
-      <NumberBox label={text.load.torque} unit="N·m" value={torque} onInput={setTorque} />
+      <NumberBox {...shownAs("torque_nm")} value={torque} onInput={setTorque} />
       {kind === "pulse" && (
-        <NumberBox label={text.load.duration} unit="s" value={duration} onInput={setDuration} />
+        <NumberBox {...shownAs("duration_s")} value={duration} onInput={setDuration} />
       )}
       {kind === "sine" && (
-        <NumberBox label={text.load.frequency} unit="Hz" value={frequency} onInput={setFrequency} />
+        <NumberBox {...shownAs("frequency_hz")} value={frequency} onInput={setFrequency} />
       )}
       <button type="submit" class="button">
         {text.load.apply}

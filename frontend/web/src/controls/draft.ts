@@ -1,7 +1,8 @@
 /** What the user types before the server holds it. */
 import { useState } from "preact/hooks";
 import type { SessionState } from "../api/types";
-import { perform } from "../state/actions";
+import { perform, problem } from "../state/actions";
+import { text } from "../text/en";
 import { formatInput } from "../units";
 
 export interface HeldNumber {
@@ -20,7 +21,9 @@ export function useDraft({ name, value, send }: HeldNumber) {
   const [draft, setDraft] = useState<string | null>(null);
   const commit = async (next: string) => {
     const number = Number(next);
-    if (next.trim() !== "" && Number.isFinite(number) && next !== formatInput(value)) {
+    if (next.trim() === "" || !Number.isFinite(number)) {
+      problem.value = { control: name, message: text.refusal.noNumber };
+    } else if (next !== formatInput(value)) {
       setDraft(next);
       await perform(name, () => send(number));
     }

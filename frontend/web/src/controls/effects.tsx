@@ -1,6 +1,7 @@
 import { useRef } from "preact/hooks";
 import { putEffects } from "../api/client";
 import type { Effects } from "../api/types";
+import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { EFFECTS, type Effect } from "../state/effects";
 import { text } from "../text/en";
@@ -9,32 +10,14 @@ import { Problem } from "./problem";
 
 const words = text.realism;
 type ValueKey = keyof typeof words.values;
-interface Value {
-  key: ValueKey;
-  unit: string;
-  /** The value on screen over the value in SI. */
-  scale?: number;
-}
 
-const VALUES: Record<Effect, readonly Value[]> = {
-  encoders: [
-    { key: "motor_counts_per_rev", unit: "" },
-    { key: "gear_ratio", unit: "" },
-    { key: "deflection_counts_per_rev", unit: "" },
-  ],
-  estimation: [{ key: "corner_rad_per_s", unit: "rad/s" }],
-  friction: [
-    { key: "coulomb1_nm", unit: "N·m" },
-    { key: "coulomb2_nm", unit: "N·m" },
-    { key: "static_ratio", unit: "" },
-    { key: "stribeck_rad_per_s", unit: "rad/s" },
-  ],
-  current_lag: [{ key: "time_constant_s", unit: "ms", scale: 1e3 }],
-  noise: [
-    { key: "motor_std_rad", unit: "mrad", scale: 1e3 },
-    { key: "deflection_std_rad", unit: "mrad", scale: 1e3 },
-  ],
-  gravity: [{ key: "moment_nm", unit: "N·m" }],
+const VALUES: Record<Effect, readonly ValueKey[]> = {
+  encoders: ["motor_counts_per_rev", "gear_ratio", "deflection_counts_per_rev"],
+  estimation: ["corner_rad_per_s"],
+  friction: ["coulomb1_nm", "coulomb2_nm", "static_ratio", "stribeck_rad_per_s"],
+  current_lag: ["time_constant_s"],
+  noise: ["motor_std_rad", "deflection_std_rad"],
+  gravity: ["moment_nm"],
 };
 
 interface EffectRowProps {
@@ -86,14 +69,13 @@ export function EffectList({ effects }: { effects: Effects }) {
               }
             />
             {held &&
-              VALUES[effect].map(({ key, unit, scale = 1 }) => (
+              VALUES[effect].map((key) => (
                 <Field
                   key={key}
                   name={`${name}.${key}`}
-                  label={words.values[key]}
-                  unit={unit}
-                  value={(held[key] as number) * scale}
-                  send={(value) => change({ [effect]: { ...held, [key]: value / scale } })}
+                  {...shownAs(key)}
+                  value={held[key] as number}
+                  send={(value) => change({ [effect]: { ...held, [key]: value } })}
                 />
               ))}
           </div>
@@ -111,8 +93,7 @@ export function EffectList({ effects }: { effects: Effects }) {
       </div>
       <Field
         name="realism.delay"
-        label={words.delay}
-        unit={words.samples}
+        {...shownAs("delay_samples")}
         value={effects.delay_samples}
         send={(samples) => change({ delay_samples: samples })}
       />

@@ -10,6 +10,9 @@ export interface FieldProps extends HeldNumber {
   /** Goes on where the group makes the label clear to the eye, but not to a screen reader. */
   labelRest?: string;
   unit: string;
+  /** What is shown over what is held and sent. */
+  factor?: number;
+  /** In the unit on screen. */
   range?: SliderRange;
 }
 
@@ -17,9 +20,13 @@ export interface FieldProps extends HeldNumber {
  * A number with its label and unit. Moving the slider makes a draft, releasing it sends it; below
  * stands why a draft was refused.
  */
-export function Field({ label, labelRest, unit, range, ...held }: FieldProps) {
+export function Field({ label, labelRest, unit, factor = 1, range, ...held }: FieldProps) {
   const id = useId();
-  const { shown, setDraft, commit, inputProps } = useDraft(held);
+  const { shown, setDraft, commit, inputProps } = useDraft({
+    name: held.name,
+    value: held.value * factor,
+    send: (value) => held.send(value / factor),
+  });
   const fromSlider = (event: Event) =>
     formatInput(valueAt((event.target as HTMLInputElement).valueAsNumber, range as SliderRange), 3);
 

@@ -1,9 +1,10 @@
 import { useRef } from "preact/hooks";
 import { putPosition } from "../api/client";
 import type { PositionReference, Sent, SessionState } from "../api/types";
+import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
-import { toDegrees, toRadians } from "../units";
+import { toRadians } from "../units";
 import { Choice } from "./choice";
 import { Field } from "./field";
 import { Group } from "./group";
@@ -24,27 +25,24 @@ function SineFields({ reference }: { reference: Sine }) {
     <>
       <Field
         name="motion.amplitude"
-        label={text.motion.amplitude}
-        unit="deg"
-        value={toDegrees(reference.amplitude_rad)}
+        {...shownAs("amplitude_rad")}
+        value={reference.amplitude_rad}
         range={{ min: 0, max: 90, step: 1 }}
-        send={(deg) => send({ amplitude_rad: toRadians(deg) })}
+        send={(amplitude_rad) => send({ amplitude_rad })}
       />
       <Field
         name="motion.frequency"
-        label={text.motion.frequency}
-        unit="Hz"
+        {...shownAs("frequency_hz")}
         value={reference.frequency_hz}
         range={{ min: 0.02, max: 2, logarithmic: true }}
         send={(hz) => send({ frequency_hz: hz })}
       />
       <Field
         name="motion.offset"
-        label={text.motion.offset}
-        unit="deg"
-        value={toDegrees(reference.offset_rad)}
+        {...shownAs("offset_rad")}
+        value={reference.offset_rad}
         range={{ min: -60, max: 60, step: 1 }}
-        send={(deg) => send({ offset_rad: toRadians(deg) })}
+        send={(offset_rad) => send({ offset_rad })}
       />
     </>
   );
@@ -76,11 +74,10 @@ export function Motion({ state }: { state: SessionState }) {
       ) : (
         <Field
           name="motion.position"
-          label={text.motion.position}
-          unit="deg"
-          value={toDegrees(reference.position_rad)}
+          {...shownAs("position_rad")}
+          value={reference.position_rad}
           range={{ min: -90, max: 90, step: 1 }}
-          send={(deg) => putPosition({ kind: "constant", position_rad: toRadians(deg) })}
+          send={(position_rad) => putPosition({ kind: "constant", position_rad })}
         />
       )}
     </Group>

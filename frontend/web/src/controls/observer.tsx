@@ -1,11 +1,11 @@
 import { putObserver } from "../api/client";
 import type { SessionState } from "../api/types";
+import { shownAs } from "../quantities";
 import { text } from "../text/en";
 import { Field } from "./field";
 import { Group } from "./group";
 import type { SliderRange } from "./scale";
 
-const UNIT = "rad/s";
 const RANGE: SliderRange = { min: 2, max: 300, logarithmic: true };
 
 export function Observer({ state }: { state: SessionState }) {
@@ -22,8 +22,7 @@ export function Observer({ state }: { state: SessionState }) {
       {law === "fl" && <p class="hint">{text.observer.unused}</p>}
       <Field
         name="observer.all"
-        label={text.observer.all}
-        unit={UNIT}
+        {...shownAs("bandwidth_rad_per_s")}
         value={bandwidth[0]}
         range={RANGE}
         send={(beta) => putObserver(beta, beta, beta)}
@@ -35,8 +34,8 @@ export function Observer({ state }: { state: SessionState }) {
           <Field
             key={text.channels[index]}
             name={`observer.${index}`}
+            {...shownAs("bandwidth_rad_per_s")}
             label={text.channels[index] as string}
-            unit={UNIT}
             value={beta}
             range={RANGE}
             send={(next) => sendOne(index, next)}

@@ -60,7 +60,8 @@ export function ParameterTable({ actuator, nominal }: ParameterTableProps) {
         </thead>
         <tbody>
           {KEYS.map((key) => {
-            const [symbol, meaning] = words.names[key];
+            const [symbol, name, unit] = words.names[key];
+            const meaning = `${name}, ${unit}`;
             return (
               <tr key={key}>
                 <th scope="row">

@@ -1,6 +1,7 @@
 import { useRef } from "preact/hooks";
 import { putStiffness } from "../api/client";
 import type { Sent, SessionState, StiffnessReference } from "../api/types";
+import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
 import { Choice } from "./choice";
@@ -14,7 +15,6 @@ type Kind = StiffnessReference["kind"];
 
 /** What the mechanism can reach, N·m/rad. */
 const REACH: SliderRange = { min: 1.7, max: 150.56, logarithmic: true };
-const UNIT = "N·m/rad";
 const KINDS = [
   { value: "constant", label: text.stiffness.constant },
   { value: "sine", label: text.stiffness.sine },
@@ -26,24 +26,21 @@ function SineFields({ reference }: { reference: Sine }) {
     <>
       <Field
         name="stiffness.offset"
-        label={text.stiffness.mean}
-        unit={UNIT}
+        {...shownAs("offset_nm_per_rad")}
         value={reference.offset_nm_per_rad}
         range={REACH}
         send={(value) => send({ offset_nm_per_rad: value })}
       />
       <Field
         name="stiffness.amplitude"
-        label={text.stiffness.amplitude}
-        unit={UNIT}
+        {...shownAs("amplitude_nm_per_rad")}
         value={reference.amplitude_nm_per_rad}
         range={{ min: 0, max: 30, step: 0.5 }}
         send={(value) => send({ amplitude_nm_per_rad: value })}
       />
       <Field
         name="stiffness.frequency"
-        label={text.stiffness.frequency}
-        unit="Hz"
+        {...shownAs("frequency_hz")}
         value={reference.frequency_hz}
         range={{ min: 0.02, max: 2, logarithmic: true }}
         send={(hz) => send({ frequency_hz: hz })}
@@ -91,8 +88,7 @@ export function Stiffness({ state }: { state: SessionState }) {
       ) : (
         <Field
           name="stiffness.level"
-          label={text.stiffness.level}
-          unit={UNIT}
+          {...shownAs("stiffness_nm_per_rad")}
           value={reference.stiffness_nm_per_rad}
           range={REACH}
           send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}

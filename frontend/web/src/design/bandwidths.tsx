@@ -9,6 +9,10 @@ const words = text.design;
 const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
 const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
 
+const LEAST = 0.1;
+const MOST = 1000;
+const BOUNDS = text.refusal.between(String(LEAST), `${MOST} ${words.unit}`);
+
 interface RowProps {
   look: string;
   label: string;
@@ -23,11 +27,13 @@ interface RowProps {
 function Row({ look, label, name, note, value, range, onTry }: RowProps) {
   const id = useId();
   const [typed, setTyped] = useState<string | null>(null);
+  const isTaken = (written: string) =>
+    written.trim() !== "" && Number(written) >= LEAST && Number(written) <= MOST;
   const take = (written: string) => {
     setTyped(written);
-    const number = Number(written);
-    if (written.trim() !== "" && number >= 0.1 && number <= 1000) onTry(number);
+    if (isTaken(written)) onTry(Number(written));
   };
+  const isRefused = typed !== null && !isTaken(typed);
   return (
     <div class={`bandwidth is-${look}`}>
       <label for={id}>
@@ -49,8 +55,9 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
         id={id}
         type="number"
         step="any"
-        min={0.1}
-        max={1000}
+        min={LEAST}
+        max={MOST}
+        aria-invalid={isRefused}
         value={typed ?? formatInput(value, 4)}
         aria-describedby={`${id}-note`}
         onInput={(event) => take(event.currentTarget.value)}
@@ -59,6 +66,13 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
       <span class="unit" id={`${id}-note`}>
         {note}
       </span>
+      {isRefused && (
+        <p class="problem" role="alert">
+          {typed.trim() === ""
+            ? text.refusal.noNumber
+            : text.refusal.outOfRange(name, typed, BOUNDS)}
+        </p>
+      )}
     </div>
   );
 }

@@ -3,7 +3,7 @@ import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatLapse, formatNumber } from "../units";
 import { expected, isAsking, present } from "./draft";
-import { degreesOf, torqueOf } from "./words";
+import { degreesOf, torqueOf, verdictOf } from "./words";
 
 const words = text.design;
 
@@ -84,7 +84,8 @@ function Row({ line, found, now }: { line: Line; found: Prediction; now: Predict
 }
 
 function Judgement({ found }: { found: Prediction }) {
-  const { verdict, reasons } = found;
+  const { reasons } = found;
+  const verdict = verdictOf(found);
   return (
     <section
       class={`judgement is-${verdict}`}

@@ -1,4 +1,5 @@
 /** Poles and numbers of a design as they are read. */
+import type { Prediction } from "../api/design";
 import { text } from "../text/en";
 import { formatInput, formatNumber, toDegrees } from "../units";
 import { countPlaces, type Pole, type Poles } from "./poles";
@@ -24,3 +25,7 @@ export function describePoles(poles: Poles): string {
 
 export const degreesOf = (rad: number) => `${formatNumber(Math.abs(toDegrees(rad)), 3, 3)}°`;
 export const torqueOf = (torque: number) => `${formatNumber(torque, 3, 4)} N·m`;
+
+/** Nothing is plainly good that goes beyond a limit, however shortly. */
+export const verdictOf = ({ verdict, reasons }: Prediction): keyof typeof text.design.verdict =>
+  verdict === "ok" && reasons.length > 0 ? "note" : verdict;

@@ -39,7 +39,7 @@ export function App() {
       {at.kind !== "lab" ? (
         <Runs at={at} />
       ) : state === null ? (
-        <p class="waiting-page">{text.connection.waiting}</p>
+        phase.value !== "ended" && <p class="waiting-page">{text.connection.waiting}</p>
       ) : (
         <main class="lab">
           <View />

@@ -1,10 +1,28 @@
 import { reset, stopRecording } from "../api/client";
+import { told } from "../api/outcome";
 import { ControlBanner } from "../control/banner";
 import { Problem } from "../controls/problem";
 import { StopBanners } from "../safety/stopbanner";
 import { perform } from "../state/actions";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
+
+/** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */
+function Told({ now }: { now: NonNullable<typeof told.value> }) {
+  const words = text.connection;
+  const isAsking = now === "asking";
+  return (
+    <div class="banner is-lost" role="alert">
+      <span class="banner-sign" aria-hidden="true">
+        {isAsking ? "?" : "✓"}
+      </span>
+      <p>
+        <strong>{isAsking ? words.askingTitle : words.carriedOutTitle}</strong>{" "}
+        {isAsking ? words.askingText : words.carriedOutText}
+      </p>
+    </div>
+  );
+}
 
 /** What must not be overlooked: no connection, a fault, a refused command of the top bar. */
 export function Banners() {
@@ -14,6 +32,7 @@ export function Banners() {
   return (
     <div class="banners">
       <StopBanners />
+      {told.value !== null && <Told now={told.value} />}
       {isLost && (
         <div class="banner is-lost" role="alert">
           <span class="banner-sign" aria-hidden="true" />

@@ -1,12 +1,21 @@
 import type { SessionState } from "../api/types";
 import { toggleRecording } from "../state/commands";
 import { mayCommand } from "../state/control";
+import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { formatSeconds } from "../units";
 
 /** Begins and ends a recording, and tells how long it is. */
 export function RecordButton({ state }: { state: SessionState }) {
   const { recording, rate_hz: rateHz } = state;
+  if (!isLive.value) {
+    return (
+      <button type="button" class="button record" disabled>
+        <span class="record-dot" aria-hidden="true" />
+        {recording === null ? text.recording.start : text.recording.unknown}
+      </button>
+    );
+  }
   if (recording?.state !== "recording") {
     return (
       <button

@@ -9,14 +9,21 @@ import { Clock } from "./clock";
 import { CornerMark } from "./marks";
 
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
-const PHASE_SIGNS = { live: "●", connecting: "◌", lost: "○", locked: "○" } as const;
+const PHASE_SIGNS = { live: "●", connecting: "◌", lost: "○", locked: "○", ended: "○" } as const;
 
 function SessionPill({ state: { status, bench } }: { state: SessionState }) {
   const isStandingBench = bench !== null && status === "paused";
+  const word = bench === null ? text.status[status] : text.bench.status[bench.status];
+  if (!isLive.value) {
+    return (
+      <span class="pill is-unknown" title={text.status.lastKnown(word)}>
+        <span aria-hidden="true">?</span> {text.status.unknown}
+      </span>
+    );
+  }
   return (
     <span class={`pill is-${status}`}>
-      <span aria-hidden="true">{isStandingBench ? "○" : STATUS_SIGNS[status]}</span>{" "}
-      {bench === null ? text.status[status] : text.bench.status[bench.status]}
+      <span aria-hidden="true">{isStandingBench ? "○" : STATUS_SIGNS[status]}</span> {word}
     </span>
   );
 }
@@ -39,8 +46,9 @@ function Cell({ name, hint, children, ...rest }: CellProps) {
 
 function SimulatedLoop({ state }: { state: SessionState }) {
   const { status, rate_hz: rateHz, real_time_factor: factor, stretched_s: stretched } = state;
-  const pace =
+  const moving =
     status === "running" ? text.status.realTime(formatNumber(factor, 3, 2)) : text.status.standing;
+  const pace = isLive.value ? moving : text.status.notKnown;
   return (
     <Cell
       name={text.status.loop}
@@ -53,6 +61,13 @@ function SimulatedLoop({ state }: { state: SessionState }) {
 }
 
 function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
+  if (!isLive.value) {
+    return (
+      <Cell name={text.status.loop} class="is-loop is-bench">
+        {text.status.rate(loop.rate_hz)} <small>{text.status.notKnown}</small>
+      </Cell>
+    );
+  }
   if (!loop.alive) {
     return (
       <Cell name={text.status.loop} class="is-loop is-bad">
@@ -73,6 +88,13 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
 
 function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: SessionState }) {
   const isOn = recording?.state === "recording";
+  if (!isLive.value) {
+    return (
+      <Cell name={text.status.recording} class="is-idle">
+        {text.status.notKnown}
+      </Cell>
+    );
+  }
   return (
     <Cell name={text.status.recording} class={isOn ? "is-recording" : "is-idle"}>
       {isOn && (

@@ -5,6 +5,7 @@ import { perform } from "../state/actions";
 import { toggleRun } from "../state/commands";
 import { mayCommand } from "../state/control";
 import { presetOf } from "../state/effects";
+import { isLive } from "../state/session";
 import { text } from "../text/en";
 
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
@@ -99,6 +100,7 @@ function Stepper({ state }: { state: SessionState }) {
 
 export function Transport({ state }: { state: SessionState }) {
   const isRunning = state.status === "running";
+  const wish = isRunning ? text.transport.pause : text.transport.run;
   return (
     <fieldset class="transport" aria-label={text.transport.heading}>
       <button
@@ -111,7 +113,7 @@ export function Transport({ state }: { state: SessionState }) {
         <svg viewBox="0 0 12 12" aria-hidden="true">
           <path d={isRunning ? "M2 1h3v10H2zM7 1h3v10H7z" : "M2 1l9 5-9 5z"} />
         </svg>
-        {isRunning ? text.transport.pause : text.transport.run}
+        {isLive.value ? wish : text.transport.either}
       </button>
       <button
         type="button"

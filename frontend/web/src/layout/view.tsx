@@ -1,4 +1,4 @@
-import { sessionName } from "../api/client";
+import { sessionName } from "../api/request";
 import { answerKey } from "../keys/keys";
 import { SceneTools } from "../scene/tools";
 import { enterView, isLow } from "../scene/viewer";

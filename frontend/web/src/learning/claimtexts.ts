@@ -1,6 +1,6 @@
 /** What the paper claims of each figure, in the server's words. */
 import { signal } from "@preact/signals";
-import { request } from "../api/client";
+import { request } from "../api/request";
 import type { components } from "../api/schema";
 
 export const figureClaims = signal<ReadonlyMap<string, string>>(new Map());

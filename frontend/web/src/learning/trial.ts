@@ -1,5 +1,5 @@
 /** A figure of the paper run with both laws in a session of its own, and what came of it. */
-import { API, request } from "../api/client";
+import { API, request } from "../api/request";
 import type { Figure, SessionState } from "../api/types";
 import { decodeBatch } from "../stream/decoder";
 import { type Course, sliceCourse } from "./outcome";

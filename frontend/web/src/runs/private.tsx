@@ -1,15 +1,18 @@
-import { isPrivate } from "../api/client";
+import { isPrivate } from "../api/request";
+import { phase } from "../state/session";
 import { text } from "../text/en";
 
-/** Says that the page shows a private session, and leads back. */
+/** Says that the page shows a private session, or that it has ended, and leads back. */
 export function PrivateBanner() {
   if (!isPrivate) return null;
+  const isEnded = phase.value === "ended";
   return (
     <aside class="private-banner" aria-label={text.private.label}>
-      <p>
-        <strong>{text.private.title}</strong> {text.private.text}
+      <p role="status">
+        <strong>{isEnded ? text.private.endedTitle : text.private.title}</strong>{" "}
+        {isEnded ? text.private.endedText : text.private.text}
       </p>
-      <a class="button" href={location.pathname}>
+      <a class={`button ${isEnded ? "is-primary" : ""}`} href={location.pathname}>
         {text.private.back}
       </a>
     </aside>

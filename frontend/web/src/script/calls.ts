@@ -7,7 +7,7 @@ export interface Call {
   /** Below api/v1/, with its query. */
   path: string;
   body: unknown;
-  /** Null where the server was not reached. */
+  /** Null where no answer came, and nothing else is known. */
   status: number | null;
   /** Session time at which it held, where the answer tells it, s. */
   timeS: number | null;
@@ -25,16 +25,21 @@ function readTime(answer: unknown): number | null {
   return typeof time === "number" ? time : null;
 }
 
-/** Notes a call; one that only reads is worth showing where the user asked for a file. */
+/** Notes a call, and says under which number; one that only reads is not worth showing. */
 export function noteCall(
   method: string,
   path: string,
   body: unknown,
   status: number | null,
   answer: unknown = null,
-): void {
-  if (method === "get" || path === SECRET_PATH) return;
-  addCall({ method, path, body, status, timeS: readTime(answer) });
+): number | null {
+  if (method === "get" || path === SECRET_PATH) return null;
+  return addCall({ method, path, body, status, timeS: readTime(answer) });
+}
+
+/** What became of a call whose answer was lost; null where it never came to the server. */
+export function answerCall(id: number, status: number | null): void {
+  calls.value = calls.peek().map((call) => (call.id === id ? { ...call, status } : call));
 }
 
 /** Notes a file that the browser fetches by itself. */
@@ -42,9 +47,10 @@ export function noteDownload(path: string): void {
   addCall({ method: "get", path, body: undefined, status: 200, timeS: null });
 }
 
-function addCall(call: Omit<Call, "id">): void {
+function addCall(call: Omit<Call, "id">): number {
   lastId += 1;
   calls.value = [...calls.peek(), { id: lastId, ...call }].slice(-MOST_CALLS);
+  return lastId;
 }
 
 export function clearCalls(): void {

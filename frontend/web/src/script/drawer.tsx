@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { API } from "../api/client";
+import { API } from "../api/request";
 import { Choice } from "../controls/choice";
 import { text } from "../text/en";
 import { formatTime } from "../units";

@@ -1,8 +1,8 @@
 /** The experiment on the page, and a recorded run, as scripts. */
 
 import { signal } from "@preact/signals";
-import { API } from "../api/client";
 import { LockedError, RefusedError } from "../api/errors";
+import { API } from "../api/request";
 import { readOrigin, readRunOrigin } from "../api/runs";
 import { laneNames } from "../state/lanes";
 import { phase } from "../state/session";

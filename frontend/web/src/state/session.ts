@@ -1,7 +1,7 @@
 /** What the page knows of the session: signals for what changes slowly, a ring for the samples. */
 import { computed, signal } from "@preact/signals";
 import { readState, streamAddress } from "../api/client";
-import { LockedError } from "../api/errors";
+import { LockedError, RefusedError } from "../api/errors";
 import type { SessionState } from "../api/types";
 import { type Finding, type Phase, StreamConnection } from "../stream/connection";
 import { decodeBatch } from "../stream/decoder";
@@ -91,7 +91,8 @@ async function probe(): Promise<Finding> {
     await readState();
     return "up";
   } catch (error) {
-    return error instanceof LockedError ? "locked" : "down";
+    if (error instanceof LockedError) return "locked";
+    return error instanceof RefusedError && error.status === 404 ? "ended" : "down";
   }
 }
 
@@ -126,8 +127,11 @@ export function selectChannels(channels: readonly string[]): void {
 }
 
 export function watchNetwork(): void {
-  window.addEventListener("online", () => connection.hurry());
+  const hurry = () => {
+    if (phase.peek() !== "locked" && phase.peek() !== "ended") connection.hurry();
+  };
+  window.addEventListener("online", hurry);
   document.addEventListener("visibilitychange", () => {
-    if (!document.hidden && phase.peek() !== "locked") connection.hurry();
+    if (!document.hidden) hurry();
   });
 }

@@ -1,8 +1,9 @@
 /** A WebSocket that stays: it notices silence, and comes back by itself. */
 
 /** What an ordinary request finds where the stream was lost. */
-export type Finding = "up" | "down" | "locked";
-export type Phase = "connecting" | "live" | "lost" | "locked";
+/** ended: the server lives, but what was streamed is there no more. */
+export type Finding = "up" | "down" | "locked" | "ended";
+export type Phase = "connecting" | "live" | "lost" | "locked" | "ended";
 
 export interface StreamHandlers {
   onPhase(phase: Phase): void;
@@ -76,8 +77,8 @@ export class StreamConnection {
     const finding = await this.probe();
     const isOpenAgain = this.#socket !== null;
     if (isOpenAgain) return;
-    if (finding === "locked") {
-      this.handlers.onPhase("locked");
+    if (finding === "locked" || finding === "ended") {
+      this.handlers.onPhase(finding);
       return;
     }
     const wait = backoffMs(this.#attempt++);

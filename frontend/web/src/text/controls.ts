@@ -4,6 +4,19 @@ export const controlsText = {
     heading: "Controls",
     slider: (label: string) => `${label}, slider`,
   },
+  refusal: {
+    outOfRange: (name: string, value: string, bound: string) =>
+      `${name}: ${value} is out of range, ${bound}. It stays as it was.`,
+    missing: (name: string) => `${name} is missing.`,
+    finding: (name: string, finding: string) => `${name}: ${finding}.`,
+    wrong: (name: string, bound: string) => `${name} must be ${bound}.`,
+    noNumber: "This is no number. It stays as it was.",
+    between: (least: string, most: string) => `from ${least} to ${most}`,
+    atLeast: (bound: string) => `at least ${bound}`,
+    moreThan: (bound: string) => `more than ${bound}`,
+    atMost: (bound: string) => `at most ${bound}`,
+    lessThan: (bound: string) => `less than ${bound}`,
+  },
   motion: {
     title: "Motion",
     kind: "Kind of motion",
@@ -20,6 +33,7 @@ export const controlsText = {
     constant: "Constant",
     sine: "Sine",
     level: "Stiffness",
+    throughout: "Stiffness at all times",
     mean: "Mean",
     amplitude: "Amplitude",
     frequency: "Frequency",

@@ -107,6 +107,9 @@ export const runsText = {
     label: "Private session",
     title: "Private session.",
     text: "Only this page shows it. It ends by itself when nobody uses it.",
+    endedTitle: "This private session has ended.",
+    endedText:
+      "Nobody used it for a while, somebody ended it, or the server was started anew. Nothing here moves any more.",
     back: "Back to the shared lab",
   },
 } as const;

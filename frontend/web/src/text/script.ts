@@ -11,7 +11,7 @@ export const scriptText = {
     languages: { python: "Python", curl: "curl" },
     at: (time: string) => `at ${time}`,
     refused: (status: number) => `refused, ${status}`,
-    unreached: "not reached",
+    unreached: "no answer",
     copyOne: (what: string) => `Copy ${what}`,
     copy: "Copy",
     copyAll: "Copy all",

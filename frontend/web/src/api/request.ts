@@ -1,0 +1,57 @@
+/** One request to the server, and which session the page is about. */
+import { noteCall } from "../script/calls";
+import { LockedError, RefusedError, UnansweredError } from "./errors";
+import { client, drawText } from "./identity";
+import type { Method, Refusal } from "./types";
+
+export const API = new URL("api/v1/", document.baseURI);
+const SHARED = "lab";
+/** The session that this page shows: the shared one, or the private one that its address names. */
+export const sessionName = new URLSearchParams(location.search).get("session") ?? SHARED;
+export const isPrivate = sessionName !== SHARED;
+const CLIENT_HEADER = "SVSA-Client";
+/** What the server knows a changing request by, should its answer be lost. */
+const REQUEST_HEADER = "SVSA-Request";
+const LONGEST_WAIT_MS = 6000;
+
+export async function request(
+  method: Method,
+  path: string,
+  body?: unknown,
+  waitMs = LONGEST_WAIT_MS,
+): Promise<unknown> {
+  const name = method === "get" ? null : drawText();
+  const headers: Record<string, string> = { [CLIENT_HEADER]: client };
+  if (name !== null) headers[REQUEST_HEADER] = name;
+  if (body !== undefined) headers["Content-Type"] = "application/json";
+  const sentMs = performance.now();
+  let response: Response;
+  let answer: unknown;
+  try {
+    response = await fetch(new URL(path, API), {
+      method: method.toUpperCase(),
+      cache: "no-store",
+      headers,
+      ...(body !== undefined && { body: JSON.stringify(body) }),
+      signal: AbortSignal.timeout(waitMs),
+    });
+    answer = parse(await response.text());
+  } catch (cause) {
+    const call = noteCall(method, path, body, null);
+    throw new UnansweredError(cause, name, sentMs, call);
+  }
+  noteCall(method, path, body, response.status, answer);
+  if (response.ok) return answer;
+  const refusal = answer as Partial<Refusal> | null;
+  const message = refusal?.message ?? `${response.status} ${response.statusText}`;
+  if (response.status === 401) throw new LockedError(message);
+  throw new RefusedError(response.status, message, refusal?.violations ?? []);
+}
+
+function parse(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,71 @@
+/** The numbers of the API as people read and type them: one name and one unit for each field. */
+import { text } from "./text/en";
+import { DEGREES_PER_RADIAN } from "./units";
+
+export interface Quantity {
+  label: string;
+  unit: string;
+  /** What is shown over what the API has, which is SI. */
+  factor?: number;
+}
+
+const STIFFNESS = "N·m/rad";
+const { motion, stiffness, observer, load, realism, design, transport } = text;
+const degrees = (label: string): Quantity => ({ label, unit: "deg", factor: DEGREES_PER_RADIAN });
+const plain = (label: string, unit = ""): Quantity => ({ label, unit });
+const milli = (label: string, unit: string): Quantity => ({ label, unit, factor: 1e3 });
+const { values } = realism;
+
+export const QUANTITIES = {
+  amplitude_rad: degrees(motion.amplitude),
+  offset_rad: degrees(motion.offset),
+  position_rad: degrees(motion.position),
+  frequency_hz: plain(motion.frequency, "Hz"),
+  stiffness_nm_per_rad: plain(stiffness.level, STIFFNESS),
+  offset_nm_per_rad: plain(stiffness.mean, STIFFNESS),
+  amplitude_nm_per_rad: plain(stiffness.amplitude, STIFFNESS),
+  stiffness: plain(stiffness.throughout, STIFFNESS),
+  position_poles_rad_per_s: plain(design.summary(design.position), design.unit),
+  stiffness_poles_rad_per_s: plain(design.summary(design.stiffness), design.unit),
+  position_coefficients: plain(design.summary(design.position)),
+  stiffness_coefficients: plain(design.summary(design.stiffness)),
+  bandwidth_rad_per_s: plain(observer.all, design.unit),
+  torque_nm: plain(load.torque, "N·m"),
+  duration_s: plain(load.duration, "s"),
+  factor: plain(transport.speed),
+  by: plain(text.control.name),
+  motor_counts_per_rev: plain(values.motor_counts_per_rev),
+  gear_ratio: plain(values.gear_ratio),
+  deflection_counts_per_rev: plain(values.deflection_counts_per_rev),
+  corner_rad_per_s: plain(values.corner_rad_per_s, "rad/s"),
+  coulomb1_nm: plain(values.coulomb1_nm, "N·m"),
+  coulomb2_nm: plain(values.coulomb2_nm, "N·m"),
+  static_ratio: plain(values.static_ratio),
+  stribeck_rad_per_s: plain(values.stribeck_rad_per_s, "rad/s"),
+  time_constant_s: milli(values.time_constant_s, "ms"),
+  motor_std_rad: milli(values.motor_std_rad, "mrad"),
+  deflection_std_rad: milli(values.deflection_std_rad, "mrad"),
+  moment_nm: plain(values.moment_nm, "N·m"),
+  delay_samples: plain(realism.delay, realism.samples),
+} satisfies Record<string, Quantity>;
+
+/** What a control spreads into its field. */
+export const shownAs = (name: keyof typeof QUANTITIES): Quantity => QUANTITIES[name];
+
+const isKey = <T extends object>(key: PropertyKey, table: T): key is keyof T =>
+  Object.hasOwn(table, key);
+
+/** The quantity of a path such as `bandwidth_rad_per_s[2]` or `nominal.radius_m`. */
+export function quantityOf(path: string): Quantity | null {
+  const [, section, name, index] = /^(?:(\w+)\.)?(\w+)(?:\[(\d)\])?$/.exec(path) ?? [];
+  if (name === undefined) return null;
+  if ((section === "actuator" || section === "nominal") && isKey(name, realism.names)) {
+    const [symbol, meaning, unit] = realism.names[name];
+    return plain(realism.cell(`${symbol} ${meaning}`, realism[section]), unit);
+  }
+  if (!isKey(name, QUANTITIES)) return null;
+  const found = QUANTITIES[name];
+  const channel = index !== undefined ? text.channels[Number(index)] : undefined;
+  const isByChannel = name === "bandwidth_rad_per_s" || name === "torque_nm";
+  return isByChannel && channel ? { ...found, label: `${found.label}, ${channel}` } : found;
+}

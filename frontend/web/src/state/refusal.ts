@@ -1,0 +1,44 @@
+/** Why the server refused, in the names and units of the page. */
+import type { RefusedError, Violation } from "../api/errors";
+import { type Quantity, quantityOf } from "../quantities";
+import { text } from "../text/en";
+import { formatInput } from "../units";
+
+const words = text.refusal;
+const MOST = 3;
+
+export function explainRefusal({ message, violations }: RefusedError): string {
+  if (violations.length === 0) return message;
+  return violations.slice(0, MOST).map(explainViolation).join(" ");
+}
+
+export function explainViolation(violation: Violation): string {
+  const quantity = quantityOf(violation.name);
+  if (quantity === null) return violation.message;
+  const { label } = quantity;
+  if (violation.finding) return words.finding(label, violation.finding);
+  if (violation.value === null) return words.missing(label);
+  const limits = describeLimits(violation.limits, quantity);
+  if (typeof violation.value === "number" && limits !== null) {
+    return words.outOfRange(label, show(violation.value, quantity), limits);
+  }
+  return limits === null && quantity.factor === undefined
+    ? words.wrong(label, violation.bound)
+    : violation.message;
+}
+
+function show(value: number, { unit, factor = 1 }: Quantity): string {
+  const number = formatInput(value * factor).replace("-", "\u2212");
+  return unit === "" ? number : `${number} ${unit}`;
+}
+
+function describeLimits(limits: Violation["limits"], quantity: Quantity): string | null {
+  const { ge, gt, le, lt } = limits ?? {};
+  if (ge !== undefined && le !== undefined) {
+    return words.between(show(ge, { ...quantity, unit: "" }), show(le, quantity));
+  }
+  if (ge !== undefined) return words.atLeast(show(ge, quantity));
+  if (gt !== undefined) return words.moreThan(show(gt, quantity));
+  if (le !== undefined) return words.atMost(show(le, quantity));
+  return lt === undefined ? null : words.lessThan(show(lt, quantity));
+}
