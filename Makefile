@@ -1,14 +1,17 @@
 # make run     the running lab            make check   format, lint, types, layers
 # make bench-demo  the lab on the emulated rig
 # make test    every test                 make format  put the code into shape
+# make quick   those that need no server, bench or browser
 PYTHON ?= python3
 BIN := .venv/bin
 PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print)
+# Each module in one of two processes, in the order of the folders: the browser last.
+SIDE_BY_SIDE := -n 2 --dist loadfile --no-loadscope-reorder
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 
-.PHONY: run bench-demo test check format page schema lock screenshots bench clean
+.PHONY: run bench-demo test quick check format page schema lock screenshots bench clean
 
 run: .venv/installed $(PAGE)
 	@$(BIN)/svsa serve --port $(PORT)
@@ -17,7 +20,14 @@ bench-demo: .venv/installed $(PAGE)
 	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
 test: .venv/installed $(PAGE)
-	$(BIN)/pytest $(ARGS)
+	@$(BIN)/svsa compile
+	$(BIN)/pytest $(SIDE_BY_SIDE) -m "not wall_clock"
+	$(BIN)/pytest -m wall_clock
+	$(WEB) test
+
+quick: .venv/installed
+	@$(BIN)/svsa compile
+	$(BIN)/pytest $(SIDE_BY_SIDE) -q tests/equations tests/experiment
 	$(WEB) test
 
 check: .venv/installed $(PAGE)

@@ -1,5 +1,6 @@
 """`svsa bench-check` and `svsa bench-home` as they are typed."""
 
+import pytest
 from typer import Typer
 from typer.testing import CliRunner
 
@@ -37,6 +38,7 @@ def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_
     assert "deflection.sign is not given" in " ".join(result.output.split())
 
 
+@pytest.mark.wall_clock
 def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
     """A rig in its own process, python-can in between: the record is written, all is left off."""
     with start_rig(lockstep=False) as rig:

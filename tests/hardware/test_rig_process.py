@@ -160,6 +160,7 @@ def test_what_the_control_port_does_not_understand_is_answered_with_why(rig):
     assert rig.control.read_state()["time_s"] == 0.0
 
 
+@pytest.mark.wall_clock
 def test_against_the_clock_time_goes_on_by_itself():
     with start_rig(lockstep=False) as running:
         deadline = time.monotonic() + HANG_S

@@ -23,6 +23,8 @@ from svsa.rig.launch import RunningRig, start_rig
 from tests.hardware.wired_bench import RIG_BENCH
 from tests.lab import Lab, run_lab
 
+pytestmark = pytest.mark.wall_clock
+
 PATIENCE_S = 20.0
 ZERO_S = 5.0
 LOOP, SUPERVISOR = "svsa.runtime.realtime.process", "svsa.hardware.supervisor"
