@@ -1,7 +1,4 @@
-# make run     the running lab            make check   format, lint, types, layers
-# make bench-demo  the lab on the emulated rig
-# make test    every test                 make format  put the code into shape
-# make quick   those that need no server, bench or browser
+.DEFAULT_GOAL := help
 PYTHON ?= python3
 BIN := .venv/bin
 PORT ?= 8000
@@ -11,26 +8,33 @@ PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type
 SIDE_BY_SIDE := -n 2 --dist loadfile --no-loadscope-reorder
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 
-.PHONY: run bench-demo test quick check format page schema lock screenshots bench clean
+.PHONY: help run dev bench-demo test quick check format page schema lock screenshots bench clean
 
-run: .venv/installed $(PAGE)
+help:  ## this list
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
+
+run: .venv/installed $(PAGE)  ## the running lab, on http://127.0.0.1:8000/ (PORT=…)
 	@$(BIN)/svsa serve --port $(PORT)
 
-bench-demo: .venv/installed $(PAGE)
+# Ctrl-C ends both.
+dev: .venv/installed $(PAGE)  ## the lab, and the page rebuilt as you type (on the port that Vite says)
+	@$(BIN)/svsa serve --port 8000 & $(WEB) run dev
+
+bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
-test: .venv/installed $(PAGE)
+test: .venv/installed $(PAGE)  ## every test
 	@$(BIN)/svsa compile
 	$(BIN)/pytest $(SIDE_BY_SIDE) -m "not wall_clock"
 	$(BIN)/pytest -m wall_clock
 	$(WEB) test
 
-quick: .venv/installed
+quick: .venv/installed  ## the tests that need no server, bench or browser
 	@$(BIN)/svsa compile
 	$(BIN)/pytest $(SIDE_BY_SIDE) -q tests/equations tests/experiment
 	$(WEB) test
 
-check: .venv/installed $(PAGE)
+check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated files
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/basedpyright
@@ -39,28 +43,28 @@ check: .venv/installed $(PAGE)
 	@$(WEB) run --silent schema -- "$(CURDIR)/.venv/openapi.json" --check
 	$(WEB) run check
 
-format: .venv/installed $(PAGE)
+format: .venv/installed $(PAGE)  ## put the code into shape
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 	$(WEB) run format
 
-page: $(PAGE)
+page: $(PAGE)  ## build the page
 
 $(PAGE): .venv/installed $(PAGE_SOURCES)
 	@$(BIN)/python frontend/web/hatch_build.py
 	@touch $@
 
-schema: .venv/installed
+schema: .venv/installed  ## the page's types of the API, generated from the server's schema
 	$(BIN)/svsa openapi > .venv/openapi.json
 	$(WEB) run schema -- "$(CURDIR)/.venv/openapi.json"
 
-screenshots: .venv/installed $(PAGE)
+screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
 
-bench: .venv/installed
+bench: .venv/installed  ## what a tick costs
 	$(BIN)/python -m tests.bench
 
-lock: .venv/installed
+lock: .venv/installed  ## requirements.lock, every package with its hashes, at their newest
 	$(BIN)/uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
 	  --no-annotate --group dev --all-extras pyproject.toml -o requirements.lock --upgrade -q
 
@@ -72,5 +76,5 @@ lock: .venv/installed
 	@$(BIN)/uv pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
 
-clean:
+clean:  ## remove what was installed and built
 	rm -rf .venv backend/svsa_server/page frontend/web/node_modules
