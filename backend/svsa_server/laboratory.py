@@ -62,12 +62,12 @@ class Laboratory:
         return session
 
     async def branch(
-        self, configuration: Configuration, commands: list[Command], tick: int
+        self, configuration: Configuration, commands: list[Command], tick: int, run_id: str
     ) -> Session:
         """A private session, paused, that goes on from a recorded run at a tick."""
         self._check_room()
         session = await asyncio.to_thread(
-            Session.branch, build_name(), configuration, commands, tick
+            Session.branch, build_name(), configuration, commands, tick, run_id
         )
         self._add(session)
         return session

@@ -93,6 +93,7 @@ def build_header(session: Session, name: str, tags: tuple[str, ...], notes: str)
         name=name,
         tags=tags if session.plant == "simulated" else tuple(dict.fromkeys((*tags, session.plant))),
         notes=notes,
+        branch_of=session.branch_of,
         lanes=tuple(f"lane{number + 1}" for number in range(len(session.run.lanes))),
         configuration=session.initial.model_dump(mode="json"),
         seed=session.initial.seed,

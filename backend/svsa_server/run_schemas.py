@@ -15,6 +15,7 @@ from svsa.runtime.recording.header import (
     MOST_TAGS,
     PlantKind,
 )
+from svsa.runtime.recording.settings import RunSettings
 from svsa.signals import Channel
 
 ExportName = Literal["csv", "parquet", "mat", "mcap"]
@@ -36,11 +37,27 @@ class RunPatch(Checked):
         return self
 
 
+class BranchOrigin(BaseModel):
+    """The recorded run that a run or session goes on from."""
+
+    run_id: str = Field(description="Id of that run")
+    tick: int = Field(description="Tick of it from which this one goes on")
+    title: str | None = Field(description="What it is called; null where it is gone for good")
+    time_s: float | None = Field(
+        description="The same moment in its replay, s after its first sample; null as title"
+    )
+
+
 class RunSummary(BaseModel):
     """A run in the list."""
 
     id: str
-    name: str
+    name: str = Field(description="What people call it; empty where nobody named it")
+    title: str = Field(description="Its name, or where nobody gave one that of its settings")
+    settings: RunSettings | None = Field(
+        description="What it was set to, in words; null while it is recorded"
+    )
+    branch_of: BranchOrigin | None = Field(description="The run that it goes on from")
     tags: list[str]
     notes: str
     session: str
@@ -69,6 +86,10 @@ class RunList(BaseModel):
     page: int
     page_size: int
     tags: dict[str, int] = Field(description="Every tag in use, and how many runs have it")
+    facets: dict[str, dict[str, int]] = Field(
+        description="What the list can be filtered by: facet (tag, law, load, figure, plant),"
+        " value, and how many of all runs outside the trash have it"
+    )
 
 
 class RunCommand(BaseModel):
@@ -121,3 +142,22 @@ class RunSamples(BaseModel):
     lanes: dict[str, dict[str, list[float | None]]] = Field(
         description="By lane and channel; null where a value is no finite number"
     )
+
+
+class SettingDifference(BaseModel):
+    """A setting that is not the same in every run."""
+
+    group: str
+    name: str
+    unit: str = Field(description="SI, of values that are numbers")
+    values: list[str | float | bool | None] = Field(
+        description="Run by run; null where a run has no such setting"
+    )
+
+
+class RunDifference(BaseModel):
+    """What of the settings differs between runs; what is not listed is the same in all."""
+
+    runs: list[str] = Field(description="Their ids, in the order of the values")
+    titles: list[str]
+    differences: list[SettingDifference]

@@ -281,10 +281,18 @@ class SessionProgress(BaseModel):
     bench: BenchState | None = Field(description="Null for a simulated session")
 
 
+class BranchState(BaseModel):
+    """The recorded run that a session goes on from, and the tick at which it left it."""
+
+    run_id: str
+    tick: int
+
+
 class SessionState(SessionProgress):
     """A session: where it is, how well it does, and how it is set."""
 
     session: str
+    branch_of: BranchState | None = Field(description="null unless its run is a branch")
     control: ControlState
     rate_hz: float
     configuration: ConfigurationState

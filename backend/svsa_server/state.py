@@ -10,6 +10,7 @@ from svsa.plant.disturbances import ScheduledLoad
 from svsa.runtime.configuration import Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.realtime.session import BenchSession
+from svsa.runtime.recording.header import BranchPoint
 from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
@@ -17,6 +18,7 @@ from svsa_server.bench_state import build_bench_state
 from svsa_server.control import build_control
 from svsa_server.lane_names import name_laws
 from svsa_server.schemas import (
+    BranchState,
     ConfigurationState,
     GainsState,
     LaneMetrics,
@@ -60,6 +62,7 @@ def build_state(session: Session) -> SessionState:
     return SessionState(
         **dict(build_progress(session)),
         session=session.name,
+        branch_of=_build_branch(session.branch_of),
         control=build_control(session),
         rate_hz=1.0 / run.period_s,
         configuration=_build_configuration(session),
@@ -67,6 +70,10 @@ def build_state(session: Session) -> SessionState:
         events=list(session.events),
         sample=None if newest is None else _name_values(newest),
     )
+
+
+def _build_branch(branch_of: BranchPoint | None) -> BranchState | None:
+    return None if branch_of is None else BranchState(run_id=branch_of.run_id, tick=branch_of.tick)
 
 
 def _build_recording(recorder: Recorder | None) -> RecordingState | None:

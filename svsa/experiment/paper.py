@@ -1,16 +1,11 @@
 """The paper's experiments as data: Figures 4A, 4B and 5 simulated, 6A, 6B and 7 on a bench."""
 
-import math
 from typing import NamedTuple
 
 from svsa.errors import ParameterError, Violation
 from svsa.plant.disturbances import PAPER_TORQUE_NM, ConstantLoad, Load, PaperLoad
-from svsa.reference.trajectories import (
-    ConstantStiffness,
-    SinePosition,
-    SineStiffness,
-    StiffnessReference,
-)
+from svsa.reference.paper import FIGURE_REFERENCES, ON_BENCH
+from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.configuration import Configuration, Law, load_prototype
 
 LOAD_TIME_S = 5.0
@@ -25,7 +20,7 @@ class Figure(NamedTuple):
 
     key: str
     title: str
-    position: SinePosition
+    position: PositionReference
     stiffness: StiffnessReference
     claim: str
     hung: Load = PaperLoad(start_s=LOAD_TIME_S)
@@ -42,39 +37,19 @@ class Figure(NamedTuple):
         )
 
 
-_MOTION = SinePosition(amplitude_rad=math.radians(60.0), frequency_hz=0.2)
 _CLAIM_FIXED = (
     "Both laws track alike for the first 5 s; after the load FL tracks poorly and NDOBC goes"
     " on; the stiffness has little effect."
 )
 
 FIGURES = {
-    figure.key: figure
-    for figure in (
-        Figure(
-            "4a",
-            "Figure 4A: low stiffness, 15 N·m/rad",
-            _MOTION,
-            ConstantStiffness(stiffness_nm_per_rad=15.0),
-            _CLAIM_FIXED,
-        ),
-        Figure(
-            "4b",
-            "Figure 4B: high stiffness, 60 N·m/rad",
-            _MOTION,
-            ConstantStiffness(stiffness_nm_per_rad=60.0),
-            _CLAIM_FIXED,
-        ),
-        Figure(
+    key: Figure(key, title, *FIGURE_REFERENCES[key], claim)
+    for key, title, claim in (
+        ("4a", "Figure 4A: low stiffness, 15 N·m/rad", _CLAIM_FIXED),
+        ("4b", "Figure 4B: high stiffness, 60 N·m/rad", _CLAIM_FIXED),
+        (
             "5",
             "Figure 5: variable stiffness, 35 + sin N·m/rad",
-            _MOTION,
-            SineStiffness(
-                offset_nm_per_rad=35.0,
-                amplitude_nm_per_rad=1.0,
-                frequency_hz=0.2,
-                phase_rad=1.5 * math.pi,
-            ),
             "Both errors are small without the load; after it both grow with FL, and NDOBC"
             " stays better.",
         ),
@@ -90,12 +65,13 @@ _CLAIM_BENCH = (
 )
 
 BENCH_FIGURES = {
-    key: FIGURES[origin]._replace(key=key, title=title, claim=claim, hung=CABLE_PULL)
-    for key, origin, title, claim in (
-        ("6a", "4a", "Figure 6A: bench, low stiffness, 15 N·m/rad", _CLAIM_BENCH),
-        ("6b", "4b", "Figure 6B: bench, high stiffness, 60 N·m/rad", _CLAIM_BENCH),
+    ON_BENCH[key]: FIGURES[key]._replace(
+        key=ON_BENCH[key], title=title, claim=claim, hung=CABLE_PULL
+    )
+    for key, title, claim in (
+        ("4a", "Figure 6A: bench, low stiffness, 15 N·m/rad", _CLAIM_BENCH),
+        ("4b", "Figure 6B: bench, high stiffness, 60 N·m/rad", _CLAIM_BENCH),
         (
-            "7",
             "5",
             "Figure 7: bench, variable stiffness, 35 + sin N·m/rad",
             "The stiffness shows no change at the load with NDOBC, and an error with FL.",

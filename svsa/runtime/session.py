@@ -14,7 +14,7 @@ from svsa.runtime.command import KINDS, Command, build_command
 from svsa.runtime.configuration import MOST_LANES, Configuration
 from svsa.runtime.history import History
 from svsa.runtime.metrics import RunningMetrics
-from svsa.runtime.recording.header import PlantKind
+from svsa.runtime.recording.header import BranchPoint, PlantKind
 from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.run import Run
 
@@ -43,7 +43,8 @@ class Session:
     with every change, not with time. `since_load` are the metrics of each lane from the last
     load's onset on, until a load is taken off (one that ends by itself goes on counting: a push
     shows after it). `on_recorded` is told of every recording that ends.
-    `watchers` is how many streams of it are open.
+    `watchers` is how many streams of it are open. `branch_of` is the recorded run that its run
+    goes on from, until a new one begins.
     """
 
     def __init__(self, name: str, configuration: Configuration) -> None:
@@ -90,6 +91,7 @@ class Session:
         self.clock.stretched_s = 0.0
         self.initial = run.configuration
         self.commands: list[Command] = []
+        self.branch_of: BranchPoint | None = None
         self.run = run
         self.run_number += 1
         self.history.clear()
@@ -101,12 +103,17 @@ class Session:
 
     @classmethod
     def branch(
-        cls, name: str, configuration: Configuration, commands: Iterable[Command], tick: int
+        cls,
+        name: str,
+        configuration: Configuration,
+        commands: Iterable[Command],
+        tick: int,
+        run_id: str | None = None,
     ) -> Self:
         """A session, paused, that goes on from a recorded run as it stood at `tick`.
 
-        The run is simulated again from its start. Raises `StateError` where it had ended
-        before.
+        The run is simulated again from its start. run_id: which run it is, for whoever asks
+        where the session comes from. Raises `StateError` where it had ended before.
         """
         session = cls(name, configuration)
         for command in commands:
@@ -117,6 +124,7 @@ class Session:
         if session.run.tick < tick:
             ended = session.run.tick
             raise StateError(f"That run ended at tick {ended}, before tick {tick}.")
+        session.branch_of = None if run_id is None else BranchPoint(run_id, tick)
         return session
 
     def start_recording(self, recorder: Recorder) -> None:

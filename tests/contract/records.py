@@ -1,7 +1,8 @@
 """Records to test with, made without simulating."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from svsa.runtime.recording.writer import write_record
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 
 PERIOD_S = 0.001
+Command = tuple[int, dict[str, Any]]
 
 
 def build_header(
@@ -42,9 +44,16 @@ def build_samples(ticks: int, lanes: int = 2, first_tick: int = 0) -> np.ndarray
     return samples
 
 
-def add(catalogue: Catalogue, run_id: str, ticks: int = 20, **changes: object) -> None:
+def add(
+    catalogue: Catalogue,
+    run_id: str,
+    ticks: int = 20,
+    commands: Sequence[Command] = (),
+    **changes: object,
+) -> None:
     header = build_header(run_id, **changes)
-    write_record(catalogue.folder / "runs" / run_id, header, [], 0, build_samples(ticks))
+    samples = build_samples(ticks, len(header.lanes))
+    write_record(catalogue.folder / "runs" / run_id, header, list(commands), 0, samples)
     catalogue.register(header)
     catalogue.finish(run_id)
 

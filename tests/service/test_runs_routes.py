@@ -15,6 +15,7 @@ from fastapi import FastAPI
 
 from svsa.runtime.catalogue.runs import Catalogue
 from svsa.runtime.recording.decimation import decimate
+from svsa.runtime.recording.header import BranchPoint
 from svsa.runtime.recording.writer import write_record
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.errors import install_error_handlers
@@ -231,3 +232,48 @@ def test_thinning_keeps_least_and_greatest(points: int) -> None:
     np.testing.assert_array_equal(thinned.values.max(0), values.max(0))
     assert np.all(np.diff(thinned.rows) >= 0)
     assert decimate(np.empty((0, 2, 3)), points).values.shape == (0, 2, 3)
+
+
+def test_runs_are_named_filtered_and_sorted_by_their_settings(client: httpx.Client) -> None:
+    answer = client.get("runs", params={"law": "ndobc", "sort": "-name"}).raise_for_status().json()
+    assert [run["title"] for run in answer["runs"]] == ["Run 2", "Run 1", "Run 0"]
+    assert answer["runs"][0]["settings"]["name"] == "NDOBC"
+    assert answer["facets"]["law"] == {"ndobc": 3}
+    assert answer["facets"]["tag"] == answer["tags"]
+    assert client.get("runs", params={"load": "paper"}).json()["total"] == 0
+    assert client.get("runs", params={"law": "ndobc", "tag": "tag-1"}).json()["total"] == 1
+    refused = client.get("runs", params={"sort": "size"})
+    assert refused.status_code == 422
+
+
+def test_a_branch_tells_its_origin_and_the_moment_in_its_replay(
+    client: httpx.Client, catalogue: Catalogue, data: Path
+) -> None:
+    header = build_header("run-9", name="", branch_of=BranchPoint("run-1", FIRST_TICK + 250))
+    write_record(data / "runs" / "run-9", header, [], FIRST_TICK + 250, build_samples(10))
+    catalogue.register(header)
+    branch = catalogue.finish("run-9")
+    try:
+        told = client.get("runs/run-9").raise_for_status().json()["branch_of"]
+        assert told == {
+            "run_id": "run-1",
+            "tick": FIRST_TICK + 250,
+            "title": "Run 1",
+            "time_s": 0.25,
+        }
+        listed = client.get("runs", params={"search": branch.title}).json()["runs"]
+        assert listed[0]["branch_of"] == told
+        client.patch("runs/run-1", json={"name": "Renamed"}).raise_for_status()
+        assert client.get("runs/run-9").json()["branch_of"]["title"] == "Renamed"
+    finally:
+        client.patch("runs/run-1", json={"name": "Run 1"})
+        catalogue.delete("run-9")
+
+
+def test_the_settings_that_differ_between_runs(client: httpx.Client) -> None:
+    same = client.get("runs/run-0/difference", params={"other": "run-1"}).raise_for_status()
+    assert same.json() == {"runs": ["run-0", "run-1"], "titles": ["Run 0", "Run 1"]} | {
+        "differences": []
+    }
+    assert client.get("runs/run-0/difference").status_code == 422
+    assert client.get("runs/run-0/difference", params={"other": "none"}).status_code == 404

@@ -48,7 +48,8 @@ async def branch_run(
     record = await asyncio.to_thread(request.app.state.catalogue.open, run_id)
     check_simulated(record)
     configuration, commands = read_origin(record)
-    session = await request.app.state.laboratory.branch(configuration, commands, wanted.tick)
+    laboratory = request.app.state.laboratory
+    session = await laboratory.branch(configuration, commands, wanted.tick, run_id)
     return build_state(session)
 
 

@@ -1,14 +1,15 @@
 """What decides the samples of a run, live or recorded: enough to do it again in a script."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
 from fastapi import APIRouter
 
-from svsa.runtime.recording.header import PlantKind
+from svsa.runtime.catalogue.entry import RunEntry
+from svsa.runtime.recording.header import BranchPoint, PlantKind
 from svsa_server.routes.depends import NamedSession, RunId, Runs
-from svsa_server.run_schemas import RunCommand, RunOrigin
+from svsa_server.run_schemas import BranchOrigin, RunCommand, RunOrigin
 from svsa_server.schemas import SessionRequest
 
 router = APIRouter()
@@ -38,6 +39,20 @@ def read_run_origin(runs: Runs, run_id: RunId) -> RunOrigin:
         header.period_s,
         header.plant,
     )
+
+
+def name_origin(
+    branch_of: BranchPoint | None, known: Mapping[str, RunEntry]
+) -> BranchOrigin | None:
+    """Where a run goes on from, as far as the list of runs still knows it."""
+    if branch_of is None:
+        return None
+    run_id, tick = branch_of.run_id, branch_of.tick
+    origin = known.get(run_id)
+    if origin is None:
+        return BranchOrigin(run_id=run_id, tick=tick, title=None, time_s=None)
+    time_s = (tick - origin.first_tick) * origin.period_s
+    return BranchOrigin(run_id=run_id, tick=tick, title=origin.title, time_s=time_s)
 
 
 def _tell(

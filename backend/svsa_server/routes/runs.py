@@ -13,11 +13,15 @@ from svsa.runtime.catalogue.entry import (
     LONGEST_SEARCH,
     MOST_PAGE_SIZE,
     MOST_PAGES,
+    SORTS,
     RunEntry,
 )
+from svsa.runtime.catalogue.entry import Query as RunQuery
+from svsa.runtime.catalogue.runs import Catalogue
 from svsa_server.lane_names import name_lanes
-from svsa_server.routes import run_origins, run_samples
+from svsa_server.routes import run_difference, run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
+from svsa_server.routes.run_origins import name_origin
 from svsa_server.run_schemas import (
     ExportName,
     RunCommand,
@@ -28,23 +32,45 @@ from svsa_server.run_schemas import (
 )
 
 MOST_COMMANDS = 1000
+LONGEST_FACET = 60
 CHUNK_BYTES = 1 << 18
 router = APIRouter(tags=["runs"], responses=REFUSALS)
 router.include_router(run_samples.router)
 router.include_router(run_origins.router)
+router.include_router(run_difference.router)
+
+
+Facet = Annotated[str | None, Query(max_length=LONGEST_FACET)]
 
 
 @router.get("/runs")
 def list_runs(
     runs: Runs,
     search: Annotated[
-        str, Query(max_length=LONGEST_SEARCH, description="Words in name, notes, tags or id")
+        str,
+        Query(
+            max_length=LONGEST_SEARCH,
+            description="Words of which each must stand, but for its case, in what the list shows"
+            " of a run besides numbers and times: name, settings, tags, notes, origin; or its id",
+        ),
     ] = "",
-    tag: Annotated[str | None, Query(description="Only runs with this tag")] = None,
+    tag: Annotated[Facet, Query(description="Only runs with this tag")] = None,
+    law: Annotated[
+        Facet, Query(description="Only runs in which this law controlled a lane at some time")
+    ] = None,
+    load: Annotated[
+        Facet, Query(description="Only runs with this kind of load on at some time, or none")
+    ] = None,
+    figure: Annotated[
+        Facet, Query(description="Only runs with the references of this figure, as 4a")
+    ] = None,
+    plant: Annotated[Facet, Query(description="simulated, emulated or bench")] = None,
     sort: Annotated[
         str,
         Query(
-            description="created, name, session, duration_s or bytes; - before it turns it round",
+            description="A column; - before it turns it round. What is not known comes last;"
+            " errors are those of the first lane.",
+            json_schema_extra={"enum": [f"{sign}{name}" for name in SORTS for sign in ("", "-")]},
             examples=["-created"],
         ),
     ] = "-created",
@@ -53,13 +79,15 @@ def list_runs(
     trash: Annotated[bool, Query(description="What was deleted instead")] = False,
 ) -> RunList:
     """The runs, newest first, a page at a time."""
-    found = runs.list(search, tag, sort, page, page_size, trash)
+    wanted = RunQuery(search, tag, law, load, figure, plant, sort, page, page_size, trash)
+    found, facets = runs.query(wanted), runs.list_facets()
     return RunList(
-        runs=[RunSummary(**_list_values(entry)) for entry in found.runs],
+        runs=[RunSummary(**values) for values in _list_values(runs, *found.runs)],
         total=found.total,
         page=found.page,
         page_size=found.page_size,
-        tags=runs.list_tags(),
+        tags=facets["tag"],
+        facets=facets,
     )
 
 
@@ -68,7 +96,7 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     """A run with its configuration, its channels and the commands given while it went on."""
     entry, record = runs.get(run_id), runs.open(run_id)
     return RunDetails(
-        **_list_values(entry),
+        **_tell(runs, entry),
         lane_names=name_lanes(record),
         seed=record.header.seed,
         configuration=record.header.configuration,
@@ -86,19 +114,19 @@ def change_run(
 ) -> RunSummary:
     """Rename a run, tag it, write notes."""
     entry = runs.update(run_id, name=patch.name, tags=patch.tags, notes=patch.notes)
-    return RunSummary(**_list_values(entry))
+    return RunSummary(**_tell(runs, entry))
 
 
 @router.delete("/runs/{run_id}")
 def delete_run(runs: Runs, run_id: RunId) -> RunSummary:
     """Put a run into the trash, from which `restore` takes it back."""
-    return RunSummary(**_list_values(runs.delete(run_id)))
+    return RunSummary(**_tell(runs, runs.delete(run_id)))
 
 
 @router.post("/runs/{run_id}/restore")
 def restore_run(runs: Runs, run_id: RunId) -> RunSummary:
     """Take a run out of the trash."""
-    return RunSummary(**_list_values(runs.restore(run_id)))
+    return RunSummary(**_tell(runs, runs.restore(run_id)))
 
 
 @router.get(
@@ -134,5 +162,16 @@ def _read_chunks(file: IO[bytes]) -> Iterator[bytes]:
             yield chunk
 
 
-def _list_values(entry: RunEntry) -> dict[str, Any]:
-    return {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}
+def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:
+    (values,) = _list_values(runs, entry)
+    return values
+
+
+def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
+    """The fields of the runs on the wire, each with the run that it branched from."""
+    origins = runs.find(entry.branch_of.run_id for entry in entries if entry.branch_of)
+    return [
+        {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}
+        | {"title": entry.title, "branch_of": name_origin(entry.branch_of, origins)}
+        for entry in entries
+    ]

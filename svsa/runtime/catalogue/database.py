@@ -3,35 +3,15 @@
 import contextlib
 import dataclasses
 import sqlite3
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from svsa.runtime.catalogue.entry import (
-    CatalogueError,
-    Query,
-    RunEntry,
-    RunPage,
-    UnknownRunError,
-    make_storable,
-    read_entry,
-    write_entry,
-)
+from svsa.runtime.catalogue.entry import FACETS, CatalogueError, Query, RunEntry, RunPage
+from svsa.runtime.catalogue.table import get, has, prepare, put, put_branches
 
 BUSY_TIMEOUT_S = 5.0
-_VERSION = 1
-_SCHEMA = """
-CREATE TABLE IF NOT EXISTS runs (
-    id TEXT PRIMARY KEY, created TEXT, name TEXT, session TEXT, duration_s REAL,
-    bytes INTEGER, state TEXT, trash INTEGER, search TEXT
-);
-CREATE INDEX IF NOT EXISTS runs_by_time ON runs (trash, created, id);
-CREATE TABLE IF NOT EXISTS entries (id TEXT PRIMARY KEY, entry TEXT);
-CREATE TABLE IF NOT EXISTS tags (
-    tag TEXT, run TEXT, trash INTEGER, PRIMARY KEY (tag, run)
-) WITHOUT ROWID;
-CREATE INDEX IF NOT EXISTS tags_by_run ON tags (run);
-"""
+_NEVER_NULL = ("created", "name", "session", "duration_s", "bytes", "plant")
 
 
 class Database:
@@ -41,7 +21,7 @@ class Database:
         self._path = path
         try:
             self._prepare()
-        except sqlite3.OperationalError as error:
+        except (sqlite3.OperationalError, CatalogueError) as error:
             raise CatalogueError(f"The catalogue {path} cannot be used: {error}.") from None
         except sqlite3.DatabaseError:
             self._set_aside()
@@ -52,8 +32,9 @@ class Database:
         with self._connect() as connection:
             connection.execute("BEGIN IMMEDIATE")
             for entry in entries:
-                if not _has(connection, entry.id):
-                    _put(connection, entry)
+                if not has(connection, entry.id):
+                    put(connection, entry)
+                    put_branches(connection, entry.id)
 
     def change(self, run_id: str, changes: dict[str, Any]) -> RunEntry:
         """Replace these fields of a run and no others; raises `UnknownRunError`."""
@@ -68,51 +49,65 @@ class Database:
         """
         with self._connect() as connection:
             connection.execute("BEGIN IMMEDIATE")
-            entry = _get(connection, run_id)
+            entry = get(connection, run_id)
             changed = dataclasses.replace(entry, **decide(entry))
-            _put(connection, changed)
+            put(connection, changed)
+            if changed.title != entry.title:
+                put_branches(connection, run_id)
         return changed
 
     def get(self, run_id: str) -> RunEntry:
         """The run of this id; raises `UnknownRunError`."""
         with self._connect() as connection:
-            return _get(connection, run_id)
+            return get(connection, run_id)
 
     def forget(self, run_id: str) -> None:
         """Take a run out of the table."""
         with self._connect() as connection:
             connection.execute("DELETE FROM runs WHERE id = ?", (run_id,))
             connection.execute("DELETE FROM entries WHERE id = ?", (run_id,))
-            connection.execute("DELETE FROM tags WHERE run = ?", (run_id,))
+            connection.execute("DELETE FROM facets WHERE run = ?", (run_id,))
+            put_branches(connection, run_id)
 
     def query(self, query: Query) -> RunPage:
         """A page of the runs that the query is for."""
-        conditions: list[str] = ["trash = ?"]
-        values: list[Any] = [query.trash]
-        if query.tag is not None:
-            conditions.append("id IN (SELECT run FROM tags WHERE tag = ?)")
-            values.append(make_storable(query.tag))
-        for word in query.words:
-            conditions.append("instr(search, ?)")
-            values.append(word)
-        where, down = " AND ".join(conditions), " DESC" if query.sort.startswith("-") else ""
-        column = query.sort.removeprefix("-")
-        nocase = " COLLATE NOCASE" if column in ("name", "session") else ""
-        order = f"{column}{nocase}{down}, id{down}"
+        where, values = _build_condition(query)
         window = (query.page_size, (query.page - 1) * query.page_size)
+        order = build_order(query.sort)
         with self._connect() as connection:
-            count = f"SELECT count(*) FROM runs WHERE {where}"  # noqa: S608
-            (total,) = connection.execute(count, values).fetchone()
-            select = f"SELECT id FROM runs WHERE {where} ORDER BY {order} LIMIT ? OFFSET ?"  # noqa: S608
+            if not query.words or query.page > 1:
+                count = f"SELECT count(*) FROM runs WHERE {where}"  # noqa: S608
+                (total,) = connection.execute(count, values).fetchone()
+                columns = "id, 0"
+            else:
+                total, columns = 0, "id, count(*) OVER ()"
+            select = f"SELECT {columns} FROM runs WHERE {where} ORDER BY {order} LIMIT ? OFFSET ?"  # noqa: S608
             found = connection.execute(select, [*values, *window]).fetchall()
-            entries = tuple(_get(connection, run_id) for (run_id,) in found)
+            entries = tuple(get(connection, run_id) for run_id, _ in found)
+        if found and not total:
+            total = found[0][1]
         return RunPage(entries, total, query.page, query.page_size)
 
-    def list_tags(self) -> dict[str, int]:
-        """Every tag of the runs that are not in the trash, and how many have it."""
-        select = "SELECT tag, count(*) FROM tags WHERE trash = 0 GROUP BY tag ORDER BY tag"
+    def list_facets(self) -> dict[str, dict[str, int]]:
+        """What the runs outside the trash can be filtered by: facet, value, how many runs."""
+        select = "SELECT facet, value, runs FROM counts WHERE runs > 0 ORDER BY facet, value"
+        facets: dict[str, dict[str, int]] = {facet: {} for facet in FACETS}
         with self._connect() as connection:
-            return dict(connection.execute(select).fetchall())
+            for facet, value, count in connection.execute(select):
+                facets[facet][value] = count
+        return facets
+
+    def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
+        """Those of these runs that are known, by id."""
+        with self._connect() as connection:
+            known = [run_id for run_id in set(run_ids) if has(connection, run_id)]
+            return {run_id: get(connection, run_id) for run_id in known}
+
+    def list_undescribed(self) -> list[str]:
+        """The runs whose settings are not known, though they are recorded to their end."""
+        select = "SELECT id FROM runs WHERE described = 0 AND state IN ('complete', 'failed')"
+        with self._connect() as connection:
+            return [run_id for (run_id,) in connection.execute(select)]
 
     def list_states(self) -> dict[str, tuple[str, bool]]:
         """For every run its state and whether it is in the trash."""
@@ -137,13 +132,7 @@ class Database:
     def _prepare(self) -> None:
         connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
         try:
-            connection.execute("PRAGMA journal_mode = WAL")
-            (version,) = connection.execute("PRAGMA user_version").fetchone()
-            if version not in (0, _VERSION):
-                known = f"this version of svsa reads format {_VERSION}"
-                raise CatalogueError(f"The catalogue {self._path} is of format {version}; {known}.")
-            connection.executescript(_SCHEMA)
-            connection.execute(f"PRAGMA user_version = {_VERSION}")
+            prepare(connection)
             (verdict,) = connection.execute("PRAGMA quick_check(1)").fetchone()
             if verdict != "ok":
                 raise sqlite3.DatabaseError(verdict)
@@ -163,28 +152,20 @@ class Database:
             raise CatalogueError(f"The catalogue {self._path} is damaged: {error}.") from None
 
 
-def _put(connection: sqlite3.Connection, entry: RunEntry) -> None:
-    trash = entry.deleted is not None
-    texts = (entry.id, entry.name, entry.session, *entry.tags, entry.notes)
-    search = "\n".join(texts).casefold()
-    row = (entry.id, entry.created, entry.name, entry.session, entry.duration_s, entry.bytes)
-    connection.execute(
-        "REPLACE INTO runs VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", (*row, entry.state, trash, search)
-    )
-    connection.execute("REPLACE INTO entries VALUES (?, ?)", (entry.id, write_entry(entry)))
-    connection.execute("DELETE FROM tags WHERE run = ?", (entry.id,))
-    rows = [(tag, entry.id, trash) for tag in entry.tags]
-    connection.executemany("INSERT INTO tags VALUES (?, ?, ?)", rows)
+def _build_condition(query: Query) -> tuple[str, list[Any]]:
+    conditions: list[str] = ["trash = ?"]
+    values: list[Any] = [query.trash]
+    for facet in query.facets:
+        conditions.append("id IN (SELECT run FROM facets WHERE facet = ? AND value = ?)")
+        values += facet
+    for word in query.words:
+        conditions.append("(instr(search, ?) OR id = ?)")
+        values += (word, word)
+    return " AND ".join(conditions), values
 
 
-def _has(connection: sqlite3.Connection, run_id: str) -> bool:
-    found = connection.execute("SELECT 1 FROM entries WHERE id = ?", (run_id,))
-    return found.fetchone() is not None
-
-
-def _get(connection: sqlite3.Connection, run_id: str) -> RunEntry:
-    select = "SELECT entry FROM entries WHERE id = ?"
-    found = connection.execute(select, (run_id,)).fetchone()
-    if found is None:
-        raise UnknownRunError(f"There is no run {run_id!r:.80}.")
-    return read_entry(found[0])
+def build_order(sort: str) -> str:
+    """ORDER BY of a sort of `Query`; what is not known comes last, whichever way it goes."""
+    column, down = sort.removeprefix("-"), " DESC" if sort.startswith("-") else ""
+    last = "" if column in _NEVER_NULL else " NULLS LAST"
+    return f"{column}{down}{last}, id{down}"

@@ -1,17 +1,34 @@
 """A run as the catalogue knows it, and what may be asked of the list."""
 
 import json
+import unicodedata
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.runtime.metrics import Metrics
-from svsa.runtime.recording.header import PlantKind
+from svsa.runtime.recording.header import BranchPoint, PlantKind
+from svsa.runtime.recording.settings import RunSettings, name_figure
 
 RunState = Literal["recording", "complete", "failed", "damaged", "missing"]
-SORTS = ("created", "name", "session", "duration_s", "bytes")
+SORTS = (
+    "created",
+    "name",
+    "figure",
+    "laws",
+    "stiffness_nm_per_rad",
+    "load",
+    "realism",
+    "plant",
+    "peak_position_error_rad",
+    "rms_position_error_rad",
+    "duration_s",
+    "bytes",
+    "session",
+)
+FACETS = ("tag", "law", "load", "figure", "plant")
 MOST_PAGE_SIZE = 200
 MOST_PAGES = 1_000_000
 LONGEST_SEARCH = 200
@@ -32,6 +49,8 @@ class RunEntry:
     state: complete, or still recording, or failed (it ended early, `message` says why; what
     was recorded is there), damaged (it cannot be read) or missing (its folder is gone).
     metrics: per lane, of the whole record; None where there are none, or no finite ones.
+    settings: None while it is recorded, and where they cannot be read. branch_of: where it
+    went on from.
     """
 
     id: str
@@ -52,6 +71,31 @@ class RunEntry:
     bytes: int = 0
     metrics: tuple[Metrics, ...] | None = None
     deleted: str | None = None
+    settings: RunSettings | None = None
+    branch_of: BranchPoint | None = None
+
+    @property
+    def title(self) -> str:
+        """What it is called: by people, or by its settings, or by its id."""
+        return self.name or (self.settings.name if self.settings else "") or self.id
+
+    @property
+    def figure(self) -> str:
+        """The figure as the list shows it; "" for none."""
+        return name_figure(self.settings) if self.settings else ""
+
+    @property
+    def facets(self) -> list[tuple[str, str]]:
+        """By what it is filtered: (facet, value)."""
+        known = self.settings
+        values = {
+            "tag": self.tags,
+            "law": known.law_kinds if known else (),
+            "load": known.load_kinds if known else (),
+            "figure": (known.figure,) if known and known.figure else (),
+            "plant": (self.plant,),
+        }
+        return [(facet, value) for facet in FACETS for value in values[facet]]
 
 
 @dataclass(frozen=True)
@@ -68,12 +112,20 @@ class RunPage:
 class Query:
     """What of the list is asked for; raises `ParameterError` for what cannot be.
 
-    search: every word in it must be in id, name, session, tags or notes. sort: a column of
-    `SORTS`, with - before it from the greatest down. trash: what was deleted instead.
+    search: every word in it must stand, as it is written but for its case, in what a row of the
+    list shows of a run besides numbers and times: name, settings, tags, notes, the run it
+    branched from; or be its id. tag, law, load, figure, plant: only runs with this one; a law
+    that controlled any lane, a kind of load that was on or "none", a key of a figure. sort: a
+    column of `SORTS`, with - before it from the greatest down; what is not known comes last.
+    trash: what was deleted instead.
     """
 
     search: str = ""
     tag: str | None = None
+    law: str | None = None
+    load: str | None = None
+    figure: str | None = None
+    plant: str | None = None
     sort: str = "-created"
     page: int = 1
     page_size: int = 50
@@ -95,7 +147,13 @@ class Query:
     @property
     def words(self) -> list[str]:
         """What is searched for, so that the case of no alphabet matters."""
-        return [word.casefold() for word in make_storable(self.search).split()]
+        return fold(self.search).split()
+
+    @property
+    def facets(self) -> list[tuple[str, str]]:
+        """The filters that are given: (facet, value)."""
+        given = [(facet, getattr(self, facet)) for facet in FACETS]
+        return [(facet, make_storable(value)) for facet, value in given if value is not None]
 
 
 def write_entry(entry: RunEntry) -> str:
@@ -113,7 +171,24 @@ def read_entry(text: str) -> RunEntry:
         written["metrics"] = None if lanes is None else tuple(Metrics(**lane) for lane in lanes)
     except TypeError:
         written["metrics"] = None
+    written["settings"] = _read_settings(written.get("settings"))
+    if branch := written.get("branch_of"):
+        written["branch_of"] = BranchPoint(**branch)
     return RunEntry(**written)
+
+
+def _read_settings(written: dict[str, Any] | None) -> RunSettings | None:
+    if written is None:
+        return None
+    try:
+        return msgspec.convert(written, RunSettings)
+    except msgspec.ValidationError:
+        return None
+
+
+def fold(text: str) -> str:
+    """The text for a search in which neither case nor the way an accent is stored matters."""
+    return unicodedata.normalize("NFC", make_storable(text)).casefold()
 
 
 def make_storable(text: str) -> str:

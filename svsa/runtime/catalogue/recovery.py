@@ -16,8 +16,9 @@ from svsa.runtime.catalogue.database import Database
 from svsa.runtime.catalogue.entry import RunEntry, UnknownRunError
 from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runtime.recording.header import STREAM_FILE, RecordError, is_run_id, read_header
-from svsa.runtime.recording.parquet import measure_bytes
+from svsa.runtime.recording.parquet import measure_bytes, read_commands
 from svsa.runtime.recording.reader import Record, open_record, recover
+from svsa.runtime.recording.settings import describe_settings
 
 CUT_OFF = "The recording was cut off; what had been written is here."
 GONE = "Its folder is gone."
@@ -62,7 +63,22 @@ def recover_runs(database: Database, runs: Path, trash: Path) -> Recovery:
             places = (runs / run_id, trash / run_id)
             if database.revise(run_id, functools.partial(_miss, places)).state == "missing":
                 problems.append((run_id, GONE))
+    describe_older(database, (runs, trash))
     return Recovery(tuple(finished), tuple(registered), tuple(problems))
+
+
+def describe_older(database: Database, places: tuple[Path, ...]) -> None:
+    """Give the runs their settings that were entered before the catalogue held any.
+
+    Only headers and commands are read, no samples; what cannot be read stays without.
+    """
+    for run_id in database.list_undescribed():
+        entry = database.get(run_id)
+        for folder in (place / run_id for place in places):
+            with contextlib.suppress(RecordError, OSError, UnknownRunError):
+                header, (commands, _) = read_header(folder), read_commands(folder)
+                settings = describe_settings(header, commands, entry.first_tick, entry.ticks)
+                database.change(run_id, {"settings": settings})
 
 
 def _recover_run(database: Database, folder: Path, deleted: bool, state: str) -> RunEntry | None:
@@ -105,6 +121,9 @@ def describe(folder: Path) -> dict[str, Any]:
             "duration_s": record.duration_s,
             "bytes": measure_bytes(folder),
             "metrics": measure(record),
+            "settings": describe_settings(
+                record.header, record.commands, record.first_tick, record.tick_count
+            ),
         }
     except (RecordError, OSError) as error:
         return {"state": "damaged", "message": str(error)}

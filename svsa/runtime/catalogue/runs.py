@@ -8,6 +8,7 @@ import dataclasses
 import os
 import secrets
 import shutil
+from collections.abc import Iterable
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -125,9 +126,13 @@ class Catalogue:
         """The page of the list that `query` asks for."""
         return self._database.query(query)
 
-    def list_tags(self) -> dict[str, int]:
-        """Every tag in use, and on how many runs."""
-        return self._database.list_tags()
+    def list_facets(self) -> dict[str, dict[str, int]]:
+        """What the list can be filtered by: facet, value, on how many runs (see `Query`)."""
+        return self._database.list_facets()
+
+    def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
+        """Those of these runs that the list has, in the trash or not, by id."""
+        return self._database.find(run_ids)
 
     def delete(self, run_id: str) -> RunEntry:
         """Put a run into the trash; raises `StateError` while it is recorded."""
@@ -174,17 +179,13 @@ class Catalogue:
         """The folder that a run is in, in the trash or not."""
         return self._locate(self.get(run_id))
 
-    def list(
-        self,
-        search: str = "",
-        tag: str | None = None,
-        sort: str = "-created",
-        page: int = 1,
-        page_size: int = 50,
-        trash: bool = False,
-    ) -> RunPage:
-        """A page of the list: see `Query`; raises `ParameterError` for a wrong value."""
-        return self.query(Query(search, tag, sort, page, page_size, trash))
+    def list(self, search: str = "", **wanted: Any) -> RunPage:
+        """A page of the list, by the fields of `Query`; raises `ParameterError` as it does."""
+        return self.query(Query(search, **wanted))
+
+    def list_tags(self) -> dict[str, int]:
+        """Every tag in use, and on how many runs."""
+        return self.list_facets()["tag"]
 
     def _locate(self, entry: RunEntry) -> Path:
         return (self._runs if entry.deleted is None else self._trash) / entry.id

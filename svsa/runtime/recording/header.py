@@ -4,6 +4,7 @@ import json
 import os
 import re
 import threading
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal, Self
@@ -36,6 +37,14 @@ class RecordError(SvsaError):
     """A record that cannot be written, found or read; what is on the disk stays as it is."""
 
 
+@dataclass(frozen=True)
+class BranchPoint:
+    """Where a branch left another run: that run's id, and the tick from which it goes on."""
+
+    run_id: str
+    tick: int
+
+
 class RecordHeader(Checked):
     """Everything about a record but its commands and samples; JSON in `header.json`.
 
@@ -52,6 +61,9 @@ class RecordHeader(Checked):
     name: str = quantity("", "What people call the run", default="")
     tags: tuple[str, ...] = quantity("", "Words to find the run by", default=())
     notes: str = quantity("", "What people wrote about the run", default="")
+    branch_of: BranchPoint | None = quantity(
+        "", "Run and tick from which this one went on", default=None
+    )
     lanes: tuple[str, ...] = quantity("", "Name of every lane, in the order of the samples")
     configuration: dict[str, Any] = quantity("", "The run's configuration at tick 0")
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1)

@@ -839,6 +839,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run_id}/difference": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Difference
+         * @description What of the settings differs between a run and others, and nothing that does not.
+         */
+        get: operations["read_difference_api_v1_runs__run_id__difference_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs": {
         parameters: {
             query?: never;
@@ -1128,6 +1148,32 @@ export interface components {
             loop: components["schemas"]["LoopState"];
         };
         /**
+         * BranchOrigin
+         * @description The recorded run that a run or session goes on from.
+         */
+        BranchOrigin: {
+            /**
+             * Run Id
+             * @description Id of that run
+             */
+            run_id: string;
+            /**
+             * Tick
+             * @description Tick of it from which this one goes on
+             */
+            tick: number;
+            /**
+             * Title
+             * @description What it is called; null where it is gone for good
+             */
+            title: string | null;
+            /**
+             * Time S
+             * @description The same moment in its replay, s after its first sample; null as title
+             */
+            time_s: number | null;
+        };
+        /**
          * BranchRequest
          * @description Where to go on from.
          */
@@ -1136,6 +1182,16 @@ export interface components {
              * Tick
              * @description Tick of the recorded run, from its t = 0, ticks
              */
+            tick: number;
+        };
+        /**
+         * BranchState
+         * @description The recorded run that a session goes on from, and the tick at which it left it.
+         */
+        BranchState: {
+            /** Run Id */
+            run_id: string;
+            /** Tick */
             tick: number;
         };
         /**
@@ -2176,8 +2232,20 @@ export interface components {
         RunDetails: {
             /** Id */
             id: string;
-            /** Name */
+            /**
+             * Name
+             * @description What people call it; empty where nobody named it
+             */
             name: string;
+            /**
+             * Title
+             * @description Its name, or where nobody gave one that of its settings
+             */
+            title: string;
+            /** @description What it was set to, in words; null while it is recorded */
+            settings: components["schemas"]["RunSettings"] | null;
+            /** @description The run that it goes on from */
+            branch_of: components["schemas"]["BranchOrigin"] | null;
             /** Tags */
             tags: string[];
             /** Notes */
@@ -2255,6 +2323,21 @@ export interface components {
             command_count: number;
         };
         /**
+         * RunDifference
+         * @description What of the settings differs between runs; what is not listed is the same in all.
+         */
+        RunDifference: {
+            /**
+             * Runs
+             * @description Their ids, in the order of the values
+             */
+            runs: string[];
+            /** Titles */
+            titles: string[];
+            /** Differences */
+            differences: components["schemas"]["SettingDifference"][];
+        };
+        /**
          * RunList
          * @description A page of runs.
          */
@@ -2276,6 +2359,15 @@ export interface components {
              */
             tags: {
                 [key: string]: number;
+            };
+            /**
+             * Facets
+             * @description What the list can be filtered by: facet (tag, law, load, figure, plant), value, and how many of all runs outside the trash have it
+             */
+            facets: {
+                [key: string]: {
+                    [key: string]: number;
+                };
             };
         };
         /**
@@ -2378,14 +2470,64 @@ export interface components {
             };
         };
         /**
+         * RunSettings
+         * @description What a run was set to while it was recorded, as people say it; "" where it is not known.
+         *
+         *     name: all that matters, joined, for a run that nobody named. figure: key of the paper's
+         *     figure with its references, from the first sample on; figure_held: to the last one too.
+         *     laws: lane by lane; law_kinds: every law that controlled a lane at some time. stiffness: σ_d,
+         *     N·m/rad; stiffness_nm_per_rad: its mean at the first sample. loads that were on; load_kinds:
+         *     their kinds, or "none". realism: effects of the simulation, or the bench. own: what of the
+         *     design is not the paper's prototype with this lab's gains. An arrow stands between what came
+         *     after one another.
+         */
+        RunSettings: {
+            /** Name */
+            name: string;
+            /** Figure */
+            figure: string;
+            /** Figure Held */
+            figure_held: boolean;
+            /** Motion */
+            motion: string;
+            /** Laws */
+            laws: string;
+            /** Law Kinds */
+            law_kinds: string[];
+            /** Stiffness */
+            stiffness: string;
+            /** Stiffness Nm Per Rad */
+            stiffness_nm_per_rad: number | null;
+            /** Load */
+            load: string;
+            /** Load Kinds */
+            load_kinds: string[];
+            /** Realism */
+            realism: string;
+            /** Own */
+            own: string;
+        };
+        /**
          * RunSummary
          * @description A run in the list.
          */
         RunSummary: {
             /** Id */
             id: string;
-            /** Name */
+            /**
+             * Name
+             * @description What people call it; empty where nobody named it
+             */
             name: string;
+            /**
+             * Title
+             * @description Its name, or where nobody gave one that of its settings
+             */
+            title: string;
+            /** @description What it was set to, in words; null while it is recorded */
+            settings: components["schemas"]["RunSettings"] | null;
+            /** @description The run that it goes on from */
+            branch_of: components["schemas"]["BranchOrigin"] | null;
             /** Tags */
             tags: string[];
             /** Notes */
@@ -2582,6 +2724,8 @@ export interface components {
             bench: components["schemas"]["BenchState"] | null;
             /** Session */
             session: string;
+            /** @description null unless its run is a branch */
+            branch_of: components["schemas"]["BranchState"] | null;
             control: components["schemas"]["ControlState"];
             /** Rate Hz */
             rate_hz: number;
@@ -2597,6 +2741,26 @@ export interface components {
             sample: {
                 [key: string]: number | null;
             } | null;
+        };
+        /**
+         * SettingDifference
+         * @description A setting that is not the same in every run.
+         */
+        SettingDifference: {
+            /** Group */
+            group: string;
+            /** Name */
+            name: string;
+            /**
+             * Unit
+             * @description SI, of values that are numbers
+             */
+            unit: string;
+            /**
+             * Values
+             * @description Run by run; null where a run has no such setting
+             */
+            values: (string | number | boolean | null)[];
         };
         /**
          * SineLoad
@@ -5135,15 +5299,76 @@ export interface operations {
             };
         };
     };
+    read_difference_api_v1_runs__run_id__difference_get: {
+        parameters: {
+            query: {
+                /** @description Ids of the runs beside it */
+                other: string[];
+            };
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunDifference"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
     list_runs_api_v1_runs_get: {
         parameters: {
             query?: {
-                /** @description Words in name, notes, tags or id */
+                /** @description Words of which each must stand, but for its case, in what the list shows of a run besides numbers and times: name, settings, tags, notes, origin; or its id */
                 search?: string;
                 /** @description Only runs with this tag */
                 tag?: string | null;
-                /** @description created, name, session, duration_s or bytes; - before it turns it round */
-                sort?: string;
+                /** @description Only runs in which this law controlled a lane at some time */
+                law?: string | null;
+                /** @description Only runs with this kind of load on at some time, or none */
+                load?: string | null;
+                /** @description Only runs with the references of this figure, as 4a */
+                figure?: string | null;
+                /** @description simulated, emulated or bench */
+                plant?: string | null;
+                /** @description A column; - before it turns it round. What is not known comes last; errors are those of the first lane. */
+                sort?: "created" | "-created" | "name" | "-name" | "figure" | "-figure" | "laws" | "-laws" | "stiffness_nm_per_rad" | "-stiffness_nm_per_rad" | "load" | "-load" | "realism" | "-realism" | "plant" | "-plant" | "peak_position_error_rad" | "-peak_position_error_rad" | "rms_position_error_rad" | "-rms_position_error_rad" | "duration_s" | "-duration_s" | "bytes" | "-bytes" | "session" | "-session";
                 page?: number;
                 page_size?: number;
                 /** @description What was deleted instead */

@@ -1,0 +1,32 @@
+"""What was set otherwise in one recorded run than in others."""
+
+from dataclasses import asdict
+from typing import Annotated
+
+from fastapi import APIRouter, Query
+
+from svsa.runtime.recording.difference import compare_settings
+from svsa_server.routes.depends import RunId, Runs
+from svsa_server.run_schemas import RunDifference, SettingDifference
+
+MOST_OTHERS = 7
+router = APIRouter()
+
+
+@router.get("/runs/{run_id}/difference")
+def read_difference(
+    runs: Runs,
+    run_id: RunId,
+    other: Annotated[
+        list[str],
+        Query(min_length=1, max_length=MOST_OTHERS, description="Ids of the runs beside it"),
+    ],
+) -> RunDifference:
+    """What of the settings differs between a run and others, and nothing that does not."""
+    ids = [run_id, *other]
+    found = compare_settings([runs.open(one) for one in ids])
+    return RunDifference(
+        runs=ids,
+        titles=[runs.get(one).title for one in ids],
+        differences=[SettingDifference(**asdict(one)) for one in found],
+    )

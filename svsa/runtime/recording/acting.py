@@ -1,0 +1,110 @@
+"""What acted on a recorded run: every setting from its first sample to its last, every load."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from svsa.errors import ParameterError
+from svsa.parameters import Limits
+from svsa.plant.disturbances import Load, ScheduledLoad, schedule_load
+from svsa.runtime.command import KINDS
+from svsa.runtime.configuration import Sampling
+from svsa.runtime.recording.header import RecordHeader
+from svsa.runtime.recording.parquet import Commands
+
+_BY_COMMAND = (
+    "position",
+    "stiffness",
+    "law",
+    "rivals",
+    "gains",
+    "observer",
+    "effects",
+    "actuator",
+    "nominal",
+)
+_ADAPTERS: dict[str, TypeAdapter[Any]] = {
+    **{name: KINDS[name].argument for name in _BY_COMMAND},
+    "limits": TypeAdapter(Limits),
+    "sampling": TypeAdapter(Sampling),
+}
+_LOADS: TypeAdapter[tuple[Load, ...]] = TypeAdapter(tuple[Load, ...])
+SETTINGS = tuple(_ADAPTERS)
+
+
+@dataclass(frozen=True)
+class Acting:
+    """Settings by their names in the configuration, each as (tick, value) in order of time.
+
+    The first value is the one at the first sample. A value is None where this version cannot
+    read it. loads: those that were on during at least one sample, with the ticks at which they
+    came and went; None where they cannot be read.
+    """
+
+    settings: dict[str, tuple[tuple[int, Any], ...]]
+    loads: tuple[ScheduledLoad, ...] | None
+
+    def get_values(self, setting: str) -> list[Any]:
+        """What the setting was, one value after another."""
+        return [value for _, value in self.settings[setting]]
+
+
+def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks: int) -> Acting:
+    """What acted on the record of `ticks` samples from `first_tick` on.
+
+    A command at a sample's tick acts on that sample: one given after the last acted on none.
+    """
+    end = first_tick + max(ticks, 1)
+    return Acting(
+        {name: _follow(name, header.configuration, commands, first_tick, end) for name in SETTINGS},
+        _find_loads(header, commands, first_tick, end),
+    )
+
+
+def _follow(
+    name: str, configuration: dict[str, Any], commands: Commands, first: int, end: int
+) -> tuple[tuple[int, Any], ...]:
+    adapter = _ADAPTERS[name]
+    values = {first: _read(adapter, configuration.get(name))}
+    for tick, command in commands:
+        if command.get("kind") == name and tick < end:
+            values[max(first, tick)] = _read(adapter, command.get("argument"))
+    ordered = list(values.items())
+    changes = [
+        ordered[at] for at in range(len(ordered)) if at == 0 or ordered[at][1] != ordered[at - 1][1]
+    ]
+    return tuple(changes)
+
+
+def _read(adapter: TypeAdapter[Any], written: Any) -> Any:
+    try:
+        return adapter.validate_python(written)
+    except (ValidationError, ParameterError, TypeError):
+        return None
+
+
+def _find_loads(
+    header: RecordHeader, commands: Commands, first: int, end: int
+) -> tuple[ScheduledLoad, ...] | None:
+    planned = _read(_LOADS, header.configuration.get("loads") or ())
+    if planned is None:
+        return None
+    given = [(0, load) for load in planned]
+    taken_off: dict[int, int] = {}
+    for tick, command in commands:
+        if command.get("kind") == "load":
+            load = _read(KINDS["load"].argument, command.get("argument"))
+            if load is None:
+                return None
+            given.append((tick, load))
+        elif command.get("kind") == "unload" and isinstance(command.get("argument"), int):
+            taken_off[command["argument"]] = tick
+    applied = []
+    for number, (tick, load) in enumerate(given, 1):
+        on = schedule_load(number, load, tick, header.period_s)
+        on = on._replace(end_tick=min(on.end_tick, taken_off.get(number, math.inf)))
+        if max(on.start_tick, first) < min(on.end_tick, end):
+            applied.append(on)
+    return tuple(applied)
