@@ -1,8 +1,10 @@
 """An exported run in a real browser: opened from a file, with no network at all."""
 
+import base64
 import json
 import math
 import re
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +14,7 @@ from playwright.sync_api import BrowserContext, Page, expect
 from svsa.errors import ParameterError
 from svsa.signals import CHANNEL_NAMES
 from svsa_scene.replay import build_replay_html
-from svsa_scene.replay_curves import decimate, list_events
+from svsa_scene.replay_curves import decimate, list_events, pack_curves
 from svsa_scene.replay_packing import ArrayPack
 
 PATIENCE_MS = 60_000
@@ -275,6 +277,48 @@ def test_decimation_keeps_peaks_and_exact_samples() -> None:
     assert kept[333 // 7] == 9.0
     assert kept[779 // 7] == -9.0
     assert np.count_nonzero(kept != smooth[::7]) == 2
+
+
+def unpack(exported: dict, number: int) -> np.ndarray:
+    """A curve of a pack, as the page reads it."""
+    start, count, step = exported["places"][number]
+    data = zlib.decompress(base64.b64decode(exported["data"]))
+    planes = np.frombuffer(data, np.uint8, 4 * count, start).reshape(4, count)
+    words = np.ascontiguousarray(planes.T).view("<u4").ravel().astype(np.int64)
+    whole = np.cumsum((words >> 1) ^ -(words & 1))
+    whole = (whole + 2**31) % 2**32 - 2**31
+    return np.where(whole == -(2**31), np.nan, whole * step)
+
+
+def test_a_curve_has_every_sample_closer_than_a_pixel_of_any_zoom() -> None:
+    samples, _ = make_run(ticks=60_000)
+    noisy = samples + np.random.default_rng(2).normal(0.0, 1e-3, samples.shape)
+    noisy[100:200, 1] = np.nan
+    pack = ArrayPack()
+    curves = pack_curves(noisy, CHANNELS, PERIOD_S, pack)
+    assert curves["step_s"] == PERIOD_S
+    exported = pack.export()
+    least = {"position_rad": math.radians(2), "position_error_rad": math.radians(0.004)}
+    for name, height in least.items():
+        for lane, number in enumerate(curves["channels"][name]):
+            recorded = noisy[:, lane, CHANNELS.index(name)]
+            np.testing.assert_allclose(
+                unpack(exported, number), recorded, rtol=0, atol=height / 4000
+            )
+
+
+def test_a_curve_far_off_its_axis_is_still_that_curve() -> None:
+    values = np.array([0.0, 1e6, -1e6, np.inf, 3.0])
+    pack = ArrayPack()
+    pack.add_curve(values, 1e-8)
+    expected = np.where(np.isinf(values), np.nan, values)
+    np.testing.assert_allclose(unpack(pack.export(), 0), expected, rtol=0, atol=1e-3)
+
+
+def test_of_a_long_run_the_page_has_fewer_samples_and_says_so() -> None:
+    samples, _ = make_run(ticks=130_000, lanes=1)
+    curves = pack_curves(samples, CHANNELS, PERIOD_S, ArrayPack())
+    assert (curves["stride"], curves["step_s"]) == (2, 2 * PERIOD_S)
 
 
 def test_equal_arrays_are_stored_once() -> None:

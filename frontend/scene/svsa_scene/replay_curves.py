@@ -1,5 +1,6 @@
 """The curves, marks and numbers of a run for its page, from samples at full rate."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -12,7 +13,18 @@ from svsa_scene.replay_packing import ArrayPack
 
 Array = npt.NDArray[np.float64]
 
-MOST_POINTS = 9000
+MOST_POINTS = 120_000
+"""Of a curve, in all lanes together: a minute of two lanes at 1 kHz has every sample."""
+
+_AXIS_PARTS = 4000
+_LEAST_AXES = {
+    "position_error_rad": math.radians(0.004),
+    "position_rad": math.radians(2.0),
+    "position_reference_rad": math.radians(2.0),
+    "stiffness_nm_per_rad": 2.0,
+    "stiffness_reference_nm_per_rad": 2.0,
+}
+_LEAST_TORQUE_AXIS_NM = 1.0
 
 
 class Event(NamedTuple):
@@ -40,17 +52,31 @@ def decimate(values: Array, stride: int) -> Array:
     return np.where((below > 0) & (below > above), bottom, kept)
 
 
+def resolve(channel: str) -> float:
+    """Step to which a drawn channel is rounded, in its SI unit: a 4000th of the least height that
+    the page gives its axis at any zoom, thus finer than a pixel.
+    """
+    return _LEAST_AXES.get(channel, _LEAST_TORQUE_AXIS_NM) / _AXIS_PARTS
+
+
 def pack_curves(
     samples: Array, channels: Sequence[str], period_s: float, pack: ArrayPack
 ) -> dict[str, Any]:
-    """Every drawn channel that the run has: for each lane the number of its array."""
-    stride = -(-len(samples) // MOST_POINTS)
+    """Every drawn channel that the run has: for each lane the number of its array.
+
+    Every sample, or of a run of more than `MOST_POINTS` one of several, with the peaks between.
+    """
+    ticks, lanes, _ = samples.shape
+    stride = -(-ticks * lanes // MOST_POINTS)
     return {
         "step_s": stride * period_s,
+        "stride": stride,
         "channels": {
             name: [
-                pack.add(decimate(samples[:, lane, channels.index(name)], stride))
-                for lane in range(samples.shape[1])
+                pack.add_curve(
+                    decimate(samples[:, lane, channels.index(name)], stride), resolve(name)
+                )
+                for lane in range(lanes)
             ]
             for name in PLOTTED
             if name in channels

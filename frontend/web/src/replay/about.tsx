@@ -59,6 +59,7 @@ export function Header({ run }: { run: Run }) {
             {about.close}
           </button>
         </div>
+        <p class="hint">{about.drawn(run.curves.stride)}</p>
         <Value value={run.details} />
       </dialog>
     </header>

@@ -9,6 +9,8 @@ export interface Range {
 }
 
 const SHORTEST_RANGE_S = 0.05;
+/** Where not every sample is drawn, a plot is at least so many points wide. */
+const LEAST_POINTS = 400;
 
 export const timeS = signal(0);
 export const isPlaying = signal(false);
@@ -18,10 +20,24 @@ export const range = signal<Range>({ from: 0, to: 1 });
 let endS = 0;
 let frameS = 1 / 30;
 let playedAt = 0;
+let shortestS = SHORTEST_RANGE_S;
 
-export function setUpClock(end: number, frame: number): void {
-  endS = end;
-  frameS = frame;
+interface Timing {
+  /** The run's last sample. */
+  endS: number;
+  /** Between two pictures in 3D. */
+  frameS: number;
+  /** Between two points of a curve. */
+  pointS: number;
+  isEverySample: boolean;
+}
+
+export function setUpClock(timing: Timing): void {
+  endS = timing.endS;
+  frameS = timing.frameS;
+  shortestS = timing.isEverySample
+    ? SHORTEST_RANGE_S
+    : Math.max(SHORTEST_RANGE_S, LEAST_POINTS * timing.pointS);
   showAll();
 }
 
@@ -46,7 +62,7 @@ export function togglePlay(): void {
 }
 
 export function showAll(): void {
-  range.value = { from: 0, to: Math.max(endS, SHORTEST_RANGE_S) };
+  range.value = { from: 0, to: Math.max(endS, shortestS) };
 }
 
 export function isWhole({ from, to }: Range): boolean {
@@ -54,7 +70,7 @@ export function isWhole({ from, to }: Range): boolean {
 }
 
 export function showRange(from: number, to: number): void {
-  const width = Math.min(Math.max(to - from, SHORTEST_RANGE_S), Math.max(endS, SHORTEST_RANGE_S));
+  const width = Math.min(Math.max(to - from, shortestS), Math.max(endS, shortestS));
   const start = Math.min(Math.max((from + to - width) / 2, 0), Math.max(endS - width, 0));
   range.value = { from: start, to: start + width };
 }

@@ -1,5 +1,6 @@
 /** The run inside the page: JSON, and arrays of numbers packed into one compressed text. */
 import { type Mark, markOf } from "../layout/plantmark";
+import { type Packed, unpack } from "./packing";
 
 export interface Track {
   /** Type of viser's message, name of the node and the property that the message sets. */
@@ -36,9 +37,10 @@ export interface Run {
   details: Record<string, unknown>;
   events: RunEvent[];
   metrics: Record<string, number | null>[];
-  curves: { step_s: number; channels: Record<string, number[]> };
+  /** Of `stride` samples one is drawn, with the peaks between. */
+  curves: { step_s: number; stride: number; channels: Record<string, number[]> };
   motion: Motion;
-  arrays: { places: [number, number][]; data: string };
+  arrays: { places: Packed[]; data: string };
   scene: string;
 }
 
@@ -58,7 +60,7 @@ export function findMark({ details: { plant } }: Run): Mark | null {
 export async function readRecording(): Promise<Recording> {
   const run = JSON.parse(document.getElementById("run")?.textContent ?? "") as Run;
   const bytes = await inflate(run.arrays.data);
-  const arrays = run.arrays.places.map(([start, count]) => joinPlanes(bytes, start, count));
+  const arrays = run.arrays.places.map((place) => unpack(bytes, place));
   return { run, arrays, endS: (run.ticks - 1) * run.period_s };
 }
 
@@ -66,16 +68,4 @@ async function inflate(base64: string): Promise<Uint8Array> {
   const packed = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
-/** float32 of which all first bytes stand together, then all second ones, and so on. */
-function joinPlanes(bytes: Uint8Array, start: number, count: number): Float32Array {
-  const joined = new Uint8Array(count * 4);
-  for (let plane = 0; plane < 4; plane++) {
-    const from = start + plane * count;
-    for (let index = 0; index < count; index++) {
-      joined[index * 4 + plane] = bytes[from + index] as number;
-    }
-  }
-  return new Float32Array(joined.buffer);
 }

@@ -31,7 +31,13 @@ function readMoment(): number {
 const host = document.getElementById("replay") as HTMLElement;
 try {
   const recording = await readRecording();
-  setUpClock(recording.endS, recording.run.motion.step_s);
+  const { motion, curves } = recording.run;
+  setUpClock({
+    endS: recording.endS,
+    frameS: motion.step_s,
+    pointS: curves.step_s,
+    isEverySample: curves.stride === 1,
+  });
   seek(readMoment());
   document.documentElement.classList.toggle("is-embedded", window.parent !== window);
   render(<App recording={recording} />, host);

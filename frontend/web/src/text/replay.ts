@@ -41,6 +41,10 @@ export const text = {
     open: "About this run",
     close: "Close",
     version: "version",
+    drawn: (stride: number) =>
+      stride === 1
+        ? "The curves have every sample of the run."
+        : `The curves have one sample of ${stride}, and the peaks between.`,
     empty: "none",
     more: (count: number) => `and ${count} more`,
   },
