@@ -27,12 +27,13 @@ from svsa.plant.disturbances import (
     SineLoad,
 )
 from svsa.plant.effects import IDEAL, RIG, Effects
-from svsa.reference.trajectories import (
-    ConstantPosition,
-    ConstantStiffness,
-    SinePosition,
-    SineStiffness,
-)
+from svsa.reference.chirp import ChirpPosition, ChirpStiffness
+from svsa.reference.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
+from svsa.reference.preview import sample_reference
+from svsa.reference.series import SeriesPosition, SeriesStiffness
+from svsa.reference.series_csv import read_series
+from svsa.reference.sine import ConstantPosition, ConstantStiffness, SinePosition, SineStiffness
+from svsa.reference.steps import StepsPosition, StepsStiffness
 from svsa.runtime.configuration import (
     Configuration,
     Design,
@@ -51,6 +52,8 @@ __all__ = [
     "IDEAL",
     "RIG",
     "ActuatorParameters",
+    "ChirpPosition",
+    "ChirpStiffness",
     "Configuration",
     "ConstantLoad",
     "ConstantPosition",
@@ -62,6 +65,8 @@ __all__ = [
     "Lane",
     "Limits",
     "MassLoad",
+    "MinimumJerkPosition",
+    "MinimumJerkStiffness",
     "MissingExtraError",
     "ObserverBandwidth",
     "PaperLoad",
@@ -69,15 +74,21 @@ __all__ = [
     "PulseLoad",
     "Result",
     "SeriesLoad",
+    "SeriesPosition",
+    "SeriesStiffness",
     "SineLoad",
     "SinePosition",
     "SineStiffness",
     "StateError",
+    "StepsPosition",
+    "StepsStiffness",
     "SvsaError",
     "load_prototype",
     "paper",
     "read_design",
+    "read_series",
     "reproduce",
+    "sample_reference",
     "simulate",
     "write_design",
 ]

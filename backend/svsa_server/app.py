@@ -23,6 +23,7 @@ from svsa_server.routes import (
     loads,
     outcomes,
     recordings,
+    references,
     runs,
     sessions,
     settings,
@@ -67,6 +68,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         design,
         loads,
         recordings,
+        references,
         runs,
         outcomes,
     ):

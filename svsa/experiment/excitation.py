@@ -9,14 +9,8 @@ would meet the same counts of the encoders, and their error would not average ou
 
 from typing import Literal, NamedTuple
 
-from svsa.reference.trajectories import (
-    ConstantPosition,
-    ConstantStiffness,
-    PositionReference,
-    SinePosition,
-    SineStiffness,
-    StiffnessReference,
-)
+from svsa.reference.sine import ConstantPosition, ConstantStiffness, SinePosition, SineStiffness
+from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.command import Command, build_command
 
 EXCITATION_DURATION_S = 32.0

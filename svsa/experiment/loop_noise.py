@@ -7,7 +7,7 @@ import numpy as np
 from scipy.linalg import solve_discrete_lyapunov
 
 from svsa.plant.effects import RIG, Effects, build_bench
-from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
+from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.loop import LaneState, apply_torque, decide, observe
 from svsa.runtime.run import Run

@@ -10,7 +10,7 @@ from svsa.experiment.loop_noise import LoopNoise, choose_sensing, compute_loop_n
 from svsa.experiment.steady_error import SteadyError, compute_fl_steady_error
 from svsa.plant.disturbances import PAPER_TORQUE_NM, PaperLoad
 from svsa.plant.effects import Effects
-from svsa.reference.trajectories import ConstantPosition
+from svsa.reference.sine import ConstantPosition
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.run import Run
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Disturbance

@@ -5,93 +5,105 @@ r = r_a + w(t) (r_b − r_a), with a weight w of degree 9 whose first four deriv
 zero at both ends. r is then four times continuously differentiable, and, a convex
 combination at every instant, never leaves the range of the two. A change during a fade
 fades from what runs, so that a reference is a short stack of trajectories.
+
+A sine runs on the time of the session. What has a beginning holds its first value while it
+fades in, and begins when it has.
 """
 
-import math
+from typing import NamedTuple
 
 import numpy as np
 
 from svsa.compilation import compiled
 from svsa.errors import StateError
-from svsa.reference.trajectories import Derivatives, Trajectory, compute_sine
+from svsa.reference.chirp import compute_chirp
+from svsa.reference.curve import DEGREE
+from svsa.reference.fade import blend, compute_fade
+from svsa.reference.polynomial import compute_polynomial
+from svsa.reference.shape import CHIRP, CURVE, MOST_NUMBERS, SINE
+from svsa.reference.sine import compute_sine
+from svsa.reference.trajectories import Trajectory
 
 MOST_FADES = 32
 
-OFFSET, AMPLITUDE, OMEGA, PHASE, START, FADE = range(6)
+KIND, A, B, C, D, E, F, START, FADE = range(3 + MOST_NUMBERS)
 
 
-def build_stack(trajectory: Trajectory) -> np.ndarray:
-    """A reference that runs from t = 0: one row (offset, amplitude, ω, phase, start, fade)."""
-    return np.array([_build_row(trajectory, 0.0, 0.0)])
+class Stack(NamedTuple):
+    """A reference as arrays for the compiled loop.
+
+    rows: (n, 9): kind, numbers, start and fade (s). breaks, coefficients: (m,) and (m, 10),
+    of every curve (see `Curve`); A and B of its row are where it begins and how long it is.
+    """
+
+    rows: np.ndarray
+    breaks: np.ndarray
+    coefficients: np.ndarray
 
 
-def push_trajectory(stack: np.ndarray, trajectory: Trajectory, time: float) -> np.ndarray:
+_EMPTY = Stack(np.empty((0, 3 + MOST_NUMBERS)), np.empty(0), np.empty((0, DEGREE + 1)))
+
+
+def build_stack(trajectory: Trajectory) -> Stack:
+    """A reference that runs from t = 0."""
+    return _append(_EMPTY, trajectory, 0.0, 0.0)
+
+
+def push_trajectory(stack: Stack, trajectory: Trajectory, time: float) -> Stack:
     """The stack with `trajectory` fading in from `time` (s) on, finished fades dropped.
 
     Raises `StateError` while `MOST_FADES` changes are still fading.
     """
-    done = stack[:, START] + stack[:, FADE] <= time
-    kept = stack[np.flatnonzero(done)[-1] :] if done.any() else stack
-    if len(kept) >= MOST_FADES:
+    done = stack.rows[:, START] + stack.rows[:, FADE] <= time
+    kept = _drop(stack, int(np.flatnonzero(done)[-1])) if done.any() else stack
+    if len(kept.rows) >= MOST_FADES:
         raise StateError(
             f"{MOST_FADES} changes of this reference are still fading in; wait for one to end."
         )
-    return np.vstack([kept, _build_row(trajectory, time, trajectory.transition_s)])
+    return _append(kept, trajectory, time, trajectory.transition_s)
 
 
-def _build_row(trajectory: Trajectory, start: float, fade: float) -> list[float]:
-    offset, amplitude, frequency, phase = trajectory.get_shape()
-    return [offset, amplitude, 2.0 * math.pi * frequency, phase, start, fade]
+def _append(stack: Stack, trajectory: Trajectory, start: float, fade: float) -> Stack:
+    shape, row = trajectory.get_shape(), np.zeros(3 + MOST_NUMBERS)
+    row[KIND], row[START], row[FADE] = shape.kind, start, fade
+    row[A : A + len(shape.numbers)] = shape.numbers
+    breaks, coefficients = stack.breaks, stack.coefficients
+    if shape.curve is not None:
+        row[A], row[B] = len(breaks), len(shape.curve.breaks)
+        breaks = np.concatenate([breaks, shape.curve.breaks])
+        coefficients = np.concatenate([coefficients, shape.curve.coefficients])
+    return Stack(np.vstack([stack.rows, row]), breaks, coefficients)
 
 
-@compiled
-def compute_fade(start, duration, time):
-    """The weight w and four derivatives: 0 before `start`, 1 after start + duration (s).
-
-    w(x) = x⁵ (126 − 420x + 540x² − 315x³ + 70x⁴), x = (t − start)/duration: the polynomial
-    of degree 9 with w(0) = 0, w(1) = 1 and derivatives 1 to 4 zero at both ends.
-    """
-    if time >= start + duration:
-        return Derivatives(1.0, 0.0, 0.0, 0.0, 0.0)
-    if time <= start:
-        return Derivatives(0.0, 0.0, 0.0, 0.0, 0.0)
-    x = (time - start) / duration
-    y = 1.0 - x
-    rate = 1.0 / duration
-    weight = x**5 * (126.0 + x * (-420.0 + x * (540.0 + x * (-315.0 + x * 70.0))))
-    xy = x * y
-    first = 630.0 * xy**4
-    second = 2520.0 * xy**3 * (y - x)
-    third = 2520.0 * xy**2 * (3.0 * (y - x) ** 2 - 2.0 * xy)
-    fourth = 15120.0 * xy * (y - x) * ((y - x) ** 2 - 3.0 * xy)
-    return Derivatives(weight, first * rate, second * rate**2, third * rate**3, fourth * rate**4)
+def _drop(stack: Stack, count: int) -> Stack:
+    """The stack without its first rows and their curves."""
+    rows, gone = stack.rows[count:].copy(), stack.rows[:count]
+    length = int(gone[gone[:, KIND] == CURVE, B].sum())
+    rows[rows[:, KIND] == CURVE, A] -= length
+    return Stack(rows, stack.breaks[length:].copy(), stack.coefficients[length:].copy())
 
 
 @compiled
-def blend(old, new, w):
-    """Old + w (new − old) to the 4th derivative, by Leibniz's rule; all `Derivatives`."""
-    e0, e1, e2 = new.d0 - old.d0, new.d1 - old.d1, new.d2 - old.d2
-    e3, e4 = new.d3 - old.d3, new.d4 - old.d4
-    return Derivatives(
-        old.d0 + w.d0 * e0,
-        old.d1 + w.d0 * e1 + w.d1 * e0,
-        old.d2 + w.d0 * e2 + 2.0 * w.d1 * e1 + w.d2 * e0,
-        old.d3 + w.d0 * e3 + 3.0 * w.d1 * e2 + 3.0 * w.d2 * e1 + w.d3 * e0,
-        old.d4 + w.d0 * e4 + 4.0 * w.d1 * e3 + 6.0 * w.d2 * e2 + 4.0 * w.d3 * e1 + w.d4 * e0,
-    )
+def compute_row(stack, row, time):
+    """One trajectory of the stack and its four derivatives at `time` (s)."""
+    if row[KIND] == SINE:
+        return compute_sine(row[A], row[B], row[C], row[D], time)
+    own = time - row[START] - row[FADE]
+    if row[KIND] == CHIRP:
+        return compute_chirp(row[A], row[B], row[C], row[D], row[E], row[F], own)
+    return compute_polynomial(stack.breaks, stack.coefficients, int(row[A]), int(row[B]), own)
 
 
 @compiled
 def compute_trajectory(stack, time):
     """The running reference and its four derivatives at `time` (s).
 
-    stack: (n, 6) rows as `build_stack` and `push_trajectory` make them.
+    stack: as `build_stack` and `push_trajectory` make it.
     """
-    row = stack[0]
-    value = compute_sine(row[OFFSET], row[AMPLITUDE], row[OMEGA], row[PHASE], time)
-    for i in range(1, stack.shape[0]):
-        row = stack[i]
-        target = compute_sine(row[OFFSET], row[AMPLITUDE], row[OMEGA], row[PHASE], time)
+    value = compute_row(stack, stack.rows[0], time)
+    for i in range(1, stack.rows.shape[0]):
+        row = stack.rows[i]
+        target = compute_row(stack, row, time)
         weight = compute_fade(row[START], row[FADE], time)
         value = target if weight.d0 == 1.0 else blend(value, target, weight)
     return value

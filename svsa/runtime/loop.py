@@ -12,8 +12,6 @@
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from svsa.compilation import compiled
 from svsa.control.feedback_linearization import (
     GainConstants,
@@ -46,7 +44,7 @@ from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench, build_bench
 from svsa.plant.integration import compute_plant_load, integrate_period
 from svsa.plant.sensors import read_sensors
-from svsa.reference.transition import compute_trajectory
+from svsa.reference.transition import Stack, compute_trajectory
 from svsa.runtime.configuration import Configuration, Lane
 from svsa.signals import Disturbance, Reference, State, Torque
 
@@ -83,8 +81,8 @@ class Blocks(NamedTuple):
 class Inputs(NamedTuple):
     """What comes from outside: the stacks of both references and the table of loads."""
 
-    position: np.ndarray
-    stiffness: np.ndarray
+    position: Stack
+    stiffness: Stack
     loads: LoadTable
 
 

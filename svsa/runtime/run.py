@@ -13,15 +13,14 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table, schedule_load
 from svsa.plant.effects import Effects
+from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.reference.trajectories import (
-    ConstantPosition,
-    ConstantStiffness,
     PositionReference,
     StiffnessReference,
     compute_start_value,
     get_range,
 )
-from svsa.reference.transition import build_stack, push_trajectory
+from svsa.reference.transition import Stack, build_stack, push_trajectory
 from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane, Law
 from svsa.runtime.fault import build_fault
 from svsa.runtime.loop import INITIAL, Inputs, LaneState, advance, build_blocks
@@ -218,7 +217,7 @@ class Run:
         self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
 
 
-def _build_stacks(configuration: Configuration, start: Start) -> tuple[np.ndarray, np.ndarray]:
+def _build_stacks(configuration: Configuration, start: Start) -> tuple[Stack, Stack]:
     """Both references, faded in from where the actuator stands; σ from inside its range."""
     c, x = configuration, start.x
     mu = compute_lever_ratio(x.theta2, start.mu0, c.actuator.spiral_reduction)

@@ -8,11 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import svsa
-from svsa.reference.trajectories import compute_sine, compute_start_value, get_range
+from svsa.reference.fade import compute_fade
+from svsa.reference.sine import compute_sine
+from svsa.reference.trajectories import compute_start_value, get_range
 from svsa.reference.transition import (
     MOST_FADES,
     build_stack,
-    compute_fade,
     compute_trajectory,
     push_trajectory,
 )
@@ -104,7 +105,7 @@ def test_after_the_fade_the_new_reference_runs_alone():
     omega = 2.0 * math.pi * SLOW.frequency_hz
     assert compute_trajectory(stack, 5.0) == compute_sine(0.0, 1.0, omega, 1.0, 5.0)
     pushed = push_trajectory(stack, LEVEL, 5.0)
-    assert len(pushed) == 2
+    assert len(pushed.rows) == 2
     assert compute_trajectory(pushed, 5.0) == compute_trajectory(stack, 5.0)
 
 

@@ -7,6 +7,7 @@ from svsa.experiment.bench_run import LockstepBench, connect_bench
 from svsa.experiment.paper import FIGURES, LOAD_TIME_S, get_figure
 from svsa.hardware.machine import BenchStatus
 from svsa.plant.disturbances import ConstantLoad
+from svsa.reference.sine import ConstantPosition
 from svsa.rig.launch import start_rig
 from svsa.signals import CHANNEL_INDEX
 
@@ -66,6 +67,41 @@ def test_without_compensation_the_same_load_moves_the_link(compensated):
 
 def test_the_same_run_gives_the_same_samples_to_the_bit(compensated):
     assert np.array_equal(run("ndobc"), compensated, equal_nan=True)
+
+
+def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
+    """Given while the bench moves, in the loop's packed constants; the same again to the bit."""
+    times = [0.05 * number for number in range(21)]
+    series = {
+        "kind": "series",
+        "time_s": times,
+        "position_rad": [0.1 * (1.0 - np.cos(2.0 * np.pi * time)) for time in times],
+        "transition_s": 0.2,
+    }
+    chirp = {"kind": "chirp", "offset_nm_per_rad": 15.0, "amplitude_nm_per_rad": 1.0}
+    chirp |= {"start_hz": 0.2, "end_hz": 1.0, "duration_s": 1.0, "transition_s": 0.2}
+    hold = FIGURES["4a"].build_configuration(load=False).changed(position=ConstantPosition())
+    recorded = []
+    for _ in range(2):
+        with start_rig(lockstep=True) as rig:
+            bench = LockstepBench(rig, hold, TICKS)
+            try:
+                bench.prepare()
+                bench.start()
+                bench.tick(1200)
+                assert bench.loop.change("position", series) == 1200
+                bench.loop.change("stiffness", chirp)
+                bench.tick(TICKS - 1200)
+                assert bench.plant.fault is None
+            finally:
+                bench.close()
+        recorded.append(bench.sink.samples)
+    assert np.array_equal(*recorded, equal_nan=True)
+    reference = recorded[0][:, CHANNEL_INDEX["position_reference_rad"]]
+    assert reference[1200 + 200 + 500] == pytest.approx(0.2, abs=1e-9)
+    stiffness = recorded[0][:, CHANNEL_INDEX["stiffness_reference_nm_per_rad"]]
+    assert np.ptp(stiffness[1400:2400]) > 0.9
+    assert np.abs(recorded[0][1200:, CHANNEL_INDEX["position_error_rad"]]).max() < np.radians(0.5)
 
 
 def test_500_hz_tracks_as_well() -> None:

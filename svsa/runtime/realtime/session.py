@@ -10,6 +10,7 @@ from svsa.hardware.calibration import find_calibration
 from svsa.hardware.homing import Axis
 from svsa.hardware.machine import MOVING, BenchStatus
 from svsa.plant.disturbances import Load
+from svsa.reference.trajectories import Trajectory
 from svsa.runtime.command import Command, build_command
 from svsa.runtime.configuration import Configuration, Lane
 from svsa.runtime.loop import AT_REST
@@ -33,6 +34,22 @@ class Hands:
 
     def set_to_marks(self) -> None:
         """Set the mechanism to its zero marks, before it is armed."""
+
+
+MOST_POINTS_IN_MOTION = 200
+
+
+def check_takes_no_time(reference: Trajectory) -> None:
+    """Raise `StateError` for a curve that the loop could not take in between two ticks.
+
+    One of 200 points takes it 2 ms, one of 2000 points 7 ms: long enough to lose the bench.
+    """
+    curve = reference.get_shape().curve
+    if curve is not None and len(curve.breaks) > MOST_POINTS_IN_MOTION:
+        raise StateError(
+            f"The reference has {len(curve.breaks)} points, and a bench that moves takes one of"
+            f" {MOST_POINTS_IN_MOTION} at most: stop it, set the reference, and run it again."
+        )
 
 
 class BenchSession(Session):
@@ -225,6 +242,8 @@ class BenchSession(Session):
 
     def _take(self, command: Command) -> Command:
         """The command at the tick at which the loop has taken it."""
+        if command.kind in ("position", "stiffness") and self.status == "running":
+            check_takes_no_time(command.argument)
         if command.kind == "rivals":
             twin = Lane(law=self.run.configuration.law)
             others = tuple(lane for lane in command.argument if lane != twin)

@@ -739,6 +739,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/references/csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Csv
+         * @description The series in a CSV; what is wrong in it is named with its row.
+         */
+        post: operations["read_csv_api_v1_references_csv_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/references/position/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Position
+         * @description What a reference of position would ask for, before it is followed.
+         */
+        post: operations["preview_position_api_v1_references_position_preview_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/references/stiffness/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Stiffness
+         * @description What a reference of stiffness would ask for, before it is followed.
+         */
+        post: operations["preview_stiffness_api_v1_references_stiffness_preview_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run_id}/samples": {
         parameters: {
             query?: never;
@@ -1210,6 +1270,103 @@ export interface components {
             label: string;
         };
         /**
+         * ChirpPosition
+         * @description A chirp of q_d: see `_Chirp`.
+         */
+        ChirpPosition: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "chirp";
+            /**
+             * Start Hz
+             * @description Frequency f0 at the beginning, Hz
+             */
+            start_hz: number;
+            /**
+             * End Hz
+             * @description Frequency f1 at the end, Hz
+             */
+            end_hz: number;
+            /**
+             * Duration S
+             * @description Duration T, s
+             */
+            duration_s: number;
+            /**
+             * Taper S
+             * @description Time in which the amplitude rises, and falls at the end, s
+             * @default 0.25
+             */
+            taper_s: number;
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Offset Rad
+             * @description Mean, rad
+             * @default 0
+             */
+            offset_rad: number;
+            /**
+             * Amplitude Rad
+             * @description Amplitude A, rad
+             */
+            amplitude_rad: number;
+        };
+        /**
+         * ChirpStiffness
+         * @description A chirp of σ_d, inside the range of the limits: see `_Chirp`.
+         */
+        ChirpStiffness: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "chirp";
+            /**
+             * Start Hz
+             * @description Frequency f0 at the beginning, Hz
+             */
+            start_hz: number;
+            /**
+             * End Hz
+             * @description Frequency f1 at the end, Hz
+             */
+            end_hz: number;
+            /**
+             * Duration S
+             * @description Duration T, s
+             */
+            duration_s: number;
+            /**
+             * Taper S
+             * @description Time in which the amplitude rises, and falls at the end, s
+             * @default 0.25
+             */
+            taper_s: number;
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Offset Nm Per Rad
+             * @description Mean, N·m/rad
+             */
+            offset_nm_per_rad: number;
+            /**
+             * Amplitude Nm Per Rad
+             * @description Amplitude A, N·m/rad
+             */
+            amplitude_nm_per_rad: number;
+        };
+        /**
          * Comparison
          * @description Whether a record is its run, bit for bit.
          *
@@ -1238,9 +1395,9 @@ export interface components {
              */
             law: "ndobc" | "fl";
             /** Position */
-            position: components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"];
+            position: components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"] | components["schemas"]["StepsPosition"] | components["schemas"]["MinimumJerkPosition"] | components["schemas"]["ChirpPosition"] | components["schemas"]["SeriesPosition"];
             /** Stiffness */
-            stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"];
+            stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
             gains: components["schemas"]["GainsState"];
             observer: components["schemas"]["ObserverBandwidth"];
             limits: components["schemas"]["Limits"];
@@ -1532,9 +1689,9 @@ export interface components {
             /** Title */
             title: string;
             /** Position */
-            position: components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"];
+            position: components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"] | components["schemas"]["StepsPosition"] | components["schemas"]["MinimumJerkPosition"] | components["schemas"]["ChirpPosition"] | components["schemas"]["SeriesPosition"];
             /** Stiffness */
-            stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"];
+            stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
             /** Claim */
             claim: string;
         };
@@ -1971,6 +2128,71 @@ export interface components {
             /** Recovery Time S */
             recovery_time_s: number | null;
         };
+        /**
+         * MinimumJerkPosition
+         * @description A movement of q_d: see `_MinimumJerk`.
+         */
+        MinimumJerkPosition: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "minimum_jerk";
+            /**
+             * Duration S
+             * @description Duration T of the movement, s
+             */
+            duration_s: number;
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Start Rad
+             * @description Where it begins, rad
+             * @default 0
+             */
+            start_rad: number;
+            /**
+             * End Rad
+             * @description Where it ends, rad
+             */
+            end_rad: number;
+        };
+        /**
+         * MinimumJerkStiffness
+         * @description A movement of σ_d, inside the range of the limits: see `_MinimumJerk`.
+         */
+        MinimumJerkStiffness: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "minimum_jerk";
+            /**
+             * Duration S
+             * @description Duration T of the movement, s
+             */
+            duration_s: number;
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Start Nm Per Rad
+             * @description Where it begins, N·m/rad
+             */
+            start_nm_per_rad: number;
+            /**
+             * End Nm Per Rad
+             * @description Where it ends, N·m/rad
+             */
+            end_nm_per_rad: number;
+        };
         /** NominalPatch */
         NominalPatch: {
             /**
@@ -2076,6 +2298,18 @@ export interface components {
              * @enum {string}
              */
             kind: "paper";
+        };
+        /**
+         * PositionSeries
+         * @description A CSV with angles, as `PUT …/position` takes it.
+         */
+        PositionSeries: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            follows: "position";
+            reference: components["schemas"]["SeriesPosition"];
         };
         /**
          * PredictRequest
@@ -2202,6 +2436,28 @@ export interface components {
             ticks: number;
             /** Bytes */
             bytes: number;
+        };
+        /**
+         * ReferencePreview
+         * @description A reference by itself, in SI units: its course, and the greatest of its derivatives.
+         */
+        ReferencePreview: {
+            /** Time S */
+            time_s: number[];
+            /**
+             * Value
+             * @description rad or N·m/rad
+             */
+            value: number[];
+            /** Least */
+            least: number;
+            /** Greatest */
+            greatest: number;
+            /**
+             * Peak Rate
+             * @description Greatest |first derivative|, rad/s or N·m/rad/s
+             */
+            peak_rate: number;
         };
         /**
          * Root
@@ -2630,6 +2886,60 @@ export interface components {
             ][];
         };
         /**
+         * SeriesPosition
+         * @description q_d through points of one's own: see `_Series`.
+         */
+        SeriesPosition: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "series";
+            /**
+             * Time S
+             * @description Times since the beginning, growing from ≥ 0, up to 2000, s
+             */
+            time_s: number[];
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Position Rad
+             * @description q_d at each time, rad
+             */
+            position_rad: number[];
+        };
+        /**
+         * SeriesStiffness
+         * @description σ_d through points of one's own, inside the range of the limits: see `_Series`.
+         */
+        SeriesStiffness: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "series";
+            /**
+             * Time S
+             * @description Times since the beginning, growing from ≥ 0, up to 2000, s
+             */
+            time_s: number[];
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Stiffness Nm Per Rad
+             * @description σ_d at each time, N·m/rad
+             */
+            stiffness_nm_per_rad: number[];
+        };
+        /**
          * SessionMetrics
          * @description Metrics since the start of the run, and since the last load came on till it was taken off.
          */
@@ -2921,6 +3231,84 @@ export interface components {
              * @default 1
              */
             ticks: number;
+        };
+        /**
+         * StepsPosition
+         * @description Steps of q_d: see `_Steps`.
+         */
+        StepsPosition: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "steps";
+            /**
+             * Time S
+             * @description When each level begins, growing from ≥ 0, s
+             */
+            time_s: number[];
+            /**
+             * Rise S
+             * @description Duration of each rise, s
+             * @default 0.2
+             */
+            rise_s: number;
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Position Rad
+             * @description A level for each time, rad
+             */
+            position_rad: number[];
+        };
+        /**
+         * StepsStiffness
+         * @description Steps of σ_d, inside the range of the limits: see `_Steps`.
+         */
+        StepsStiffness: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "steps";
+            /**
+             * Time S
+             * @description When each level begins, growing from ≥ 0, s
+             */
+            time_s: number[];
+            /**
+             * Rise S
+             * @description Duration of each rise, s
+             * @default 0.2
+             */
+            rise_s: number;
+            /**
+             * Transition S
+             * @description Time to fade over from the old reference, s
+             * @default 1
+             */
+            transition_s: number;
+            /**
+             * Stiffness Nm Per Rad
+             * @description A level for each time, N·m/rad
+             */
+            stiffness_nm_per_rad: number[];
+        };
+        /**
+         * StiffnessSeries
+         * @description A CSV with stiffness, as `PUT …/stiffness` takes it.
+         */
+        StiffnessSeries: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            follows: "stiffness";
+            reference: components["schemas"]["SeriesStiffness"];
         };
         /**
          * TorqueDemandState
@@ -4052,7 +4440,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"];
+                "application/json": components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"] | components["schemas"]["StepsPosition"] | components["schemas"]["MinimumJerkPosition"] | components["schemas"]["ChirpPosition"] | components["schemas"]["SeriesPosition"];
             };
         };
         responses: {
@@ -4109,7 +4497,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"];
+                "application/json": components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
             };
         };
         responses: {
@@ -5019,6 +5407,105 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_csv_api_v1_references_csv_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "text/csv": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PositionSeries"] | components["schemas"]["StiffnessSeries"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    preview_position_api_v1_references_position_preview_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"] | components["schemas"]["StepsPosition"] | components["schemas"]["MinimumJerkPosition"] | components["schemas"]["ChirpPosition"] | components["schemas"]["SeriesPosition"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReferencePreview"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    preview_stiffness_api_v1_references_stiffness_preview_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReferencePreview"];
                 };
             };
             /** @description Refused values; nothing was changed */

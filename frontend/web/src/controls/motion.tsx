@@ -11,7 +11,7 @@ import { Group } from "./group";
 import { Problem } from "./problem";
 
 type Sine = Extract<PositionReference, { kind: "sine" }>;
-type Kind = PositionReference["kind"];
+type Kind = "sine" | "constant";
 
 const FIRST_SINE: Sent<Sine> = { kind: "sine", amplitude_rad: toRadians(60), frequency_hz: 0.2 };
 const KINDS = [
@@ -48,13 +48,16 @@ function SineFields({ reference }: { reference: Sine }) {
   );
 }
 
+const kindOf = ({ kind }: PositionReference): Kind | null =>
+  kind === "sine" || kind === "constant" ? kind : null;
+
 export function Motion({ state }: { state: SessionState }) {
   const reference = state.configuration.position;
   const lastSine = useRef<Sent<Sine>>(FIRST_SINE);
   if (reference.kind === "sine") lastSine.current = reference;
 
   const choose = (kind: Kind) => {
-    const held = reference.kind === "sine" ? reference.offset_rad : reference.position_rad;
+    const held = reference.kind === "sine" ? reference.offset_rad : 0;
     const next: Sent<PositionReference> =
       kind === "sine" ? lastSine.current : { kind: "constant", position_rad: held };
     return perform("motion.kind", () => putPosition(next));
@@ -65,13 +68,18 @@ export function Motion({ state }: { state: SessionState }) {
       title={text.motion.title}
       topic="motion"
       aside={
-        <Choice label={text.motion.kind} options={KINDS} value={reference.kind} onChoose={choose} />
+        <Choice
+          label={text.motion.kind}
+          options={KINDS}
+          value={kindOf(reference)}
+          onChoose={choose}
+        />
       }
     >
       <Problem control="motion.kind" />
       {reference.kind === "sine" ? (
         <SineFields reference={reference} />
-      ) : (
+      ) : reference.kind === "constant" ? (
         <Field
           name="motion.position"
           {...shownAs("position_rad")}
@@ -79,6 +87,8 @@ export function Motion({ state }: { state: SessionState }) {
           range={{ min: -90, max: 90, step: 1 }}
           send={(position_rad) => putPosition({ kind: "constant", position_rad })}
         />
+      ) : (
+        <p class="note">{text.references.kinds[reference.kind]}</p>
       )}
     </Group>
   );

@@ -11,7 +11,7 @@ import { Problem } from "./problem";
 import type { SliderRange } from "./scale";
 
 type Sine = Extract<StiffnessReference, { kind: "sine" }>;
-type Kind = StiffnessReference["kind"];
+type Kind = "sine" | "constant";
 
 /** What the mechanism can reach, N·m/rad. */
 const REACH: SliderRange = { min: 1.7, max: 150.56, logarithmic: true };
@@ -49,14 +49,31 @@ function SineFields({ reference }: { reference: Sine }) {
   );
 }
 
+const kindOf = ({ kind }: StiffnessReference): Kind | null =>
+  kind === "sine" || kind === "constant" ? kind : null;
+
+/** What to hold, or to swing about, after this reference. */
+function meanOf(reference: StiffnessReference): number {
+  switch (reference.kind) {
+    case "sine":
+    case "chirp":
+      return reference.offset_nm_per_rad;
+    case "constant":
+      return reference.stiffness_nm_per_rad;
+    case "minimum_jerk":
+      return reference.end_nm_per_rad;
+    default:
+      return reference.stiffness_nm_per_rad.at(-1) as number;
+  }
+}
+
 export function Stiffness({ state }: { state: SessionState }) {
   const reference = state.configuration.stiffness;
   const lastSine = useRef<Sent<Sine> | null>(null);
   if (reference.kind === "sine") lastSine.current = reference;
 
   const choose = (kind: Kind) => {
-    const mean =
-      reference.kind === "sine" ? reference.offset_nm_per_rad : reference.stiffness_nm_per_rad;
+    const mean = meanOf(reference);
     const next: Sent<StiffnessReference> =
       kind === "constant"
         ? { kind: "constant", stiffness_nm_per_rad: mean }
@@ -77,7 +94,7 @@ export function Stiffness({ state }: { state: SessionState }) {
         <Choice
           label={text.stiffness.kind}
           options={KINDS}
-          value={reference.kind}
+          value={kindOf(reference)}
           onChoose={choose}
         />
       }
@@ -85,7 +102,7 @@ export function Stiffness({ state }: { state: SessionState }) {
       <Problem control="stiffness.kind" />
       {reference.kind === "sine" ? (
         <SineFields reference={reference} />
-      ) : (
+      ) : reference.kind === "constant" ? (
         <Field
           name="stiffness.level"
           {...shownAs("stiffness_nm_per_rad")}
@@ -93,6 +110,8 @@ export function Stiffness({ state }: { state: SessionState }) {
           range={REACH}
           send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}
         />
+      ) : (
+        <p class="note">{text.references.kinds[reference.kind]}</p>
       )}
     </Group>
   );

@@ -38,6 +38,14 @@ export const controlsText = {
     amplitude: "Amplitude",
     frequency: "Frequency",
   },
+  references: {
+    kinds: {
+      steps: "Steps",
+      minimum_jerk: "Minimum jerk",
+      chirp: "Chirp",
+      series: "Time series",
+    },
+  },
   controller: {
     title: "Controller",
     law: "Control law",

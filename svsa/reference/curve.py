@@ -1,0 +1,79 @@
+"""A piecewise polynomial in time that is held before its beginning and after its end."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import perm
+
+import numpy as np
+
+from svsa.errors import ParameterError, Violation
+
+DEGREE = 9
+SAMPLES_A_PIECE = 8
+ROUNDING = 1e-12
+ORDER_NAMES = ("value", "velocity", "acceleration", "jerk", "snap")
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """r(t) = Σ c_ik (t − t_i)^k between t_i and t_(i+1).
+
+    breaks: (n,), s, growing. coefficients: (n, 10) in ascending powers; the last row is the
+    constant that is held after the last break.
+    """
+
+    breaks: np.ndarray
+    coefficients: np.ndarray
+
+    @property
+    def start(self) -> float:
+        """The value up to the first break."""
+        return float(self.coefficients[0, 0])
+
+    def sample(self, order: int) -> tuple[np.ndarray, np.ndarray]:
+        """Times (s) and the derivative of this order at them: 8 in each piece, and its end."""
+        widths = np.diff(self.breaks)
+        local = widths[:, None] * np.linspace(0.0, 1.0, SAMPLES_A_PIECE + 1)
+        rows = self.coefficients[:-1]
+        values = np.zeros_like(local)
+        for power in range(DEGREE, order - 1, -1):
+            values = values * local + perm(power, order) * rows[:, power, None]
+        return (self.breaks[:-1, None] + local).ravel(), values.ravel()
+
+    @cached_property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest value, to what the samples show; a break's own where it is one."""
+        values, ends = self.sample(0)[1], self.coefficients[:, 0]
+        close = ROUNDING * (1.0 + np.abs(ends).max())
+        low, high = (
+            end if abs(end - value) <= close else value
+            for end, value in ((ends.min(), values.min()), (ends.max(), values.max()))
+        )
+        return float(low), float(high)
+
+
+def build_curve(pieces: list[tuple[float, tuple[float, ...]]]) -> Curve:
+    """A curve from (t_i, ascending coefficients) of every piece, the last of them a constant."""
+    coefficients = np.zeros((len(pieces), DEGREE + 1))
+    for row, (_, powers) in zip(coefficients, pieces, strict=True):
+        row[: len(powers)] = powers
+    return Curve(np.array([time for time, _ in pieces]), coefficients)
+
+
+def check_curve(
+    name: str, curve: Curve, unit: str, factor: float, bounds: tuple[float, ...]
+) -> None:
+    """Raise `ParameterError` where |r| or a derivative of a curve is greater than its bound.
+
+    bounds: of the orders 0, 1, …, in the curve's own unit. unit, factor: those in which the
+    error speaks, and what they are in the curve's own unit.
+    """
+    for order, bound in enumerate(bounds):
+        times, values = curve.sample(order)
+        worst = int(np.argmax(np.abs(values)))
+        if abs(values[worst]) > bound:
+            per = unit + ("", "/s", "/s²", "/s³", "/s⁴")[order]
+            what = f"the {ORDER_NAMES[order]} of {name} at {times[worst]:.4g} s"
+            value = float(f"{values[worst] / factor:.4g}")
+            limit = f"at most {bound / factor:.4g} {per} either way, from rest to rest"
+            raise ParameterError(Violation(what, value, per, limit))
