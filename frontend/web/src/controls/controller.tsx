@@ -40,7 +40,7 @@ export function Controller({ state }: { state: SessionState }) {
         />
       }
     >
-      <p class="hint" id={id}>
+      <p class="hint is-about" id={id}>
         {law === "fl" ? text.controller.flDoes : text.controller.ndobcDoes}
       </p>
       <Problem control="controller.law" />

@@ -82,7 +82,9 @@ export function Loads({ state }: { state: SessionState }) {
   }
   return (
     <Group title={text.load.title} topic="load" aside={<FormPicker />}>
-      <p class="hint">{weightForm.value === "paper" ? text.load.paperDoes : text.load.massDoes}</p>
+      <p class="hint is-about">
+        {weightForm.value === "paper" ? text.load.paperDoes : text.load.massDoes}
+      </p>
       <LoadRows state={state} />
       <Problem control="load.rows" />
       <details class="more">

@@ -1,4 +1,5 @@
 import type { ComponentChildren } from "preact";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import type { BenchState, SessionState } from "../api/types";
 import { ControlCell } from "../control/cell";
 import { StopButton } from "../safety/stopbutton";
@@ -123,11 +124,27 @@ function Connection() {
   );
 }
 
+/** Tells the style sheets how high the bar is, for what stands above it. */
+function useToldHeight() {
+  const bar = useRef<HTMLElement>(null);
+  useLayoutEffect(() => {
+    const { current } = bar;
+    if (current === null) return;
+    const tell = () =>
+      document.documentElement.style.setProperty("--statusbar", `${current.offsetHeight}px`);
+    const watching = new ResizeObserver(tell);
+    watching.observe(current, { box: "border-box" });
+    return () => watching.disconnect();
+  }, []);
+  return bar;
+}
+
 /** Always at the bottom of the window: where the session is, and the quick stop. */
 export function StatusBar() {
   const state = session.value;
+  const bar = useToldHeight();
   return (
-    <section class="statusbar" aria-label={text.status.heading}>
+    <section ref={bar} class="statusbar" aria-label={text.status.heading}>
       <div class="status-now">
         <CornerMark />
         {state && <SessionPill state={state} />}

@@ -82,7 +82,7 @@ export const controlsText = {
     paperShort: "2 N·m on link and motors",
     massShort: "a mass on a 68 mm arm",
     form: "What 3 kg are",
-    paper: "As in the paper",
+    paper: "As printed",
     mass: "Hung mass",
     paperDoes: "The button adds 2 N·m to the link and to both motors, as the paper prints it.",
     massDoes: "The button hangs 3 kg on a 68 mm arm: gravity turns with the link, inertia grows.",
