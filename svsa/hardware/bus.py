@@ -20,12 +20,12 @@ _SLCAN = "slcan"
 
 
 _DRIVERS = {
-    "gs_usb": "pip install 'python-can[gs-usb]', and the system's libusb (libusb-1.0-0)",
+    "gs_usb": "`pip install 'python-can[gs-usb]'` and the system's libusb (libusb-1.0-0)",
     "kvaser": "Kvaser's driver with CANlib (linuxcan on Linux, from kvaser.com)",
     "pcan": "PEAK's PCAN-Basic library (libpcanbasic, from peak-system.com)",
-    "neovi": "pip install 'python-can[neovi]'",
-    "canalystii": "pip install 'python-can[canalystii]'",
-    "cantact": "pip install 'python-can[cantact]'",
+    "neovi": "`pip install 'python-can[neovi]'`",
+    "canalystii": "`pip install 'python-can[canalystii]'`",
+    "cantact": "`pip install 'python-can[cantact]'`",
     "ixxat": "HMS' VCI driver; it is there for Windows only",
     "vector": "Vector's XL driver library; it is there for Windows only",
 }
@@ -64,9 +64,11 @@ def _describe_failure(settings: BusSettings, error: Exception) -> str:
     if name not in can.VALID_INTERFACES:
         there = ", ".join(sorted(can.VALID_INTERFACES))
         return f"The CAN bus cannot be opened: bus.interface is {name!r}, python-can has {there}."
-    needed = f" This interface needs {driver}." if driver else ""
+    is_missing = isinstance(error, NameError | ImportError | can.CanInterfaceNotImplementedError)
+    reason = "its driver is not installed" if driver and is_missing else str(error).rstrip(".")
+    needed = f" It needs {driver}." if driver else ""
     return (
-        f"The CAN bus {name} {settings.channel} cannot be opened: {str(error).rstrip('.')}.{needed}"
+        f"The CAN bus {name} {settings.channel} cannot be opened: {reason}.{needed}"
         " Check that the adapter is plugged in, its driver is there, the channel's name, and that"
         " no other program holds it."
     )

@@ -72,6 +72,10 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         lab.process.kill()
         lost = page.get_by_role("alert").get_by_text("connection is lost")
         expect(lost).to_be_visible(timeout=PATIENCE_MS)
+        bar = page.get_by_role("region", name="Status", exact=True)
+        expect(bar.get_by_text("Unknown")).to_be_visible()
+        for claim in ("Running", "Paused", "real time", "watching"):
+            expect(bar.get_by_text(claim)).to_have_count(0)
     with run_lab(port=port, data=str(tmp_path)) as lab:
         wait_for_samples(page, before_s=end)
         wait_for_samples(page, page.evaluate(LAST_TIME) + 0.5)
@@ -83,3 +87,21 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         expect(row.get_by_role("link", name="Cut")).to_be_visible()
         expect(row).to_contain_text("cut off")
         assert lab.client.get("/api/v1/runs").json()["runs"][0]["duration_s"] > 7
+
+
+def test_an_ended_private_session_says_so_and_leads_back(
+    page: Page, lab: Lab, without_3d: None
+) -> None:
+    name = lab.client.post("/api/v1/sessions", json={}).raise_for_status().json()["session"]
+    page.goto(f"{lab.url}/?session={name}")
+    bar = page.get_by_role("region", name="Status", exact=True)
+    expect(bar.get_by_text("Live")).to_be_visible(timeout=PATIENCE_MS)
+    lab.client.delete(f"/api/v1/sessions/{name}").raise_for_status()
+    banner = page.get_by_role("complementary", name="Private session")
+    expect(banner).to_contain_text("has ended")
+    expect(bar.get_by_text("Running")).to_have_count(0)
+    page.reload()
+    expect(banner, "a link to it says so too").to_contain_text("has ended")
+    expect(page.get_by_text("Waiting for the lab")).to_have_count(0)
+    banner.get_by_role("link", name="Back to the shared lab").click()
+    expect(bar.get_by_text("Live")).to_be_visible(timeout=PATIENCE_MS)

@@ -309,8 +309,9 @@ def test_unknown_interfaces_and_wrong_options_are_errors_of_the_bus():
 @pytest.mark.parametrize(
     ("interface", "package", "raised"),
     [
-        ("kvaser", "CANlib", NameError("name 'canGetNumberOfChannels' is not defined")),
+        ("kvaser", "driver is not installed. It needs Kvaser's driver with CANlib", NameError("x")),
         ("gs_usb", "pip install 'python-can[gs-usb]'", can.CanInterfaceNotImplementedError("usb")),
+        ("gs_usb", "No backend available. It needs", ValueError("No backend available")),
         ("pcan", "libpcanbasic", OSError("PCANBasic library not found.")),
     ],
 )
@@ -323,9 +324,8 @@ def test_an_interface_without_its_driver_names_what_to_install(
         raise raised
 
     monkeypatch.setattr(can, "Bus", fail)
-    with pytest.raises(BusError, match=re.escape(package)) as refused:
+    with pytest.raises(BusError, match=re.escape(package)):
         open_bus(BusSettings(interface=interface, channel="0"))
-    assert str(raised).rstrip(".") in str(refused.value)
 
 
 def test_a_daemon_that_says_nothing_is_not_waited_for(monkeypatch):

@@ -330,3 +330,11 @@ def test_a_file_that_cannot_be_replayed_is_an_error(tmp_path, text):
     source = build("replay", file=str(path))
     with pytest.raises(EncoderError, match="cannot be replayed"):
         source.open()
+
+
+def test_a_wrong_option_is_called_by_its_path_in_the_bench_file():
+    with pytest.raises(ParameterError) as refused:
+        build("can", id=0x700, width=99)
+    assert [violation.name for violation in refused.value.violations] == [
+        "deflection.options.width"
+    ]

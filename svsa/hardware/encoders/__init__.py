@@ -1,5 +1,6 @@
 """Where the counts of the deflection encoder come from: one source a file."""
 
+from svsa.errors import ParameterError
 from svsa.hardware.bench import DeflectionSettings
 from svsa.hardware.encoders.source import DeflectionSource
 
@@ -9,6 +10,13 @@ def read_source(settings: DeflectionSettings) -> DeflectionSource:
 
     Raises `ParameterError` for wrong options of it.
     """
+    try:
+        return _build_source(settings)
+    except ParameterError as error:
+        raise error.within("deflection.options") from None
+
+
+def _build_source(settings: DeflectionSettings) -> DeflectionSource:
     match settings.source:
         case "can":
             from svsa.hardware.encoders.can_node import CanNode, CanNodeSettings

@@ -29,8 +29,9 @@ function Button() {
 export function ControlCell() {
   const now = control.value;
   if (now === null) return null;
-  const who = now.mine ? words.you : (now.holder ?? words.everyone);
-  const sign = now.holder === null ? "○" : now.mine ? "●" : "▪";
+  const holder = now.mine ? words.you : (now.holder ?? words.everyone);
+  const who = isLive.value ? holder : text.status.notKnown;
+  const sign = now.holder === null || !isLive.value ? "○" : now.mine ? "●" : "▪";
   return (
     <div
       class={`status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
@@ -41,7 +42,7 @@ export function ControlCell() {
         <span role="status">
           <span aria-hidden="true">{sign}</span> <span class="control-name">{who}</span>
         </span>{" "}
-        <small>· {words.watching(now.watching)}</small>
+        {isLive.value && <small>· {words.watching(now.watching)}</small>}
       </dd>
       <dd class="control-act">
         <Button />

@@ -3,6 +3,7 @@ import type { SessionState } from "../api/types";
 import { CONTROL, toggleWeight } from "../state/commands";
 import { mayCommand } from "../state/control";
 import { hungWeights, isRealBench, nextWeightAt, weightForm } from "../state/load";
+import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "./problem";
 
@@ -20,6 +21,7 @@ function WeightPicture({ isHung }: { isHung: boolean }) {
 }
 
 function caption(state: SessionState, isHung: boolean): string {
+  if (!isLive.value) return text.status.notKnown;
   if (isRealBench(state.bench)) return isHung ? text.load.marked : text.load.mark;
   if (isHung) return text.load.hangs;
   const next = nextWeightAt(state);

@@ -70,7 +70,7 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
         <p class="problem" role="alert">
           {typed.trim() === ""
             ? text.refusal.noNumber
-            : text.refusal.outOfRange(name, typed, BOUNDS)}
+            : text.refusal.outOfRange(name, `${typed} ${words.unit}`, BOUNDS)}
         </p>
       )}
     </div>

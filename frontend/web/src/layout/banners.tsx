@@ -12,9 +12,9 @@ function Told({ now }: { now: NonNullable<typeof told.value> }) {
   const words = text.connection;
   const isAsking = now === "asking";
   return (
-    <div class="banner is-lost" role="alert">
+    <div class={`banner ${isAsking ? "is-lost" : "is-news"}`} role="alert">
       <span class="banner-sign" aria-hidden="true">
-        {isAsking ? "?" : "✓"}
+        {!isAsking && "✓"}
       </span>
       <p>
         <strong>{isAsking ? words.askingTitle : words.carriedOutTitle}</strong>{" "}

@@ -1,5 +1,5 @@
 import type { SessionState } from "../api/types";
-import { samples } from "../state/session";
+import { isLive, samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { useLiveText } from "./live";
@@ -34,7 +34,7 @@ export function Readout({ state }: { state: SessionState }) {
   return (
     <dl class="readout" aria-label={text.readout.heading}>
       <div class="is-main">
-        <dt>{text.readout.error}</dt>
+        <dt>{isLive.value ? text.readout.error : text.readout.lastError}</dt>
         <dd>
           <CurrentError /> <span class="unit">deg</span>
         </dd>

@@ -18,7 +18,8 @@ function SessionPill({ state: { status, bench } }: { state: SessionState }) {
   if (!isLive.value) {
     return (
       <span class="pill is-unknown" title={text.status.lastKnown(word)}>
-        <span aria-hidden="true">?</span> {text.status.unknown}
+        <span aria-hidden="true">?</span>{" "}
+        {phase.value === "ended" ? text.connection.ended : text.status.unknown}
       </span>
     );
   }

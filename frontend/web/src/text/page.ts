@@ -62,7 +62,7 @@ export const pageText = {
     ended: "Ended",
     waiting: "Waiting for the lab…",
     lostTitle: "The connection is lost.",
-    lostText: "The plots stand still. The page reconnects by itself.",
+    lostText: "What the lab does now is unknown. The page reconnects by itself.",
     unreachable: "The server does not answer.",
     askingTitle: "No answer came.",
     askingText:

@@ -174,6 +174,7 @@ export const plotsText = {
   readout: {
     heading: "Position error in numbers",
     error: "Error now",
+    lastError: "Error, last known",
     sinceLoad: { rms: "RMS under load", peak: "Peak under load" },
     sinceStart: { rms: "RMS since start", peak: "Peak since start" },
     recovery: "Recovered in",
