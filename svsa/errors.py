@@ -53,6 +53,10 @@ class ParameterError(SvsaError, ValueError):
         self.violations = violations
         super().__init__(" ".join(violation.message for violation in violations))
 
+    def __reduce__(self) -> tuple[type[Self], tuple[Violation, ...]]:
+        """To another process and back with every violation."""
+        return type(self), self.violations
+
     def within(self, path: str) -> "ParameterError":
         """The same refusal, its fields called from the value that holds them at `path`."""
         return ParameterError(*(violation.within(path) for violation in self.violations))

@@ -95,7 +95,7 @@ class AccessGuard:
             host = urlsplit("//" + headers.get("host", "")).hostname or ""
             if not is_loopback(host):
                 return 403, "unknown_host", f"This lab answers to localhost only, not to {host!r}."
-        elif not _is_open(scope["path"]) and not await self._secret.admits(headers):
+        elif not is_open(scope["path"]) and not await self._secret.admits(headers):
             return 401, "secret_needed", "This lab needs its shared secret (bearer token or login)."
         length = headers.get("content-length", "0")
         if not length.isdecimal() or int(length) > LONGEST_BODY_BYTES:
@@ -103,7 +103,8 @@ class AccessGuard:
         return None
 
 
-def _is_open(path: str) -> bool:
+def is_open(path: str) -> bool:
+    """Whether a path is open without the secret."""
     return path in _OPEN_PATHS or path.startswith(_OPEN_FOLDER)
 
 

@@ -11,7 +11,9 @@ from svsa.runtime.session import Session
 from svsa_server.access import AccessGuard, SharedSecret
 from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
+from svsa_server.heavy_work import HeavyWork
 from svsa_server.laboratory import Laboratory, build_shared_session
+from svsa_server.openapi import install_openapi
 from svsa_server.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
@@ -50,6 +52,8 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         version=svsa.__version__,
         description=_DESCRIPTION,
         lifespan=_live,
+        docs_url=None,
+        redoc_url=None,
     )
     app.state.secret = secret
     app.state.config = config
@@ -75,6 +79,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         api.include_router(part.router)
     app.include_router(api)
     app.router.routes.extend(build_page_routes())
+    install_openapi(app, needs_secret=secret is not None)
     return app
 
 
@@ -87,6 +92,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)
+    app.state.heavy_work = HeavyWork(config.most_exports)
     scenes = Scenes(laboratory)
     await scenes.open(shared.name)
     proxy = ViserProxy(scenes.open)
@@ -104,6 +110,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
         laboratory.close()
+        app.state.heavy_work.close()
         await app.state.recordings.close()
         await proxy.close()
         await scenes.close()

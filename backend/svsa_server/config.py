@@ -17,6 +17,8 @@ class Settings(BaseSettings):
     SVSA_MOST_SESSIONS: private sessions at once. SVSA_IDLE_S: how long one lives unused, s.
     SVSA_CONTROL_S: how long control of a session outlives the last stream and call of whoever
     has it, s.
+    SVSA_MOST_EXPORTS: exports, replays and comparisons that are worked at or wait.
+    SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
     SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
     """
 
@@ -26,7 +28,9 @@ class Settings(BaseSettings):
     most_sessions: int = Field(default=48, ge=0, le=1000)
     idle_s: float = Field(default=600.0, ge=1)
     control_s: float = Field(default=15.0, ge=1)
+    most_exports: int = Field(default=10, ge=0, le=1000)
     bench: Path | None = None
+    parameters: Path | None = None
 
     @property
     def secret_text(self) -> str | None:

@@ -11,12 +11,14 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
+from starlette.routing import compile_path
 
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.explanation import explain_problems
 from svsa.runtime.catalogue.entry import CatalogueError, UnknownRunError
 from svsa.runtime.recording.header import RecordError
 from svsa_server.control import HeldError
+from svsa_server.heavy_work import RETRY_AFTER_S, BusyError
 
 LONGEST_ECHO = 200
 
@@ -85,6 +87,10 @@ def install_error_handlers(app: FastAPI) -> None:
     def refuse_storage(_: Request, error: CatalogueError) -> JSONResponse:
         return _answer(507, "storage", str(error))
 
+    @app.exception_handler(BusyError)
+    def refuse_work(_: Request, error: BusyError) -> JSONResponse:
+        return _answer(503, "busy", str(error), {"Retry-After": str(RETRY_AFTER_S)})
+
     @app.exception_handler(UnknownRunError)
     @app.exception_handler(UnknownError)
     def refuse_name(_: Request, error: SvsaError) -> JSONResponse:
@@ -135,18 +141,30 @@ def _refuse_request(request: Request, error: RequestValidationError) -> JSONResp
 def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
     """What the routing refuses, in the same shape; the headers, such as Allow, stay."""
     path, status = request.url.path[:LONGEST_ECHO], error.status_code
+    headers = error.headers
     if status == 404:
         kind, message = "not_found", f"There is nothing at {path}; /docs has all there is."
     elif status == 405:
-        allowed = (error.headers or {}).get("Allow", "another method")
-        kind = "method_not_allowed"
+        allowed, kind = ", ".join(_find_allowed(request)), "method_not_allowed"
+        headers = {"Allow": allowed}
         message = f"{request.method} is not possible at {path}, but {allowed} is."
     elif status == 400:
         status, kind = 422, "malformed_json"
         message = "The body is no JSON that can be read: it is not UTF-8, or nested too deeply."
     else:
         kind, message = "refused", str(error.detail)
-    return _answer(status, kind, message, error.headers)
+    return _answer(status, kind, message, headers)
+
+
+def _find_allowed(request: Request) -> list[str]:
+    """The methods of every route of a path; the framework names those of the first alone."""
+    paths = request.app.openapi()["paths"]
+    found: set[str] = set()
+    for path, item in paths.items():
+        pattern, _, _ = compile_path(path)
+        if pattern.match(request.url.path):
+            found |= {method.upper() for method in item}
+    return sorted(found)
 
 
 def _refuse_values(violations: tuple[Violation, ...] | list[Violation]) -> JSONResponse:

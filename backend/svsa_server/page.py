@@ -1,4 +1,4 @@
-"""The built page at `/`."""
+"""The built page at `/`, and the documentation of REST and stream at `/docs`."""
 
 from pathlib import Path
 
@@ -21,18 +21,29 @@ _HEADERS = {
 
 
 def build_page_routes() -> list[BaseRoute]:
-    """The page, its icon and its assets, as Vite built them into this package."""
+    """The page, the documentation, the icon and what they load, as Vite built them."""
     return [
         Route("/", _serve_index),
         Route("/icon.svg", _serve_icon),
+        Route("/docs", _serve_docs),
         Mount("/assets", StaticFiles(directory=PAGE / "assets", check_dir=False)),
     ]
 
 
 async def _serve_index(_: Request) -> Response:
-    if not (PAGE / "index.html").is_file():
-        return PlainTextResponse("The page was not built: run `make page`. REST: /docs", 503)
-    return FileResponse(PAGE / "index.html", headers=_HEADERS)
+    return _serve_page("index.html")
+
+
+async def _serve_docs(_: Request) -> Response:
+    return _serve_page("docs.html")
+
+
+def _serve_page(name: str) -> Response:
+    if not (PAGE / name).is_file():
+        return PlainTextResponse(
+            "The page was not built: run `make page`. REST: /openapi.json", 503
+        )
+    return FileResponse(PAGE / name, headers=_HEADERS)
 
 
 async def _serve_icon(_: Request) -> Response:

@@ -1,7 +1,6 @@
 """Samples to a client: a greeting, then binary batches; a slow client gets the newest.
 
-A batch is 32 bytes, little-endian — u32 magic "SVSA", u32 run, u64 first tick, u32 stride
-in ticks, u32 count, u32 missed samples, u32 lanes — and float32[count][lanes][channels].
+Messages and the batch's header are described in `stream_schemas`, and from there in `/docs`.
 
 Every message of the client holds the dead-man's switch of a bench for 0.1 s, as long as the
 client may command: it is in control, or nobody is.
@@ -9,27 +8,30 @@ client may command: it is in control, or nobody is.
 
 import asyncio
 import contextlib
-import json
 import math
-import struct
 import time
 from typing import Any
 
-from pydantic import BaseModel
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from svsa.errors import ParameterError, Violation
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.control import asking, get_hand, read_client
-from svsa_server.schemas import StreamRequest
+from svsa_server.schemas import SessionProgress, SessionState, StreamRequest
 from svsa_server.state import build_progress, build_state
+from svsa_server.stream_schemas import (
+    HEADER,
+    MAGIC,
+    Hello,
+    StateMessage,
+    StreamChannel,
+    StreamError,
+)
 
 BATCH_PERIOD_S = 1.0 / 30.0
 PROGRESS_PERIOD_S = 1.0
 SLOW_AFTER_S = 0.5
-HEADER = struct.Struct("<4sIQIIII")
-MAGIC = b"SVSA"
 
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
@@ -115,7 +117,7 @@ async def stream_session(websocket: WebSocket, session: Session) -> None:
         request, channels = read_stream_request(query)
         cursor = SampleCursor(session, request, channels)
     except ParameterError as error:
-        await websocket.send_json({"type": "error", "message": str(error)})
+        await websocket.send_text(StreamError(message=str(error)).model_dump_json())
         await websocket.close(1008)
         return
     asking.set(client)
@@ -162,23 +164,18 @@ async def _send(
         await websocket.close(1000, "The session has ended.")
 
 
-async def _tell(websocket: WebSocket, state: BaseModel) -> None:
+async def _tell(websocket: WebSocket, state: SessionState | SessionProgress) -> None:
     """The state after a change, or once a second those of its fields that move by themselves."""
-    await websocket.send_text(f'{{"type":"state","state":{state.model_dump_json()}}}')
+    await websocket.send_text(StateMessage(state=state).model_dump_json())
 
 
 def _greet(session: Session, cursor: SampleCursor, channels: tuple[str, ...]) -> str:
-    return json.dumps(
-        {
-            "type": "hello",
-            "session": session.name,
-            "period_s": session.run.period_s,
-            "rate_hz": cursor.rate_hz,
-            "lanes": [lane + 1 for lane in cursor.read_lanes()],
-            "channels": [
-                {"name": channel.name, "unit": channel.unit, "label": channel.label}
-                for channel in (CHANNELS[CHANNEL_INDEX[name]] for name in channels)
-            ],
-            "state": build_state(session).model_dump(mode="json"),
-        }
-    )
+    named = [CHANNELS[CHANNEL_INDEX[name]] for name in channels]
+    return Hello(
+        session=session.name,
+        period_s=session.run.period_s,
+        rate_hz=cursor.rate_hz,
+        lanes=[lane + 1 for lane in cursor.read_lanes()],
+        channels=[StreamChannel(name=c.name, unit=c.unit, label=c.label) for c in named],
+        state=build_state(session),
+    ).model_dump_json()

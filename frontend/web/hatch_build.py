@@ -25,6 +25,7 @@ _SOURCES = (
     "src",
     "public",
     "index.html",
+    "docs.html",
     "replay.html",
     "vite.config.ts",
     "tsconfig.json",

@@ -52,7 +52,7 @@ export default defineConfig(({ mode }) => ({
     copyPublicDir: mode !== "replay",
     target: "es2022",
     modulePreload: { polyfill: false },
-    rolldownOptions: { input: mode === "replay" ? "replay.html" : "index.html" },
+    rolldownOptions: { input: mode === "replay" ? "replay.html" : ["index.html", "docs.html"] },
   },
   server: {
     proxy: {

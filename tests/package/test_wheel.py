@@ -41,7 +41,7 @@ def test_types_parameters_page_and_rig_are_in_it(wheel):
     names = set(wheel.namelist())
     assert {"svsa/py.typed", "svsa/prototype.toml", "svsa/rig/bench.toml"} <= names
     page = {name.removeprefix("svsa_server/page/") for name in names if "/page/" in name}
-    assert {"index.html", "replay.html", "icon.svg"} <= page
+    assert {"index.html", "docs.html", "replay.html", "icon.svg"} <= page
     index = wheel.read("svsa_server/page/index.html").decode()
     scripts = [name for name in page if name.startswith("assets/") and name.endswith(".js")]
     assert any(f"/{script}" in index for script in scripts)

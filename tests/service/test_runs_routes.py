@@ -19,6 +19,7 @@ from svsa.runtime.recording.header import BranchPoint
 from svsa.runtime.recording.writer import write_record
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.errors import install_error_handlers
+from svsa_server.heavy_work import HeavyWork
 from svsa_server.recording import NoCatalogue
 from svsa_server.routes import runs
 
@@ -58,12 +59,14 @@ def catalogue(data: Path) -> Catalogue:
 
 
 @pytest.fixture(scope="module")
-def app(catalogue: Catalogue) -> FastAPI:
+def app(catalogue: Catalogue) -> Iterator[FastAPI]:
     app = FastAPI()
     app.state.catalogue = catalogue
+    app.state.heavy_work = HeavyWork(most=10)
     install_error_handlers(app)
     app.include_router(runs.router)
-    return app
+    yield app
+    app.state.heavy_work.close()
 
 
 @pytest.fixture(scope="module")

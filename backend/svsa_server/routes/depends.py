@@ -20,6 +20,7 @@ from svsa_server.control import (
     read_client,
 )
 from svsa_server.errors import ErrorModel
+from svsa_server.heavy_work import HeavyWork
 
 
 def find_asked(scope: Scope) -> tuple[str | None, str]:
@@ -82,6 +83,14 @@ def find_catalogue(connection: HTTPConnection) -> Catalogue:
 
 
 Runs = Annotated[Catalogue, Depends(find_catalogue)]
+
+
+def find_work(connection: HTTPConnection) -> HeavyWork:
+    """What makes files of recorded runs."""
+    return connection.app.state.heavy_work
+
+
+Work = Annotated[HeavyWork, Depends(find_work)]
 RunId = Annotated[str, Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])]
 
 REFUSALS: dict[int | str, dict[str, Any]] = {

@@ -1,4 +1,4 @@
-"""Recorded runs looked at: samples for a plot, metrics of a stretch, the replay page."""
+"""Recorded runs looked at: samples for a plot, metrics of a stretch."""
 
 import dataclasses
 import math
@@ -7,19 +7,17 @@ from typing import Annotated
 import msgspec
 import numpy as np
 from fastapi import APIRouter, Query
-from fastapi.responses import HTMLResponse, Response
+from fastapi.responses import Response
 
 from svsa.errors import ParameterError, Violation
 from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runtime.recording.decimation import decimate
 from svsa.runtime.recording.reader import Record
 from svsa.signals import PLOTTED
-from svsa_server.replay_export import build_replay
 from svsa_server.routes.depends import RunId, Runs
 from svsa_server.run_schemas import RunMetrics, RunSamples
 
 MOST_POINTS = 20_000
-REPLAY_AGE_S = 600
 router = APIRouter()
 
 
@@ -82,13 +80,6 @@ def read_metrics(
             for number, lane in enumerate(record.header.lanes)
         },
     )
-
-
-@router.get("/runs/{run_id}/replay", response_class=HTMLResponse)
-def show_replay(runs: Runs, run_id: RunId) -> HTMLResponse:
-    """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
-    page = build_replay(runs.open(run_id))
-    return HTMLResponse(page, headers={"Cache-Control": f"private, max-age={REPLAY_AGE_S}"})
 
 
 def _measure(values: np.ndarray, period_s: float) -> Metrics | None:

@@ -1,14 +1,10 @@
-"""Recorded runs: list, read, rename, delete, take back, export."""
+"""Recorded runs: list, read, rename, delete, take back."""
 
 import dataclasses
-import tempfile
-from collections.abc import Iterator
-from typing import IO, Annotated, Any
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
-from fastapi.responses import StreamingResponse
 
-from svsa.experiment.export import build_file_name, export, get_kind
 from svsa.runtime.catalogue.entry import (
     LONGEST_SEARCH,
     MOST_PAGE_SIZE,
@@ -19,11 +15,10 @@ from svsa.runtime.catalogue.entry import (
 from svsa.runtime.catalogue.entry import Query as RunQuery
 from svsa.runtime.catalogue.runs import Catalogue
 from svsa_server.lane_names import name_lanes
-from svsa_server.routes import run_difference, run_origins, run_samples
+from svsa_server.routes import run_difference, run_files, run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
 from svsa_server.run_schemas import (
-    ExportName,
     RunCommand,
     RunDetails,
     RunList,
@@ -33,9 +28,9 @@ from svsa_server.run_schemas import (
 
 MOST_COMMANDS = 1000
 LONGEST_FACET = 60
-CHUNK_BYTES = 1 << 18
 router = APIRouter(tags=["runs"], responses=REFUSALS)
 router.include_router(run_samples.router)
+router.include_router(run_files.router)
 router.include_router(run_origins.router)
 router.include_router(run_difference.router)
 
@@ -127,39 +122,6 @@ def delete_run(runs: Runs, run_id: RunId) -> RunSummary:
 def restore_run(runs: Runs, run_id: RunId) -> RunSummary:
     """Take a run out of the trash."""
     return RunSummary(**_tell(runs, runs.restore(run_id)))
-
-
-@router.get(
-    "/runs/{run_id}/export",
-    response_class=StreamingResponse,
-    responses={200: {"content": {"application/octet-stream": {}}, "description": "The file"}},
-)
-def export_run(
-    runs: Runs,
-    run_id: RunId,
-    kind: Annotated[ExportName, Query(description="Format of the file")],
-) -> StreamingResponse:
-    """The run as a file of another program."""
-    record = runs.open(run_id)
-    file = tempfile.TemporaryFile()  # noqa: SIM115
-    try:
-        export(record, kind, file)
-        size = file.tell()
-        file.seek(0)
-    except BaseException:
-        file.close()
-        raise
-    name = build_file_name(record, kind)
-    headers = {"content-disposition": f'attachment; filename="{name}"', "content-length": str(size)}
-    return StreamingResponse(
-        _read_chunks(file), headers=headers, media_type=get_kind(kind).media_type
-    )
-
-
-def _read_chunks(file: IO[bytes]) -> Iterator[bytes]:
-    with file:
-        while chunk := file.read(CHUNK_BYTES):
-            yield chunk
 
 
 def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:

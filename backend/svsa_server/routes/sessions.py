@@ -3,7 +3,10 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Request, WebSocket
+from fastapi.responses import JSONResponse
 
+from svsa_server.errors import ErrorModel
+from svsa_server.openapi import UPGRADED
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
 from svsa_server.schemas import (
     ExperimentRequest,
@@ -13,7 +16,8 @@ from svsa_server.schemas import (
     StepRequest,
 )
 from svsa_server.state import build_state
-from svsa_server.stream import stream_session
+from svsa_server.stream import BATCH_PERIOD_S, stream_session
+from svsa_server.stream_schemas import StreamMessage, describe_stream, list_stream_parameters
 
 router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS)
 
@@ -111,9 +115,26 @@ async def load_experiment(
     return build_state(session)
 
 
+@router.get(
+    "/{session}/stream",
+    tags=["stream"],
+    status_code=426,
+    response_model=ErrorModel,
+    response_description="This is a WebSocket",
+    description=describe_stream(BATCH_PERIOD_S),
+    responses={UPGRADED: {"model": StreamMessage, "description": "The text messages"}},
+    openapi_extra={"parameters": list_stream_parameters()},
+)
+async def describe(_: NamedSession) -> JSONResponse:
+    """The stream beside REST: who asks without a WebSocket is told that it is one."""
+    refusal = ErrorModel(error="websocket", message="This is a WebSocket; see /docs.")
+    headers = {"Upgrade": "websocket", "Connection": "Upgrade"}
+    return JSONResponse(refusal.model_dump(), 426, headers)
+
+
 @router.websocket("/{session}/stream")
 async def stream(websocket: WebSocket, session: NamedSession) -> None:
-    """Samples as they come; see `svsa_server.stream` for the format."""
+    """Samples as they come; see `stream_schemas` for the format."""
     laboratory = websocket.app.state.laboratory
     laboratory.watch(session.name, 1)
     try:

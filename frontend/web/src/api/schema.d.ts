@@ -320,6 +320,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/stream": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Describe
+         * @description Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a plain GET is answered with 426.
+         *
+         *     Text messages are JSON, told apart by `type`: `hello` first, `state` after every change and with the fields that move by themselves once a second, `error` before the stream is closed for a wrong address. Their schema is that of the answer 101.
+         *
+         *     Binary messages are batches of samples, about 30 a second, little-endian: a header of 32 bytes,
+         *
+         *     | byte | type | field | meaning |
+         *     |---|---|---|---|
+         *     | 0 | 4 bytes | magic | the text SVSA |
+         *     | 4 | uint32 | run | number of the run; a new run begins at tick 0 again |
+         *     | 8 | uint64 | first tick | tick of the first sample |
+         *     | 16 | uint32 | stride | ticks from one sample to the next |
+         *     | 20 | uint32 | count | samples in this batch |
+         *     | 24 | uint32 | missed | samples left out before it, for a client that was too slow |
+         *     | 28 | uint32 | lanes | lanes in each sample |
+         *
+         *     then `float32[count][lanes][channels]` from byte 32 on, in the order of `hello.lanes` and `hello.channels`; NaN is a value that is not known. A slow client gets the newest samples, with what it lost in `missed`.
+         *
+         *     Left out, `channels` is `position_reference_rad,position_rad,position_error_rad,stiffness_reference_nm_per_rad,stiffness_nm_per_rad,torque1_nm,torque2_nm,disturbance_link_nm,disturbance_motor1_nm,disturbance_motor2_nm,estimate_link_nm,estimate_motor1_nm,estimate_motor2_nm`.
+         *
+         *     Whatever the client sends holds the dead-man's switch of a bench for 0.1 s, as long as the client may command.
+         */
+        get: operations["describe_api_v1_sessions__session__stream_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/control": {
         parameters: {
             query?: never;
@@ -699,46 +739,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run_id}/replay.html": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Download Replay
-         * @description The run as one page with 3D replay and plots together; opens from a file, offline.
-         */
-        get: operations["download_replay_api_v1_runs__run_id__replay_html_get"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/runs/{run_id}/compare": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Compare Run
-         * @description Simulate a run again from its record alone and compare every bit.
-         */
-        post: operations["compare_run_api_v1_runs__run_id__compare_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/v1/references/csv": {
         parameters: {
             query?: never;
@@ -839,6 +839,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run_id}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Run
+         * @description The run as a file of another program.
+         */
+        get: operations["export_run_api_v1_runs__run_id__export_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run_id}/replay": {
         parameters: {
             query?: never;
@@ -853,6 +873,46 @@ export interface paths {
         get: operations["show_replay_api_v1_runs__run_id__replay_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/replay.html": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Replay
+         * @description The run as one page with 3D replay and plots together; opens from a file, offline.
+         */
+        get: operations["download_replay_api_v1_runs__run_id__replay_html_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compare Run
+         * @description Simulate a run again from its record alone and compare every bit.
+         */
+        post: operations["compare_run_api_v1_runs__run_id__compare_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -981,26 +1041,6 @@ export interface paths {
          * @description Take a run out of the trash.
          */
         post: operations["restore_run_api_v1_runs__run_id__restore_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/runs/{run_id}/export": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Export Run
-         * @description The run as a file of another program.
-         */
-        get: operations["export_run_api_v1_runs__run_id__export_get"];
-        put?: never;
-        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -1836,6 +1876,35 @@ export interface components {
             status: "ok";
             /** Version */
             version: string;
+        };
+        /**
+         * Hello
+         * @description The first message: what the batches will hold.
+         */
+        Hello: {
+            /**
+             * Type
+             * @default hello
+             * @constant
+             */
+            type: "hello";
+            /** Session */
+            session: string;
+            /** Period S */
+            period_s: number;
+            /**
+             * Rate Hz
+             * @description Samples a second that are sent at speed 1
+             */
+            rate_hz: number;
+            /**
+             * Lanes
+             * @description Numbers of the lanes, from 1
+             */
+            lanes: number[];
+            /** Channels */
+            channels: components["schemas"]["StreamChannel"][];
+            state: components["schemas"]["SessionState"];
         };
         /**
          * HomingRequest
@@ -2948,6 +3017,46 @@ export interface components {
             since_load: components["schemas"]["Metrics"] | null;
         };
         /**
+         * SessionProgress
+         * @description What of a session moves by itself: where it is and how well it does.
+         */
+        SessionProgress: {
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "running" | "paused" | "fault";
+            /**
+             * Run Number
+             * @description Counts up whenever a run begins anew at t = 0
+             */
+            run_number: number;
+            /** Tick */
+            tick: number;
+            /** Time S */
+            time_s: number;
+            /** Speed */
+            speed: number | "max";
+            /**
+             * Real Time Factor
+             * @description Session seconds a wall second, as measured
+             */
+            real_time_factor: number;
+            /**
+             * Stretched S
+             * @description Wall time given up because ticks came too late
+             */
+            stretched_s: number;
+            fault: components["schemas"]["Fault"] | null;
+            /** @description Of lane 1 */
+            metrics: components["schemas"]["SessionMetrics"];
+            /** Lanes */
+            lanes: components["schemas"]["LaneMetrics"][];
+            recording: components["schemas"]["RecordingState"] | null;
+            /** @description Null for a simulated session */
+            bench: components["schemas"]["BenchState"] | null;
+        };
+        /**
          * SessionRequest
          * @description A private session: a figure of the paper to start from, and the seed of its noise.
          */
@@ -3209,6 +3318,20 @@ export interface components {
             corner_rad_per_s: number;
         };
         /**
+         * StateMessage
+         * @description The state after every change; once a second without one, what moves by itself.
+         */
+        StateMessage: {
+            /**
+             * Type
+             * @default state
+             * @constant
+             */
+            type: "state";
+            /** State */
+            state: components["schemas"]["SessionState"] | components["schemas"]["SessionProgress"];
+        };
+        /**
          * SteadyErrorState
          * @description What the 3 kg (2 N·m on link and motors) leave of FL's errors, at rest.
          */
@@ -3309,6 +3432,32 @@ export interface components {
              */
             follows: "stiffness";
             reference: components["schemas"]["SeriesStiffness"];
+        };
+        /**
+         * StreamChannel
+         * @description A column of the batches.
+         */
+        StreamChannel: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Label */
+            label: string;
+        };
+        /**
+         * StreamError
+         * @description What is wrong with the address of the stream, which is closed then.
+         */
+        StreamError: {
+            /**
+             * Type
+             * @default error
+             * @constant
+             */
+            type: "error";
+            /** Message */
+            message: string;
         };
         /**
          * TorqueDemandState
@@ -3413,6 +3562,15 @@ export interface operations {
                     "application/json": components["schemas"]["Health"];
                 };
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
         };
     };
     quick_stop_api_v1_quick_stop_post: {
@@ -3430,6 +3588,15 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
             };
         };
     };
@@ -3449,6 +3616,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
         };
     };
     list_figures_api_v1_figures_get: {
@@ -3467,6 +3643,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FigureState"][];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
         };
@@ -3491,8 +3676,35 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description Wrong secret */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3530,6 +3742,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"][];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -3583,6 +3804,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -3594,6 +3833,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -3634,6 +3882,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -3687,6 +3944,15 @@ export interface operations {
                 };
                 content?: never;
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -3738,6 +4004,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -3793,6 +4068,15 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -3844,6 +4128,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -3899,6 +4192,15 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -3950,6 +4252,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -4009,6 +4320,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4020,6 +4349,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4066,6 +4404,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4077,6 +4433,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4123,6 +4488,106 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    describe_api_v1_sessions__session__stream_get: {
+        parameters: {
+            query?: {
+                /** @description Samples a second, Hz */
+                rate_hz?: number;
+                /** @description Past to send first, s */
+                history_s?: number;
+                /** @description `all`, or numbers from 1 to 4 with commas; lane 1 if left out */
+                lanes?: string;
+                /** @description Names with commas between them; left out, those of the plots */
+                channels?: string;
+                /** @description Who watches, as the header SVSA-Client; a browser cannot send that here */
+                client?: string;
+            };
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The text messages */
+            101: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Hello"] | components["schemas"]["StateMessage"] | components["schemas"]["StreamError"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4143,6 +4608,15 @@ export interface operations {
             };
             /** @description Refused values; nothing was changed */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description This is a WebSocket */
+            426: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4180,6 +4654,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4191,6 +4683,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4231,6 +4732,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -4284,6 +4794,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -4343,6 +4862,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4354,6 +4891,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4394,6 +4940,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -4453,6 +5008,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4464,6 +5037,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4510,6 +5092,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4521,6 +5121,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4567,6 +5176,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4578,6 +5205,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4624,6 +5260,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4635,6 +5289,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4681,6 +5344,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4692,6 +5373,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4738,6 +5428,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4749,6 +5457,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4795,6 +5512,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4806,6 +5541,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4852,6 +5596,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4863,6 +5625,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4909,6 +5680,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4920,6 +5709,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4966,6 +5764,24 @@ export interface operations {
                     "application/json": components["schemas"]["Prediction"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -4977,6 +5793,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5023,6 +5848,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -5034,6 +5877,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5074,6 +5926,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -5128,6 +5989,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -5187,6 +6057,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -5198,6 +6086,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5238,6 +6135,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -5293,6 +6199,24 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -5311,97 +6235,8 @@ export interface operations {
                     "application/json": components["schemas"]["ErrorModel"];
                 };
             };
-            /** @description Refused values; nothing was changed */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-        };
-    };
-    download_replay_api_v1_runs__run_id__replay_html_get: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                run_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "text/html": string;
-                };
-            };
-            /** @description No such session, load or run */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "text/html": components["schemas"]["ErrorModel"];
-                };
-            };
-            /** @description Not while the session or run is as it is, or somebody else is in control */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "text/html": components["schemas"]["ErrorModel"];
-                };
-            };
-            /** @description Refused values; nothing was changed */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "text/html": components["schemas"]["ErrorModel"];
-                };
-            };
-        };
-    };
-    compare_run_api_v1_runs__run_id__compare_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                run_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Comparison"];
-                };
-            };
-            /** @description No such session, load or run */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-            /** @description Not while the session or run is as it is, or somebody else is in control */
-            409: {
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5442,6 +6277,33 @@ export interface operations {
                     "application/json": components["schemas"]["PositionSeries"] | components["schemas"]["StiffnessSeries"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description Refused values; nothing was changed */
             422: {
                 headers: {
@@ -5475,6 +6337,33 @@ export interface operations {
                     "application/json": components["schemas"]["ReferencePreview"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description Refused values; nothing was changed */
             422: {
                 headers: {
@@ -5506,6 +6395,33 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ReferencePreview"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Refused values; nothing was changed */
@@ -5547,6 +6463,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunSamples"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -5604,6 +6529,15 @@ export interface operations {
                     "application/json": components["schemas"]["RunMetrics"];
                 };
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -5624,6 +6558,80 @@ export interface operations {
             };
             /** @description Refused values; nothing was changed */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    export_run_api_v1_runs__run_id__export_get: {
+        parameters: {
+            query: {
+                /** @description Format of the file */
+                kind: "csv" | "parquet" | "mat" | "mcap";
+            };
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                    "application/vnd.apache.parquet": string;
+                    "application/x-matlab-data": string;
+                    "application/octet-stream": string;
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5654,6 +6662,15 @@ export interface operations {
                     "text/html": string;
                 };
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -5681,6 +6698,151 @@ export interface operations {
                     "text/html": components["schemas"]["ErrorModel"];
                 };
             };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    download_replay_api_v1_runs__run_id__replay_html_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": string;
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    compare_run_api_v1_runs__run_id__compare_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
         };
     };
     read_origin_api_v1_sessions__session__origin_get: {
@@ -5705,6 +6867,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunOrigin"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -5755,6 +6926,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunOrigin"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -5808,6 +6988,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunDifference"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -5876,6 +7065,15 @@ export interface operations {
                     "application/json": components["schemas"]["RunList"];
                 };
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -5926,6 +7124,15 @@ export interface operations {
                     "application/json": components["schemas"]["RunDetails"];
                 };
             };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -5974,6 +7181,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunSummary"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description No such session, load or run */
@@ -6030,6 +7246,24 @@ export interface operations {
                     "application/json": components["schemas"]["RunSummary"];
                 };
             };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
             /** @description No such session, load or run */
             404: {
                 headers: {
@@ -6041,6 +7275,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6080,57 +7323,13 @@ export interface operations {
                     "application/json": components["schemas"]["RunSummary"];
                 };
             };
-            /** @description No such session, load or run */
-            404: {
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-            /** @description Not while the session or run is as it is, or somebody else is in control */
-            409: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-            /** @description Refused values; nothing was changed */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ErrorModel"];
-                };
-            };
-        };
-    };
-    export_run_api_v1_runs__run_id__export_get: {
-        parameters: {
-            query: {
-                /** @description Format of the file */
-                kind: "csv" | "parquet" | "mat" | "mcap";
-            };
-            header?: never;
-            path: {
-                /** @description Id of a run */
-                run_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description The file */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/octet-stream": unknown;
                 };
             };
             /** @description No such session, load or run */
@@ -6181,6 +7380,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["OutcomeState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Refused values; nothing was changed */

@@ -1,0 +1,111 @@
+"""Exports, replays and comparisons of recorded runs: in processes of their own, a few at a time.
+
+They take seconds of computing, which would make every live session late. A worker has the
+lowest priority, and who finds the queue full is told to come again.
+"""
+
+import asyncio
+import multiprocessing
+import os
+import signal
+import sys
+import tempfile
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+from typing import IO, TypeVar
+
+from svsa.errors import SvsaError
+from svsa.experiment.export import export
+from svsa.runtime.recording.reader import open_record
+from svsa.runtime.resimulation import Comparison, compare_with_simulation
+
+MOST_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
+RETRY_AFTER_S = 5
+_JOBS_A_WORKER = 100
+_LOWEST_PRIORITY = 19
+
+T = TypeVar("T")
+
+
+class BusyError(SvsaError):
+    """Too much is being worked at already; nothing was begun."""
+
+
+class HeavyWork:
+    """The workers of one server, begun when the first is needed.
+
+    most: how many jobs are worked at or wait. workers: processes.
+    """
+
+    def __init__(self, most: int, workers: int = MOST_WORKERS) -> None:
+        self._most, self._workers = most, workers
+        self._taken = 0
+        self._pool: ProcessPoolExecutor | None = None
+
+    async def run(self, job: Callable[..., T], *arguments: object) -> T:
+        """What the job returns, done in a worker; raises what it raises, and `BusyError`."""
+        if self._taken >= self._most:
+            raise BusyError(
+                f"{self._taken} exports, replays and comparisons are being worked at, which is all"
+                f" this lab takes at once: try again in {RETRY_AFTER_S} s."
+            )
+        self._taken += 1
+        try:
+            return await asyncio.get_running_loop().run_in_executor(
+                self._get_pool(), job, *arguments
+            )
+        except BrokenProcessPool:
+            self._pool = None
+            raise BusyError("The process that worked at this has ended: try again.") from None
+        finally:
+            self._taken -= 1
+
+    async def write(self, job: Callable[[Path, Path], None], folder: Path) -> IO[bytes]:
+        """The file that a job makes of a record's folder, open to be read and named no more."""
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+            target = Path(place) / "file"
+            await self.run(job, folder, target)
+            return target.open("rb")
+
+    def _get_pool(self) -> ProcessPoolExecutor:
+        if self._pool is None:
+            self._pool = ProcessPoolExecutor(
+                self._workers,
+                multiprocessing.get_context("spawn"),
+                _give_way,
+                max_tasks_per_child=_JOBS_A_WORKER,
+            )
+        return self._pool
+
+    def close(self) -> None:
+        """End the workers, also in the middle of a job."""
+        if self._pool is not None:
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            for child in multiprocessing.active_children():
+                child.terminate()
+
+
+def _give_way() -> None:
+    """A worker leaves the processor to whoever wants it, and Ctrl-C to the server."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if sys.platform != "win32":
+        os.nice(_LOWEST_PRIORITY)
+
+
+def write_export(kind: str, folder: Path, target: Path) -> None:
+    """The record in this folder as a file of another program."""
+    export(open_record(folder), kind, target)
+
+
+def write_replay(folder: Path, target: Path) -> None:
+    """The record in this folder as a page with 3D replay."""
+    from svsa_server.replay_export import build_replay
+
+    target.write_text(build_replay(open_record(folder)), encoding="utf-8")
+
+
+def compare(folder: Path) -> Comparison:
+    """The record in this folder against its simulation."""
+    return compare_with_simulation(open_record(folder))

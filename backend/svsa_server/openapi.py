@@ -1,0 +1,65 @@
+"""The OpenAPI schema: what FastAPI knows of the routes, and what goes for all of them."""
+
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+
+from svsa_server.access import LONGEST_BODY_BYTES, is_open
+
+SCHEME = "bearer"
+UPGRADED = "default"
+"""What a route writes for the answer 101, whose messages FastAPI takes for no body at all."""
+
+_METHODS = ("get", "put", "post", "patch", "delete")
+_ERROR = {"application/json": {"schema": {"$ref": "#/components/schemas/ErrorModel"}}}
+
+
+def install_openapi(app: FastAPI, needs_secret: bool) -> None:
+    """Have the application answer with this schema. needs_secret: whether a secret is set."""
+
+    def build() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            schema = get_openapi(
+                title=app.title,
+                version=app.version,
+                description=app.description,
+                routes=app.routes,
+            )
+            app.openapi_schema = _complete(schema, needs_secret)
+        return app.openapi_schema
+
+    app.openapi = build
+
+
+def _complete(schema: dict[str, Any], needs_secret: bool) -> dict[str, Any]:
+    """Add the secret, and what the guard in front of every route may answer."""
+    schema["components"]["securitySchemes"] = {
+        SCHEME: {
+            "type": "http",
+            "scheme": "bearer",
+            "description": "The shared secret of the lab (SVSA_SECRET), where it has one.",
+        }
+    }
+    for path, item in schema["paths"].items():
+        for method in _METHODS:
+            if method in item:
+                _complete_operation(item[method], needs_secret and not is_open(path))
+    return schema
+
+
+def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
+    answers = operation["responses"]
+    if UPGRADED in answers:
+        answers["101"] = answers.pop(UPGRADED)
+    answers["403"] = _describe("From a page of another site, or for another host than this one")
+    if needs_secret:
+        operation["security"] = [{SCHEME: []}]
+        answers["401"] = _describe("The shared secret is missing or wrong")
+    if "requestBody" in operation:
+        answers["400"] = _describe("The body is no JSON")
+        answers["413"] = _describe(f"The body is longer than {LONGEST_BODY_BYTES} bytes")
+
+
+def _describe(text: str) -> dict[str, Any]:
+    return {"description": f"{text}.", "content": _ERROR}

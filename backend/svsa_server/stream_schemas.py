@@ -1,0 +1,116 @@
+"""What a stream sends: its messages, and the header of a binary batch of samples."""
+
+import struct
+from typing import Any, Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.runtime.configuration import MOST_LANES
+from svsa.signals import PLOTTED
+from svsa_server.schemas import SessionProgress, SessionState, StreamRequest
+
+MAGIC = b"SVSA"
+HEADER_FIELDS = (
+    ("magic", "4s", f"the text {MAGIC.decode()}"),
+    ("run", "I", "number of the run; a new run begins at tick 0 again"),
+    ("first tick", "Q", "tick of the first sample"),
+    ("stride", "I", "ticks from one sample to the next"),
+    ("count", "I", "samples in this batch"),
+    ("missed", "I", "samples left out before it, for a client that was too slow"),
+    ("lanes", "I", "lanes in each sample"),
+)
+HEADER = struct.Struct("<" + "".join(code for _, code, _ in HEADER_FIELDS))
+_TYPES = {"4s": "4 bytes", "I": "uint32", "Q": "uint64"}
+
+
+class StreamChannel(BaseModel):
+    """A column of the batches."""
+
+    name: str
+    unit: str
+    label: str
+
+
+class Hello(BaseModel):
+    """The first message: what the batches will hold."""
+
+    type: Literal["hello"] = "hello"
+    session: str
+    period_s: float
+    rate_hz: float = Field(description="Samples a second that are sent at speed 1")
+    lanes: list[int] = Field(description="Numbers of the lanes, from 1")
+    channels: list[StreamChannel]
+    state: SessionState
+
+
+class StateMessage(BaseModel):
+    """The state after every change; once a second without one, what moves by itself."""
+
+    type: Literal["state"] = "state"
+    state: SessionState | SessionProgress
+
+
+class StreamError(BaseModel):
+    """What is wrong with the address of the stream, which is closed then."""
+
+    type: Literal["error"] = "error"
+    message: str
+
+
+StreamMessage = Hello | StateMessage | StreamError
+
+
+def describe_stream(batch_period_s: float) -> str:
+    """The stream in words (Markdown), with the layout of a batch as it is packed."""
+    rows, offset = [], 0
+    for name, code, meaning in HEADER_FIELDS:
+        rows.append(f"| {offset} | {_TYPES[code]} | {name} | {meaning} |")
+        offset += struct.calcsize("<" + code)
+    return "\n".join(
+        [
+            "Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a"
+            " plain GET is answered with 426.",
+            "",
+            "Text messages are JSON, told apart by `type`: `hello` first, `state` after every"
+            " change and with the fields that move by themselves once a second, `error` before the"
+            " stream is closed for a wrong address. Their schema is that of the answer 101.",
+            "",
+            f"Binary messages are batches of samples, about {1 / batch_period_s:.0f} a second,"
+            f" little-endian: a header of {HEADER.size} bytes,",
+            "",
+            "| byte | type | field | meaning |",
+            "|---|---|---|---|",
+            *rows,
+            "",
+            f"then `float32[count][lanes][channels]` from byte {HEADER.size} on, in the order of"
+            " `hello.lanes` and `hello.channels`; NaN is a value that is not known. A slow client"
+            " gets the newest samples, with what it lost in `missed`.",
+            "",
+            f"Left out, `channels` is `{','.join(PLOTTED)}`.",
+            "",
+            "Whatever the client sends holds the dead-man's switch of a bench for 0.1 s, as long as"
+            " the client may command.",
+        ]
+    )
+
+
+def list_stream_parameters() -> list[dict[str, Any]]:
+    """What may stand in the address of a stream, as OpenAPI parameters."""
+    bounds = StreamRequest.model_json_schema()["properties"]
+    words = {
+        "lanes": f"`all`, or numbers from 1 to {MOST_LANES} with commas; lane 1 if left out",
+        "channels": "Names with commas between them; left out, those of the plots",
+        "client": "Who watches, as the header SVSA-Client; a browser cannot send that here",
+    }
+    schemas = {name: bounds[name] for name in ("rate_hz", "history_s")}
+    schemas |= {name: {"type": "string", "description": text} for name, text in words.items()}
+    return [
+        {
+            "name": name,
+            "in": "query",
+            "required": False,
+            "description": schema.get("description", ""),
+            "schema": schema,
+        }
+        for name, schema in schemas.items()
+    ]

@@ -1,0 +1,91 @@
+"""The documentation: everything that it loads comes from this server, and says what is sent."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+from websockets.sync.client import connect
+
+from svsa_server.app import build_app
+from svsa_server.config import Settings
+from svsa_server.stream_schemas import HEADER, HEADER_FIELDS
+from tests.lab import Lab
+
+STREAM = "/api/v1/sessions/{session}/stream"
+
+
+class Loaded(HTMLParser):
+    """What a page loads: every src and href."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.addresses: list[str] = []
+        self.inline = False
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.addresses += [value for name, value in attrs if name in ("src", "href") and value]
+        self.inline = self.inline or (tag == "script" and "src" not in dict(attrs))
+
+
+@pytest.mark.parametrize("page", ["/docs", "/"])
+def test_a_page_loads_nothing_from_elsewhere(shared_lab: Lab, page: str) -> None:
+    answer = shared_lab.client.get(page).raise_for_status()
+    loaded = Loaded(answer.text)
+    assert loaded.addresses
+    assert not loaded.inline, "the policy lets no script run that stands in the page"
+    assert "default-src 'self'" in answer.headers["content-security-policy"]
+    for address in loaded.addresses:
+        assert not re.match(r"[a-z]+:|//", address)
+        part = shared_lab.client.get("/" + address.lstrip("./")).raise_for_status()
+        assert len(part.content) > 100
+
+
+def test_there_is_no_second_documentation_from_a_network(shared_lab: Lab) -> None:
+    assert shared_lab.client.get("/redoc").status_code == 404
+
+
+def test_the_secret_is_asked_for_where_one_is_set_but_for_stop_and_login() -> None:
+    open_lab = build_app(Settings(secret=None)).openapi()
+    closed_lab = build_app(Settings(secret="correct horse")).openapi()
+    for schema in (open_lab, closed_lab):
+        assert schema["components"]["securitySchemes"]["bearer"]["scheme"] == "bearer"
+    asked = {
+        path
+        for path, item in closed_lab["paths"].items()
+        for operation in item.values()
+        if "security" not in operation
+    }
+    assert asked == {
+        "/api/v1/health",
+        "/api/v1/login",
+        "/api/v1/quick-stop",
+        "/api/v1/emergency-stop",
+    }
+    assert not [o for item in open_lab["paths"].values() for o in item.values() if "security" in o]
+
+
+def test_the_stream_stands_beside_rest_as_it_is_packed() -> None:
+    operation = build_app().openapi()["paths"][STREAM]["get"]
+    text = operation["description"]
+    assert f"a header of {HEADER.size} bytes" in text
+    offsets = [int(row.split("|")[1]) for row in text.splitlines() if re.match(r"\| \d", row)]
+    assert offsets == [0, 4, 8, 16, 20, 24, 28]
+    assert len(offsets) == len(HEADER_FIELDS)
+    named = {parameter["name"] for parameter in operation["parameters"]}
+    assert {"rate_hz", "history_s", "lanes", "channels", "client"} <= named
+    schema = operation["responses"]["101"]["content"]["application/json"]["schema"]
+    assert {part["$ref"].rpartition("/")[2] for part in schema["anyOf"]} == {
+        "Hello",
+        "StateMessage",
+        "StreamError",
+    }
+
+
+def test_a_plain_get_of_the_stream_says_that_it_is_a_websocket(lab: Lab) -> None:
+    answer = lab.client.get(lab.session + "/stream")
+    assert answer.status_code == 426
+    assert answer.headers["upgrade"] == "websocket"
+    assert "WebSocket" in answer.json()["message"]
+    with connect(lab.stream_url, proxy=None, max_size=None) as stream:
+        assert stream.recv(timeout=10).startswith('{"type":"hello"')
