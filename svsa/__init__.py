@@ -10,11 +10,15 @@ Units are SI; every name ends in its unit.
 
 from importlib.metadata import PackageNotFoundError, version
 
+from svsa import design
 from svsa.control.gains import Gains
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
 from svsa.experiment import paper
+from svsa.experiment.channels import ChannelName
+from svsa.experiment.recorded import export_run, open_run, resimulate, runs
 from svsa.experiment.reproduce import reproduce
-from svsa.experiment.simulate import Result, simulate
+from svsa.experiment.result import Result
+from svsa.experiment.simulate import simulate
 from svsa.extras import DISTRIBUTION, MissingExtraError
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
@@ -34,6 +38,8 @@ from svsa.reference.series import SeriesPosition, SeriesStiffness
 from svsa.reference.series_csv import read_series
 from svsa.reference.sine import ConstantPosition, ConstantStiffness, SinePosition, SineStiffness
 from svsa.reference.steps import StepsPosition, StepsStiffness
+from svsa.runtime.catalogue.runs import Catalogue
+from svsa.runtime.change import Change
 from svsa.runtime.configuration import (
     Configuration,
     Design,
@@ -52,6 +58,9 @@ __all__ = [
     "IDEAL",
     "RIG",
     "ActuatorParameters",
+    "Catalogue",
+    "Change",
+    "ChannelName",
     "ChirpPosition",
     "ChirpStiffness",
     "Configuration",
@@ -83,11 +92,16 @@ __all__ = [
     "StepsPosition",
     "StepsStiffness",
     "SvsaError",
+    "design",
+    "export_run",
     "load_prototype",
+    "open_run",
     "paper",
     "read_design",
     "read_series",
     "reproduce",
+    "resimulate",
+    "runs",
     "sample_reference",
     "simulate",
     "write_design",

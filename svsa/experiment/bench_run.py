@@ -11,7 +11,7 @@ import numpy as np
 
 from svsa.errors import FaultError, StateError
 from svsa.experiment.paper import LOAD_TIME_S, Figure
-from svsa.experiment.simulate import Result
+from svsa.experiment.result import Result
 from svsa.hardware.bench import BenchFile, read_bench
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant

@@ -12,7 +12,7 @@ from svsa.experiment.paper import LOAD_TIME_S, get_figure
 
 if TYPE_CHECKING:
     from svsa.experiment.reproduce import Reproduction
-    from svsa.experiment.simulate import Result
+    from svsa.experiment.result import Result
 
 REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zorder": 3}
 LAW_STYLES = {
@@ -56,7 +56,8 @@ def plot_run(result: "Result") -> Picture:
     """One run: position, its error, stiffness, torques, disturbance true and estimated."""
     picture = Picture(figsize=(8.0, 10.0), layout="constrained")
     position, error, stiffness, torque, disturbance = picture.subplots(5, 1, sharex=True)
-    law, time = LAW_STYLES[result.law], result.time_s
+    time = result.time_s
+    law = LAW_STYLES.get(result.law, LAW_STYLES["own"] | {"label": result.law})
     position.plot(
         time, np.degrees(result.position_reference_rad), label="reference", **REFERENCE_STYLE
     )

@@ -15,7 +15,8 @@ from svsa.experiment.paper import (
     STEADY_S,
     get_figure,
 )
-from svsa.experiment.simulate import Result, simulate
+from svsa.experiment.result import Result
+from svsa.experiment.simulate import simulate
 from svsa.extras import require_extra
 from svsa.runtime.configuration import Law
 

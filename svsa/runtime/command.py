@@ -96,12 +96,17 @@ def read_command(written: Any) -> Command:
 def replay(
     configuration: Configuration, commands: Iterable[Command], end_tick: int
 ) -> Iterator[tuple[Run, np.ndarray]]:
-    """Simulate a run again from its start, each command given at its tick.
+    """Simulate a run again from its start; see `play`."""
+    return play(Run(configuration), commands, end_tick)
+
+
+def play(run: Run, commands: Iterable[Command], end_tick: int) -> Iterator[tuple[Run, np.ndarray]]:
+    """Go on with a run, each command given at its tick.
 
     Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
     until `end_tick` or the run's fault. Same configuration and commands: same bits.
     """
-    run, later = Run(configuration), list(commands)
+    later = list(commands)
     while True:
         while later and later[0].tick <= run.tick:
             later.pop(0).apply(run)

@@ -23,7 +23,7 @@ def test_a_result_has_every_channel_as_an_attribute_with_its_unit(result):
     assert set(result.units) == set(CHANNEL_NAMES)
     for index, name in enumerate(CHANNEL_NAMES):
         np.testing.assert_array_equal(getattr(result, name), result.samples[:, index])
-    with pytest.raises(AttributeError, match="no channel 'speed'"):
+    with pytest.raises(AttributeError, match="no channel 'speed'; there are time_s"):
         _ = result.speed
 
 

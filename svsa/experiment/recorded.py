@@ -1,0 +1,73 @@
+"""Recorded runs in a script: list them, open one, simulate it again, export it."""
+
+from pathlib import Path
+
+from svsa.errors import ParameterError
+from svsa.experiment.export import export
+from svsa.experiment.result import Result, build_results
+from svsa.runtime.catalogue.entry import RunPage
+from svsa.runtime.catalogue.runs import Catalogue
+from svsa.runtime.recording.header import HEADER_FILE, RecordError
+from svsa.runtime.recording.reader import Record, open_record
+from svsa.runtime.resimulation import Comparison, compare_with_simulation, read_origin
+from svsa.signals import CHANNEL_NAMES
+
+
+def runs(search: str = "", page: int = 1, page_size: int = 50) -> RunPage:
+    """The recorded runs of this machine, newest first; `Catalogue` can do more.
+
+    search: words that must be in id, name, session, tags or notes.
+    """
+    return Catalogue().list(search=search, page=page, page_size=page_size)
+
+
+def find_record(run: str | Path) -> Record:
+    """The record of a run: its id in this machine's catalogue, or its folder.
+
+    Raises `UnknownRunError` for an id that is not there, `RecordError` for what cannot be read.
+    """
+    folder = Path(run)
+    if isinstance(run, Path) or (folder / HEADER_FILE).is_file():
+        return open_record(folder)
+    return Catalogue().open(run)
+
+
+def open_run(run: str | Path) -> Result:
+    """A recorded run as `simulate` would have returned it; its lanes as `rivals`.
+
+    run: its id, or its folder. The samples are those of the record, bit for bit; commands are
+    those given while it was recorded or before. A record does not hold why it ended: `fault` is
+    None. On a bench the true disturbance is unknown (NaN). Raises `RecordError` for a record
+    that cannot be read, of other channels, or of a configuration that this version does not
+    know, `UnknownRunError` for an id that is not there.
+    """
+    record = find_record(run)
+    header = record.header
+    if header.channel_names != CHANNEL_NAMES:
+        raise RecordError(f"Run {header.run_id} has other channels than this version of svsa.")
+    try:
+        configuration, commands = read_origin(record)
+    except ParameterError as error:
+        raise RecordError(f"Run {header.run_id} cannot be opened: {error}") from None
+    law, rivals = configuration.law, configuration.rivals
+    for command in commands:
+        if command.tick <= record.first_tick:
+            law = command.argument if command.kind == "law" else law
+            rivals = command.argument if command.kind == "rivals" else rivals
+    laws = (law, *(rival.law for rival in rivals))
+    samples = record.samples.transpose(1, 0, 2)
+    if len(laws) != len(samples):
+        laws = header.lanes
+    return build_results(
+        configuration, samples, laws, None, tuple(commands), header.name or header.run_id
+    )
+
+
+def resimulate(run: str | Path) -> Comparison:
+    """Simulate a recorded run again from its record alone and compare every bit."""
+    return compare_with_simulation(find_record(run))
+
+
+def export_run(run: str | Path, kind: str, target: Path | str) -> None:
+    """Write a recorded run as "csv", "parquet", "mat" or "mcap"; see `svsa.experiment.export`."""
+    export(find_record(run), kind, target)

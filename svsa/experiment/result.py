@@ -1,0 +1,148 @@
+"""A run as one holds it in hand: its samples by name, numbers, tables and pictures."""
+
+import base64
+import html
+import io
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from svsa.checked import check_number
+from svsa.errors import Fault, ParameterError, Violation
+from svsa.experiment.channels import Channels
+from svsa.runtime.command import Command
+from svsa.runtime.configuration import Configuration
+from svsa.runtime.metrics import Metrics, compute_metrics
+from svsa.signals import CHANNEL_NAMES, CHANNELS
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure as Picture
+
+PICTURE_DPI = 80
+
+
+@dataclass(frozen=True, repr=False)
+class Result(Channels):
+    """A finished run, one lane of it.
+
+    configuration: at tick 0. samples: (ticks, channels), float64, SI, columns as
+    `svsa.signals.CHANNELS`. A channel is also an attribute: `result.position_error_rad`. fault:
+    why the run ended early, or None. rivals: the results of the controllers that ran beside this
+    one. law: what controlled first, "own" for a function of one's own. commands: what was changed
+    on the way. name: what a recorded run is called.
+    """
+
+    configuration: Configuration
+    samples: np.ndarray = field(repr=False)
+    fault: Fault | None = None
+    rivals: "tuple[Result, ...]" = field(default=(), repr=False)
+    law: str = "ndobc"
+    commands: tuple[Command, ...] = ()
+    name: str = ""
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of every channel."""
+        return {channel.name: channel.unit for channel in CHANNELS}
+
+    @property
+    def metrics(self) -> Metrics:
+        """The metrics of the whole run; raises `StateError` where it has no samples."""
+        return compute_metrics(self.samples, self.configuration.sampling.period_s)
+
+    def measure(self, start_s: float, end_s: float) -> Metrics:
+        """The metrics between two times of the run, s; raises `ParameterError` if empty."""
+        period = self.configuration.sampling.period_s
+        first = round(float(self.time_s[0]) / period) if len(self.samples) else 0
+        begin, end = first * period, (first + len(self.samples)) * period
+        check_number("start_s", start_s, "s", begin, end)
+        check_number("end_s", end_s, "s", start_s, end)
+        rows = self.samples[round(start_s / period) - first : round(end_s / period) - first]
+        if not len(rows):
+            bound = f"a stretch with samples between {begin:g} and {end:g} s"
+            raise ParameterError(Violation("(start_s, end_s)", (start_s, end_s), "s", bound))
+        return compute_metrics(rows, period)
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """All channels as a pandas DataFrame, one row a tick."""
+        import pandas
+
+        return pandas.DataFrame(self.samples, columns=list(CHANNEL_NAMES))
+
+    def to_csv(self, path: Path | str) -> None:
+        """Write all channels as CSV; the first row names each with its unit."""
+        names = ",".join(f"{channel.name} [{channel.unit}]" for channel in CHANNELS)
+        np.savetxt(path, self.samples, fmt="%.9g", delimiter=",", header=names, comments="")
+
+    def plot(self) -> "Picture":
+        """Position, its error, stiffness, torques and disturbances as a matplotlib figure."""
+        from svsa.experiment.figures import plot_run
+
+        return plot_run(self)
+
+    def __repr__(self) -> str:
+        return "\n".join(self._describe())
+
+    def _repr_html_(self) -> str:
+        lines = "<br>".join(html.escape(line) for line in self._describe())
+        if not len(self.samples):
+            return f"<p>{lines}</p>"
+        picture = base64.b64encode(self._picture).decode()
+        return f'<p>{lines}</p><img alt="The run" src="data:image/png;base64,{picture}">'
+
+    def _repr_png_(self) -> bytes | None:
+        return self._picture if len(self.samples) else None
+
+    @cached_property
+    def _picture(self) -> bytes:
+        stream = io.BytesIO()
+        self.plot().savefig(stream, format="png", dpi=PICTURE_DPI)
+        return stream.getvalue()
+
+    def _describe(self) -> tuple[str, str]:
+        """The run in two lines: what it is, and how it went."""
+        period = self.configuration.sampling.period_s
+        beside = f" beside {', '.join(_name(r.law) for r in self.rivals)}" if self.rivals else ""
+        called = f"{self.name}: " if self.name else ""
+        first = (
+            f"{called}{_name(self.law)}{beside}, {len(self.samples) * period:g} s at"
+            f" {1.0 / period:g} Hz ({len(self.samples)} samples of {len(CHANNELS)} channels)"
+        )
+        if not len(self.samples):
+            second = "no samples"
+        else:
+            m = self.metrics
+            second = (
+                f"position error {math.degrees(m.rms_position_error_rad):.4g}° rms,"
+                f" {math.degrees(m.peak_position_error_rad):.4g}° peak; stiffness error"
+                f" {m.rms_stiffness_error_nm_per_rad:.4g} N·m/rad rms; |u| up to"
+                f" {m.peak_torque1_nm:.4g} and {m.peak_torque2_nm:.4g} N·m"
+            )
+        ended = f"; ended early: {self.fault.message}" if self.fault is not None else ""
+        return first, second + ended
+
+
+def build_results(
+    configuration: Configuration,
+    samples: np.ndarray,
+    laws: Iterable[str],
+    fault: Fault | None = None,
+    commands: tuple[Command, ...] = (),
+    name: str = "",
+) -> Result:
+    """The first lane's result with those of its rivals. samples: (lanes, ticks, channels)."""
+    first, *rivals = (
+        Result(configuration, rows, fault, (), law, commands, name)
+        for rows, law in zip(samples, laws, strict=True)
+    )
+    return Result(configuration, first.samples, fault, tuple(rivals), first.law, commands, name)
+
+
+def _name(law: str) -> str:
+    return "own controller" if law == "own" else law.upper()
