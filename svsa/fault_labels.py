@@ -21,7 +21,10 @@ FAULT_LABELS = {
     "encoder_frozen": "Encoder frozen",
     "vibration": "Vibration",
     "supervisor_lost": "Supervisor lost",
-    "loop_lost": "Loop lost",
+    "loop_late": "Control loop late",
+    "loop_silent": "Control loop silent",
+    "loop_lost": "Control loop lost",
+    "loop_and_supervisor_lost": "Control loop and supervisor lost",
 }
 
 

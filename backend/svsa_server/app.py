@@ -31,6 +31,7 @@ from svsa_server.routes import (
     settings,
 )
 from svsa_server.scenes import Scenes
+from svsa_server.turn import take_turn
 from svsa_server.viser_proxy import ViserProxy
 
 _DESCRIPTION = (
@@ -109,7 +110,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-        laboratory.close()
+        await take_turn(laboratory.close)
         app.state.heavy_work.close()
         await app.state.recordings.close()
         await proxy.close()

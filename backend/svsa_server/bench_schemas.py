@@ -6,7 +6,9 @@ from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, quantity
 from svsa.hardware.homing import Axis
+from svsa.runtime.realtime.loss import Stopper
 
+LoopStateName = Literal["ticking", "silent", "gone", "starting"]
 BenchStatusName = Literal["off", "reset", "config", "mode", "ready", "run", "ramp", "fault"]
 
 
@@ -28,7 +30,19 @@ class HomingState(BaseModel):
 class LoopState(BaseModel):
     """The loop's process: how punctual it is, since it started."""
 
-    alive: bool
+    alive: bool = Field(description="It ticks: its process is there, and not silent")
+    state: LoopStateName = Field(
+        description="silent: its process is there and has not ticked for 0.5 s. gone: its process"
+        " has ended. starting: loop and supervisor are being started anew"
+    )
+    silent_s: float | None = Field(description="Since its last tick, s; null while it ticks")
+    stopped_by: Stopper | None = Field(
+        description="Who keeps the drives at zero current in its place; null while it ticks, and"
+        " where nobody does"
+    )
+    unreachable: str | None = Field(
+        description="Why the server cannot stop the drives: pull the motors' supply; else null"
+    )
     rate_hz: float
     ticks: int
     skipped_ticks: int

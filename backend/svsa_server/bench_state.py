@@ -5,7 +5,7 @@ import numpy as np
 from svsa.hardware.homing import STEPS, Axis, get_instruction
 from svsa.runtime.realtime.memory import LATENESS_EDGES_S, read_quantile
 from svsa.runtime.realtime.session import BenchSession
-from svsa_server.bench_schemas import BenchState, HomingState, LoopState
+from svsa_server.bench_schemas import BenchState, HomingState, LoopState, LoopStateName
 
 _BINS_A_WIRE_BIN = 25
 
@@ -38,14 +38,18 @@ def _build_homing(next_step: Axis | None) -> HomingState:
 
 
 def _build_loop(session: BenchSession) -> LoopState:
-    fields = session.memory.fields
+    fields, loss = session.memory.fields, session.loss
     lateness = fields["lateness"].copy()
     p50, p99, p999 = (read_quantile(lateness, share) for share in (0.5, 0.99, 0.999))
     starts = np.arange(0, len(lateness), _BINS_A_WIRE_BIN)
     ends = np.minimum(starts + _BINS_A_WIRE_BIN, len(lateness)) - 1
     edges = np.minimum(LATENESS_EDGES_S[ends], 10.0)
     return LoopState(
-        alive=session.processes.alive,
+        alive=loss is None and not session.starting,
+        state=_name_state(session),
+        silent_s=session.processes.silence_s if loss else None,
+        stopped_by=loss.stopped_by if loss else None,
+        unreachable=loss.problem if loss else None,
         rate_hz=1.0 / session.bench.timing.period_s,
         ticks=int(fields["ticks"]),
         skipped_ticks=int(fields["skipped"]),
@@ -58,3 +62,11 @@ def _build_loop(session: BenchSession) -> LoopState:
         lateness_counts=np.add.reduceat(lateness, starts).tolist(),
         notes=session.processes.notes,
     )
+
+
+def _name_state(session: BenchSession) -> LoopStateName:
+    if session.starting:
+        return "starting"
+    if session.loss is None:
+        return "ticking"
+    return "silent" if session.processes.alive else "gone"

@@ -6,6 +6,7 @@ import math
 import secrets
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from svsa.errors import StateError
@@ -20,8 +21,10 @@ from svsa.runtime.realtime.session import BenchSession, Hands
 from svsa.runtime.session import Session
 from svsa_server.control import get_hand
 from svsa_server.errors import UnknownError
+from svsa_server.turn import let_pass
 
 WAKE_PERIOD_S = 1.0 / 60.0
+HANDS_S = 0.005
 BURST_S = 0.5 * WAKE_PERIOD_S
 SHARED_SESSION = "lab"
 
@@ -120,7 +123,7 @@ class Laboratory:
                 session.wake(time.monotonic())
         except Exception:
             _log.exception("Session %s was paused by an error of the program", session.name)
-            session.pause()
+            session.halt()
 
     def _rush(self, session: Session) -> None:
         """As fast as it goes: bursts of ticks for this session's share of half the time."""
@@ -155,25 +158,29 @@ def build_shared_session(bench: Path | None, tell: Teller = keep_quiet) -> Sessi
     """
     configuration = get_figure("4a").build_configuration(load=False)
     if bench is not None:
-        return BenchSession(SHARED_SESSION, bench, configuration, find_hands(bench), tell)
+        hands = find_hands(bench)
+        return BenchSession(SHARED_SESSION, bench, configuration, hands, tell, let_pass)
     session = Session(SHARED_SESSION, configuration)
     session.start()
     return session
 
 
 class RigHands(Hands):
-    """Does to an emulated rig what a person does to a bench."""
+    """Does to an emulated rig what a person does to a bench, one after another, in a thread."""
 
     def __init__(self, control_port: int) -> None:
         self._port = control_port
+        self._thread = ThreadPoolExecutor(1, "hands")
 
     def hang(self, loads: tuple[Load, ...]) -> None:
-        """These loads and no others are on."""
-        self._tell(lambda control: control.set_loads(loads))
+        """These loads and no others are on, soon."""
+        self._thread.submit(self._tell, lambda control: control.set_loads(loads))
 
     def set_to_marks(self) -> None:
-        """Set the mechanism to its zero marks."""
-        self._tell(RigControl.home)
+        """Set the mechanism to its zero marks; time passes until it stands there."""
+        done = self._thread.submit(self._tell, RigControl.home)
+        while not done.done():
+            let_pass(HANDS_S)
 
     def _tell(self, say: Callable[[RigControl], object]) -> None:
         try:

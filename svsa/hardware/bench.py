@@ -111,7 +111,7 @@ class SafetySettings(Checked):
     stale_zero_s: Number = quantity("s", "Feedback older: zero torque", gt=0, le=1, default=0.005)
     stale_fault_s: Number = quantity("s", "Feedback older: fault", gt=0, le=1, default=0.020)
     missed_ticks: Whole = quantity("ticks", "Missed in a row: fault", ge=1, le=1000, default=20)
-    supervisor_s: Number = quantity("s", "Supervisor silent: fault", gt=0, le=5, default=0.1)
+    supervisor_s: Number = quantity("s", "Supervisor silent: fault", gt=0, le=5, default=0.05)
     dead_man: Annotated[bool, Field(strict=True)] = quantity(
         "", "The operator holds a switch; 0.1 s without: ramp", default=False
     )

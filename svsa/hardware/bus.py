@@ -1,5 +1,7 @@
 """The CAN bus of a bench, opened through python-can in a bounded time."""
 
+import contextlib
+import importlib
 import logging
 import socket
 from collections.abc import Iterator
@@ -30,6 +32,8 @@ _DRIVERS = {
     "vector": "Vector's XL driver library; it is there for Windows only",
 }
 """What to install where python-can brings an interface without its driver."""
+BUS_TROUBLE = (can.CanError, OSError, ValueError)
+"""What an open bus raises when it is lost."""
 
 
 class BusError(SvsaError):
@@ -72,6 +76,13 @@ def _describe_failure(settings: BusSettings, error: Exception) -> str:
         " Check that the adapter is plugged in, its driver is there, the channel's name, and that"
         " no other program holds it."
     )
+
+
+def prepare_bus(settings: BusSettings) -> None:
+    """Import what opening this bus takes, so that it is quick once it is urgent."""
+    if settings.interface in can.interfaces.BACKENDS:
+        with contextlib.suppress(ImportError, OSError):
+            importlib.import_module(can.interfaces.BACKENDS[settings.interface][0])
 
 
 def _ask_for_server(settings: BusSettings) -> None:

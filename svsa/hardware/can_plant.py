@@ -7,7 +7,7 @@ import can
 
 from svsa.errors import Fault, StateError, SvsaError
 from svsa.hardware.bench import BenchFile
-from svsa.hardware.bus import DELIVERY_S, open_bus
+from svsa.hardware.bus import BUS_TROUBLE, DELIVERY_S, open_bus
 from svsa.hardware.calibration import Calibration, list_problems
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.conversion import build_motor_scale, compute_current_ma
@@ -18,7 +18,7 @@ from svsa.hardware.heartbeat import Heartbeats, Slot
 from svsa.hardware.homing import Axis
 from svsa.hardware.machine import NO_TORQUE, BenchStatus, Conditions, Machine
 from svsa.hardware.phase import Phase
-from svsa.hardware.sensing import BUS_TROUBLE, Reading, Sensing
+from svsa.hardware.sensing import Reading, Sensing
 from svsa.signals import Disturbance, State, Torque
 
 HOME_TOLERANCE_RAD = 0.05
@@ -55,6 +55,7 @@ class CanPlant:
         self._bus: can.BusABC | None = None
         self._resets = build_broadcast_resets(bench)
         self._reset_sent = self._zero_sent = False
+        self._stops_known, self._late_s = 0, 0.0
         self.skipped_commands = 0
 
     @property
@@ -112,6 +113,7 @@ class CanPlant:
             self._sensing.lost = False
         self._machine.arm()
         self._sensing.forget_alarm()
+        self._stops_known, self._late_s = self._count_stops(), 0.0
         self._reset_sent = self._zero_sent = False
         for drive in self._drives:
             drive.begin()
@@ -223,6 +225,8 @@ class CanPlant:
         return all(drive.is_open(now) for drive in self._drives)
 
     def _find_conditions(self, missed: int) -> Conditions:
+        if missed:
+            self._late_s = missed * self._bench.timing.period_s
         return Conditions(
             min((drive.phase for drive in self._drives), key=_ORDER.index),
             self._sensing.ages_s,
@@ -230,7 +234,12 @@ class CanPlant:
             missed,
             self._find_age("supervisor"),
             self._find_age("operator"),
+            self._late_s if self._count_stops() > self._stops_known else None,
         )
+
+    def _count_stops(self) -> int:
+        """How often the supervisor has stopped the drives."""
+        return self._beats.stops if self._beats is not None else 0
 
     def _find_age(self, slot: Slot) -> float:
         """Since this heartbeat, s. Without heartbeats, only an emulated rig goes unsupervised."""

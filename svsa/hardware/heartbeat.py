@@ -1,4 +1,7 @@
-"""Heartbeats of the processes of a bench, in shared memory: who was alive when."""
+"""Heartbeats of the processes of a bench, in shared memory: who was alive when.
+
+Beside them, how often the supervisor has stopped the drives: a loop that was late knows why.
+"""
 
 import math
 import time
@@ -7,23 +10,30 @@ from typing import Literal, Self
 
 import numpy as np
 
-Slot = Literal["loop", "supervisor", "server", "operator"]
-SLOTS: tuple[Slot, ...] = ("loop", "supervisor", "server", "operator")
+Slot = Literal["loop", "supervisor", "server", "operator", "stopping"]
+SILENT_S = 0.020
+"""A loop that has not beaten for so long is silent: the supervisor stops the drives."""
+SLOTS: tuple[Slot, ...] = ("loop", "supervisor", "server", "operator", "stopping")
 
 
 class Heartbeats:
-    """A time (CLOCK_MONOTONIC, s) for each slot; 0 before its first beat."""
+    """A time (CLOCK_MONOTONIC, s) for each slot; 0 before its first beat.
+
+    stopping: beats whenever the supervisor has told the drives to stop.
+    """
 
     def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:
         self._block, self._owner = block, owner
         self.name = block.name
         self._times = np.ndarray(len(SLOTS), np.float64, block.buf)
+        self._stops = np.ndarray(1, np.int64, block.buf, self._times.nbytes)
 
     @classmethod
     def create(cls) -> Self:
         """A new block without a beat; who created it also removes it at `close`."""
-        beats = cls(shared_memory.SharedMemory(create=True, size=8 * len(SLOTS)), owner=True)
-        beats._times[:] = 0.0
+        block = shared_memory.SharedMemory(create=True, size=8 * (len(SLOTS) + 1))
+        beats = cls(block, owner=True)
+        beats._times[:], beats._stops[:] = 0.0, 0
         return beats
 
     @classmethod
@@ -44,9 +54,18 @@ class Heartbeats:
         last = float(self._times[SLOTS.index(slot)])
         return time.monotonic() - last if last else math.inf
 
+    @property
+    def stops(self) -> int:
+        """How often the supervisor has begun to stop the drives."""
+        return int(self._stops[0])
+
+    def count_stop(self) -> None:
+        """The supervisor stops the drives now: told before its first frame is on the bus."""
+        self._stops[0] += 1
+
     def close(self) -> None:
         """Let go of the block, and remove it where it was created."""
-        del self._times
+        del self._times, self._stops
         self._block.close()
         if self._owner:
             self._block.unlink()

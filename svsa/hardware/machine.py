@@ -6,6 +6,7 @@ A fault is latched with its values, the first one counts, and only `clear` leave
 RUN and RAMP the torque is zero.
 """
 
+import math
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from svsa.errors import Fault, StateError
 from svsa.hardware.bench import BenchFile
 from svsa.hardware.faults import Alarm
 from svsa.hardware.guard import Guard
+from svsa.hardware.heartbeat import SILENT_S
 from svsa.hardware.homing import Homing
 from svsa.hardware.phase import Phase
 from svsa.signals import Disturbance, State, Torque
@@ -40,7 +42,8 @@ class Conditions(NamedTuple):
 
     phase: of the drive that is behind. ages_s: of motor 1, motor 2, deflection; infinite
     before the first. missed: ticks lost before this one. supervisor_age_s, operator_age_s:
-    since their last heartbeat.
+    since their last heartbeat; infinite where there is none. late_s: how late the loop was when
+    the supervisor stopped the drives; None where it has not since they were armed.
     """
 
     phase: Phase
@@ -49,6 +52,7 @@ class Conditions(NamedTuple):
     missed: int
     supervisor_age_s: float
     operator_age_s: float
+    late_s: float | None = None
 
 
 SEQUENCE = {
@@ -155,6 +159,11 @@ class Machine:
         """What of the bench itself ends its run, in the states in which it is watched."""
         if self.status in (BenchStatus.OFF, BenchStatus.FAULT):
             return None
+        if conditions.late_s is not None:
+            return _describe_lateness(conditions.late_s)
+        supervisor_age_s = conditions.supervisor_age_s
+        if self.status not in ARMING and supervisor_age_s > self._safety.supervisor_s:
+            return _describe_lost_supervisor(supervisor_age_s)
         if conditions.alarm is not None:
             return conditions.alarm
         if conditions.phase is Phase.SILENT:
@@ -174,8 +183,22 @@ class Machine:
         if conditions.missed >= safety.missed_ticks:
             words = f"The loop missed {conditions.missed} ticks in a row."
             return Alarm("missed_ticks", words, {"missed_ticks": conditions.missed})
-        if conditions.supervisor_age_s > safety.supervisor_s:
-            words = f"The supervisor has been silent for over {safety.supervisor_s:g} s."
-            age = min(conditions.supervisor_age_s, 1e6)
-            return Alarm("supervisor_lost", words, {"supervisor_age_s": age})
         return self._guard.find_overload()
+
+
+def _describe_lateness(late_s: float) -> Alarm:
+    """The supervisor's own frames have stopped the drives: nobody else's."""
+    late_s = max(late_s, SILENT_S)
+    words = (
+        f"The control loop was {1e3 * late_s:.0f} ms late. The supervisor, which waits"
+        f" {1e3 * SILENT_S:g} ms, has set both drives to zero current and reset them."
+    )
+    return Alarm("loop_late", words, {"late_s": late_s, "supervisor_waits_s": SILENT_S})
+
+
+def _describe_lost_supervisor(age_s: float) -> Alarm:
+    if math.isinf(age_s):
+        words = "There is no supervisor: its process has ended, or has not heard the bus yet."
+        return Alarm("supervisor_lost", words, {})
+    words = f"The supervisor has been silent for {age_s:.3f} s."
+    return Alarm("supervisor_lost", words, {"supervisor_age_s": age_s})

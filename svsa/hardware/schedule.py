@@ -15,10 +15,11 @@ def request_real_time(priority: int) -> list[str]:
     gc.collect()
     gc.freeze()
     gc.disable()
-    return [_request_priority(priority), _lock_memory(), "garbage collection off while it runs"]
+    return [request_priority(priority), _lock_memory(), "garbage collection off while it runs"]
 
 
-def _request_priority(priority: int) -> str:
+def request_priority(priority: int) -> str:
+    """Ask for SCHED_FIFO for this thread; says what was granted."""
     if not hasattr(os, "sched_setscheduler"):
         return "ordinary priority: this system has no SCHED_FIFO"
     try:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import can
 
 from svsa.hardware.bench import BenchFile
-from svsa.hardware.bus import take_waiting
+from svsa.hardware.bus import BUS_TROUBLE, take_waiting
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.conversion import MotorScale, Unwrapped, build_deflection_scale
 from svsa.hardware.drive import Drive, list_command_ids
@@ -20,7 +20,6 @@ from svsa.hardware.robomodule import LENGTH
 from svsa.signals import Measurement, State
 
 MOST_FRAMES_A_TICK = 200
-BUS_TROUBLE = (can.CanError, OSError, ValueError)
 UNHEARD = (math.inf, math.inf, math.inf)
 
 
@@ -159,8 +158,8 @@ class Sensing:
             self._complainers[identifier].errors += 1
         elif identifier in self._commands and self._drives[0].phase is Phase.READY:
             words = (
-                f"Somebody else gave the drives a command (identifier {identifier:03X}): the"
-                " supervisor, or another program on this bus."
+                f"Somebody else gave the drives a command (identifier {identifier:03X}): another"
+                " program on this bus."
             )
             self._sound("foreign_command", words)
 

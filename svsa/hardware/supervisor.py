@@ -19,10 +19,9 @@ from svsa.errors import SvsaError
 from svsa.hardware.bench import BenchFile, read_bench
 from svsa.hardware.bus import DELIVERY_S, open_bus, take_waiting
 from svsa.hardware.drive import build_broadcast_resets, build_zero_currents
-from svsa.hardware.heartbeat import Heartbeats
+from svsa.hardware.heartbeat import SILENT_S, Heartbeats
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
 
-SILENT_S = 0.020
 DEAF_S = 0.25
 PERIOD_S = 0.005
 ORPHANED_S = 2.0
@@ -45,7 +44,7 @@ class Supervisor:
         A bus can be lost without a word: a supervisor that hears nothing on it is no use.
         """
         now = time.monotonic()
-        for _ in take_waiting(self._bus, self._settings, _MOST_FRAMES):
+        if self.listen():
             self._heard_s = now
         if now - self._heard_s <= DEAF_S:
             self._beats.beat("supervisor")
@@ -54,10 +53,16 @@ class Supervisor:
             self.silenced = False
             return
         if not self.silenced:
+            self._beats.count_stop()
             print(f"Supervisor: the loop is silent, the drives are stopped ({age:.3f} s).")
             sys.stdout.flush()
         self.silenced = True
         self.stop_drives()
+        self._beats.beat("stopping")
+
+    def listen(self) -> bool:
+        """Take what has come off the bus; whether there was anything."""
+        return bool(list(take_waiting(self._bus, self._settings, _MOST_FRAMES)))
 
     def stop_drives(self) -> None:
         """Zero current to both, and reset all."""
@@ -88,6 +93,7 @@ def main(arguments: list[str]) -> int:
         while not ended and not supervisor.is_orphaned(parent):
             supervisor.watch()
             time.sleep(PERIOD_S)
+        beats.end("supervisor")
         supervisor.stop_drives()
         time.sleep(DELIVERY_S)
     except (can.CanError, OSError) as error:

@@ -135,6 +135,7 @@ def describe(rig: Rig) -> dict[str, Any]:
             name: {
                 "mode": drive.mode,
                 "commanded_ma": drive.current_ma,
+                "commanded_since_s": drive.since_us * 1e-6,
                 "target_nm": drive.target_nm,
                 "actual_ma": drive.compute_current_ma(torque),
                 "errors": drive.errors,

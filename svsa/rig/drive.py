@@ -34,8 +34,8 @@ STALL_PROTECTION = 1
 class EmulatedDrive:
     """A drive, its motor's counter, and the current that it was told.
 
-    mode: None until one was taken. current_ma: asked for. errors: commands that came at the
-    wrong moment. stalled, powered, plugged, frozen: see `svsa.rig.faults`.
+    mode: None until one was taken. current_ma: asked for, the same since `since_us`. errors:
+    commands at the wrong moment. stalled, powered, plugged, frozen: see `svsa.rig.faults`.
     """
 
     def __init__(self, motor: RigMotor) -> None:
@@ -50,6 +50,7 @@ class EmulatedDrive:
         self.powered, self.plugged, self.stalled = True, True, False
         self.frozen = False
         self.errors = 0
+        self.current_ma = self.since_us = 0
         self._raw = 0
         self.reset(-SETTLE_US)
         self._started = False
@@ -57,7 +58,7 @@ class EmulatedDrive:
     def reset(self, time_us: int) -> None:
         """Leave the mode, zero the position, forget every period."""
         self.mode: Mode | None = None
-        self.current_ma = 0
+        self._hold(0, time_us)
         self.feedback_ms = self.inputs_ms = 0
         self.stalled = False
         self.zero_counter()
@@ -126,7 +127,12 @@ class EmulatedDrive:
         if self.mode is None or command.mode is not self.mode or time_us < self._ready_us:
             self.errors += 1
         elif isinstance(message, Current):
-            self.current_ma = message.current_ma if message.pwm_limit else 0
+            self._hold(message.current_ma if message.pwm_limit else 0, time_us)
+
+    def _hold(self, current_ma: int, time_us: int) -> None:
+        """Hold this current from now on, for ever if nothing else is said."""
+        if current_ma != self.current_ma:
+            self.current_ma, self.since_us = current_ma, time_us
 
     def _is_mine(self, address: Address) -> bool:
         return address.group == self.address.group and address.number in (0, self.address.number)

@@ -161,6 +161,10 @@ class Session:
         self.clock.stop()
         self.version += 1
 
+    def halt(self) -> None:
+        """Pause at once, whatever else goes on: after an error of the program."""
+        self.pause()
+
     def quick_stop(self) -> None:
         """The quick stop: a simulation pauses, and says that it was stopped."""
         if self.status == "running":

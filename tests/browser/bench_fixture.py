@@ -26,6 +26,10 @@ BENCH: dict[str, Any] = {
     "dead_man": False,
     "loop": {
         "alive": True,
+        "state": "ticking",
+        "silent_s": None,
+        "stopped_by": None,
+        "unreachable": None,
         "rate_hz": 1000.0,
         "ticks": 182_341,
         "skipped_ticks": 3,

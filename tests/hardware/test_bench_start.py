@@ -15,13 +15,15 @@ from svsa_server.console import show_bench_start
 
 
 class ScriptedLink:
-    """Says each message at its time; its waiting is what makes the time go on."""
+    """Says each message at its time."""
 
     def __init__(self, messages):
         self.now, self._messages = 0.0, list(messages)
 
-    def receive(self, timeout_s=0.0):
-        self.now += timeout_s
+    def rest(self, seconds):
+        self.now += seconds
+
+    def receive(self):
         due = [message for at, message in self._messages if at <= self.now]
         self._messages = self._messages[len(due) :]
         if "closed" in due:
@@ -44,14 +46,16 @@ def start(monkeypatch):
         link, told = ScriptedLink(messages), []
         theirs = types.SimpleNamespace(fileno=lambda: 0, close=lambda: None)
         process = types.SimpleNamespace(
-            poll=lambda: None, wait=lambda _=None: 0, terminate=lambda: None
+            poll=lambda: None, wait=lambda: 0, terminate=lambda: None, kill=lambda: None
         )
         monkeypatch.setattr(launch, "build_links", lambda: (link, theirs))
         monkeypatch.setattr(launch, "_start", lambda *_: process)
+        nobody = types.SimpleNamespace(stop=lambda _: None)
+        monkeypatch.setattr(launch, "_watch", lambda *_: nobody)
         monkeypatch.setattr(launch, "time", types.SimpleNamespace(monotonic=lambda: link.now))
         configuration = get_figure("4a").build_configuration()
         processes = BenchProcesses(
-            "bench.toml", configuration, silence_s, lambda *what: told.append(what)
+            "bench.toml", configuration, silence_s, lambda *what: told.append(what), link.rest
         )
         return processes, told
 
@@ -71,7 +75,8 @@ def test_a_loop_that_gets_on_is_waited_for_and_shown(start):
     assert processes.events == [state], "what it says once it is ready is kept"
     assert ("compiling, 7 functions", pytest.approx(360.0, abs=1.0)) in told
     assert told[0] == ("starting its process", 0.0)
-    processes.close()
+    processes.end()
+    processes.free()
 
 
 def test_a_loop_that_stands_still_is_given_up_with_what_it_was_doing(start):

@@ -7,6 +7,7 @@ import can
 import pytest
 
 from svsa.errors import StateError
+from svsa.hardware.drive import build_broadcast_resets, build_zero_currents
 from svsa.hardware.encoders.can_node import CanNode
 from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.faults import FAULTS
@@ -136,11 +137,13 @@ LISTED = [
     for code, ways in causes.items()
     for number, cause in enumerate(ways)
 ]
-ELSEWHERE = {"drive_silent", "encoder_frozen", "singular_decoupling"}
+ELSEWHERE = {"drive_silent", "encoder_frozen", "singular_decoupling", "loop_late"}
+PROCESSES = {"loop_silent", "loop_lost", "loop_and_supervisor_lost"}
+"""What the server finds, with real processes: `test_survivors`."""
 
 
 def test_every_fault_is_tested() -> None:
-    assert ALWAYS.keys() | MOVING.keys() | ELSEWHERE == FAULTS.keys()
+    assert ALWAYS.keys() | MOVING.keys() | ELSEWHERE | PROCESSES == FAULTS.keys()
 
 
 @pytest.mark.parametrize(("status", "code", "cause"), LISTED)
@@ -248,4 +251,32 @@ def test_faults_of_before_do_not_count_after_arming() -> None:
         b.tick(5)
         assert b.plant.status is BenchStatus.OFF
         b.make_run(PUSH)
+        assert b.plant.status is BenchStatus.RUN
+
+
+@pytest.mark.parametrize("heard", ["in the late tick", "in the one after it"])
+def test_a_loop_that_stood_still_names_itself_and_not_a_stranger(heard: str) -> None:
+    """The supervisor's frames are on the bus; how late the loop was is what matters."""
+    with WiredBench(beats=FakeBeats(), missed_ticks=100) as b:
+        b.make_run(PUSH)
+        b.skip(0.05)
+        b.beats.stops += 1
+        stops = [*build_zero_currents(b.bench), *build_broadcast_resets(b.bench)]
+        if heard == "in the one after it":
+            b.tick(1, PUSH, missed=50)
+            assert b.plant.fault is not None
+        for frame in stops:
+            b.clock.say(Frame(frame.arbitration_id, bytes(frame.data)), b.now)
+        b.tick(1, PUSH, missed=50 if heard == "in the late tick" else 0)
+        fault = b.plant.fault
+        assert fault is not None
+        assert (fault.code, fault.values["late_s"]) == ("loop_late", 0.05)
+        assert "supervisor" in fault.message
+
+
+def test_a_late_loop_of_before_arming_is_no_fault_of_the_run_after_it() -> None:
+    with WiredBench(beats=FakeBeats()) as b:
+        b.beats.stops += 1
+        b.make_run(PUSH)
+        b.tick(10, PUSH)
         assert b.plant.status is BenchStatus.RUN

@@ -125,7 +125,8 @@ CONDITIONS = {
     "drive_silent": {"phase": Phase.SILENT},
     "stale_feedback": {"ages_s": (0.001, 0.0201, 0.001)},
     "missed_ticks": {"missed": 20},
-    "supervisor_lost": {"supervisor_age_s": 0.1001},
+    "loop_late": {"late_s": 0.05, "missed": 50, "alarm": Alarm("foreign_command", "a test", {})},
+    "supervisor_lost": {"supervisor_age_s": 0.0501},
 }
 UNWATCHED = (BenchStatus.OFF, BenchStatus.FAULT)
 ARMING = (BenchStatus.RESET, BenchStatus.CONFIG, BenchStatus.MODE)
@@ -137,7 +138,7 @@ def test_where_each_condition_is_a_fault(status: BenchStatus, code: str) -> None
     machine = bring(status)
     phase = Phase(status) if status in Phase else Phase.READY
     assert update(machine, **{"phase": phase} | CONDITIONS[code]) is not None
-    own = status in ARMING and code not in ("bus_error", "drive_silent")
+    own = status in ARMING and code not in ("bus_error", "drive_silent", "loop_late")
     if status in UNWATCHED or own:
         assert machine.fault is None
         return
@@ -155,7 +156,7 @@ def test_where_each_condition_is_a_fault(status: BenchStatus, code: str) -> None
         ({"ages_s": (0.001, 0.0199, 0.001)}, False),
         ({"ages_s": (0.001, 0.001, 0.0051)}, False),
         ({"missed": 19}, True),
-        ({"supervisor_age_s": 0.0999}, True),
+        ({"supervisor_age_s": 0.0499}, True),
     ],
 )
 def test_just_within_the_bounds_it_goes_on(conditions: Any, torque: bool) -> None:
@@ -170,6 +171,27 @@ def test_an_axis_never_heard_of_is_a_fault_and_no_infinity_is_told() -> None:
     assert machine.fault is not None
     assert machine.fault.code == "stale_feedback"
     assert all(math.isfinite(value) for value in machine.fault.values.values())
+
+
+def test_a_late_loop_says_how_late_and_that_the_supervisor_acted() -> None:
+    machine = bring(BenchStatus.RUN)
+    update(machine, late_s=0.05)
+    assert machine.fault is not None
+    assert "50 ms late" in machine.fault.message
+    assert "supervisor" in machine.fault.message
+    assert machine.fault.values == {"late_s": 0.05, "supervisor_waits_s": 0.02}
+    machine = bring(BenchStatus.RUN)
+    update(machine, late_s=0.0)
+    assert machine.fault is not None
+    assert machine.fault.values["late_s"] == 0.02, "it was late by what the supervisor waits"
+
+
+def test_a_supervisor_that_has_ended_is_missed_without_an_infinity() -> None:
+    machine = bring(BenchStatus.RUN)
+    update(machine, supervisor_age_s=math.inf)
+    assert machine.fault is not None
+    assert (machine.fault.code, machine.fault.values) == ("supervisor_lost", {})
+    assert "its process has ended" in machine.fault.message
 
 
 def test_the_operators_silence_ramps_only_where_a_switch_is_asked_for() -> None:

@@ -61,6 +61,10 @@ class Ages:
     def __init__(self) -> None:
         self.loop_s = float("inf")
         self.beats: list[str] = []
+        self.stops = 0
+
+    def count_stop(self) -> None:
+        self.stops += 1
 
     def beat(self, slot: str) -> None:
         self.beats.append(slot)
@@ -88,6 +92,7 @@ def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
     for times in (1, 2, 3):
         supervisor.watch()
         assert bus.sent == [(0x013, ZERO), (0x023, ZERO), (0x000, RESET)] * times
+        assert (ages.stops, ages.beats[-1]) == (1, "stopping"), "once, and told whenever it acts"
     assert capsys.readouterr().out.count("the loop is silent") == 1
     ages.loop_s = 0.001
     supervisor.watch()

@@ -19,6 +19,7 @@ class RigBeats:
     def __init__(self) -> None:
         self.now: Callable[[], float] = lambda: 0.0
         self.stopped: dict[str, float] = {}
+        self.stops = 0
 
     def age_s(self, slot: str) -> float:
         return self.now() - self.stopped[slot] if slot in self.stopped else 0.0

@@ -87,6 +87,7 @@ class FakeBeats:
 
     def __init__(self) -> None:
         self.ages = {"loop": 0.0, "supervisor": 0.0, "server": 0.0, "operator": 0.0}
+        self.stops = 0
 
     def age_s(self, slot: str) -> float:
         return self.ages[slot]

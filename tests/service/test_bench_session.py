@@ -22,6 +22,7 @@ from websockets.sync.client import connect
 from svsa.rig.launch import RunningRig, start_rig
 from tests.hardware.wired_bench import RIG_BENCH
 from tests.lab import Lab, run_lab
+from tests.processes import find_child
 
 pytestmark = pytest.mark.wall_clock
 
@@ -124,15 +125,7 @@ class BenchLab:
 
     def find_process(self, module: str) -> int:
         """The process of this lab that runs a module."""
-        for folder in Path("/proc").iterdir():
-            if not folder.name.isdigit():
-                continue
-            with contextlib.suppress(OSError):
-                command = (folder / "cmdline").read_bytes().split(b"\0")
-                parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
-                if parent == self.lab.process.pid and module.encode() in command:
-                    return int(folder.name)
-        raise AssertionError(f"{module} does not run")
+        return find_child(self.lab.process.pid, module)
 
 
 def read_stream(stream: Any) -> None:
@@ -301,6 +294,48 @@ def test_a_killed_supervisor_ends_the_run_and_is_started_anew(bench: BenchLab) -
         assert state["fault"]["code"] == "supervisor_lost"
         assert state["bench"]["supervised"] is False
     bench.ask("/bench/clear")
+    assert_runs_again(bench)
+
+
+def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_nobody_else(bench: BenchLab) -> None:
+    """Nobody watches any more, so that the server has a reason to ask it at every wake."""
+    client = bench.lab.client
+    private = client.post("/api/v1/sessions", json={"figure": "4a"}).raise_for_status().json()
+    path = f"/api/v1/sessions/{private['session']}"
+    with bench.running():
+        bench.wait_for_ticks(200)
+        os.kill(bench.find_process(LOOP), signal.SIGSTOP)
+    wait_until(bench.is_at_zero, longest_s=ZERO_S)
+    wait_until(lambda: bench.read()["fault"] is not None)
+    state = bench.read()
+    loop = state["bench"]["loop"]
+    assert state["fault"]["code"] == "loop_silent"
+    assert "Start the loop anew" in state["fault"]["message"]
+    assert (state["status"], state["bench"]["status"]) == ("fault", "fault")
+    assert (loop["alive"], loop["state"], loop["stopped_by"]) == (False, "silent", "supervisor")
+    assert loop["silent_s"] > 0.5
+    before = client.get(path).json()["tick"]
+    assert "silent" in bench.refuse("/bench/arm")
+    wait_until(lambda: client.get(path).json()["tick"] > before + 1000)
+    client.delete(path).raise_for_status()
+    state = bench.ask("/bench/restart")
+    assert (state["fault"], state["bench"]["loop"]["state"]) == (None, "ticking")
+    assert_runs_again(bench)
+
+
+def test_without_loop_and_supervisor_the_server_stops_the_drives(bench: BenchLab) -> None:
+    with bench.running():
+        bench.wait_for_ticks(200)
+        for module in (LOOP, SUPERVISOR):
+            os.kill(bench.find_process(module), signal.SIGKILL)
+        wait_until(bench.is_at_zero, longest_s=ZERO_S)
+        wait_until(lambda: bench.read()["bench"]["loop"]["stopped_by"] == "server")
+        state = bench.read()
+        assert state["fault"]["code"] == "loop_and_supervisor_lost"
+        assert "The server has opened the bus" in state["fault"]["message"]
+        assert state["bench"]["loop"]["state"] == "gone"
+        assert state["bench"]["loop"]["unreachable"] is None
+    bench.ask("/bench/restart")
     assert_runs_again(bench)
 
 

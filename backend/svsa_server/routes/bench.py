@@ -11,19 +11,22 @@ from svsa_server.bench_schemas import HomingRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.schemas import SessionState
 from svsa_server.state import build_state
+from svsa_server.turn import TurnRoute
 
-router = APIRouter(prefix="/sessions/{session}/bench", tags=["bench"], responses=REFUSALS)
+router = APIRouter(
+    prefix="/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=TurnRoute
+)
 
 
 @router.post("/arm")
-async def arm(session: NamedSession) -> SessionState:
+def arm(session: NamedSession) -> SessionState:
     """Reset the drives and bring them to current mode, in about a second: OFF → READY."""
     _find_bench(session).arm()
     return build_state(session)
 
 
 @router.post("/home")
-async def confirm_home(
+def confirm_home(
     session: NamedSession,
     request: Annotated[HomingRequest, Body(examples=[{"step": "link", "by": "Ada"}])],
 ) -> SessionState:
@@ -33,9 +36,19 @@ async def confirm_home(
 
 
 @router.post("/clear")
-async def clear_fault(session: NamedSession) -> SessionState:
+def clear_fault(session: NamedSession) -> SessionState:
     """Clear a latched fault: FAULT → OFF; it must be armed again."""
     _find_bench(session).clear()
+    return build_state(session)
+
+
+@router.post("/restart")
+def restart_loop(session: NamedSession) -> SessionState:
+    """End loop and supervisor, by force where they do not listen, and start both anew, in seconds.
+
+    The way back from a loop that is silent or gone; refused while the bench moves.
+    """
+    _find_bench(session).restart()
     return build_state(session)
 
 

@@ -12,8 +12,9 @@ from svsa_server.errors import ErrorModel
 from svsa_server.laboratory import SHARED_SESSION
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.schemas import FigureState, Health, LoginRequest
+from svsa_server.turn import TurnRoute
 
-router = APIRouter(tags=["lab"])
+router = APIRouter(tags=["lab"], route_class=TurnRoute)
 _COOKIE_AGE_S = 30 * 24 * 3600
 
 
@@ -25,7 +26,7 @@ async def read_health() -> Health:
 
 @router.post("/emergency-stop", status_code=204, deprecated=True)
 @router.post("/quick-stop", status_code=204)
-async def quick_stop(request: Request) -> None:
+def quick_stop(request: Request) -> None:
     """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
     laboratory = request.app.state.laboratory
     laboratory.get(SHARED_SESSION).quick_stop()

@@ -9,12 +9,15 @@ from svsa_server.errors import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.schemas import SessionState
 from svsa_server.state import build_state
+from svsa_server.turn import TurnRoute
 
-router = APIRouter(prefix="/sessions/{session}/loads", tags=["loads"], responses=REFUSALS)
+router = APIRouter(
+    prefix="/sessions/{session}/loads", tags=["loads"], responses=REFUSALS, route_class=TurnRoute
+)
 
 
 @router.post("", status_code=201)
-async def apply_load(
+def apply_load(
     session: NamedSession,
     load: Annotated[
         Load,
@@ -39,14 +42,14 @@ async def apply_load(
 
 
 @router.delete("")
-async def clear_loads(session: NamedSession) -> SessionState:
+def clear_loads(session: NamedSession) -> SessionState:
     """Take every load off."""
     session.clear_loads()
     return build_state(session)
 
 
 @router.delete("/{load_id}")
-async def remove_load(session: NamedSession, load_id: int) -> SessionState:
+def remove_load(session: NamedSession, load_id: int) -> SessionState:
     """Take one load off."""
     if load_id not in (load.number for load in session.run.loads):
         raise UnknownError(f"There is no load {load_id} in this session.")

@@ -18,8 +18,9 @@ from svsa_server.schemas import (
 from svsa_server.state import build_state
 from svsa_server.stream import BATCH_PERIOD_S, stream_session
 from svsa_server.stream_schemas import StreamMessage, describe_stream, list_stream_parameters
+from svsa_server.turn import TurnRoute
 
-router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS)
+router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
 
 
 @router.get("")
@@ -50,14 +51,14 @@ async def read_session(session: NamedSession) -> SessionState:
 
 
 @router.post("/{session}/start")
-async def start(session: NamedSession) -> SessionState:
+def start(session: NamedSession) -> SessionState:
     """Run on from where it is."""
     session.start()
     return build_state(session)
 
 
 @router.post("/{session}/pause")
-async def pause(session: NamedSession) -> SessionState:
+def pause(session: NamedSession) -> SessionState:
     """Stop time; nothing is lost."""
     session.pause()
     return build_state(session)
@@ -65,7 +66,7 @@ async def pause(session: NamedSession) -> SessionState:
 
 @router.post("/{session}/emergency-stop", deprecated=True)
 @router.post("/{session}/quick-stop")
-async def quick_stop(session: NamedSession) -> SessionState:
+def quick_stop(session: NamedSession) -> SessionState:
     """Zero current at once on a bench, latched until cleared; a simulation pauses.
 
     Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
@@ -75,14 +76,14 @@ async def quick_stop(session: NamedSession) -> SessionState:
 
 
 @router.post("/{session}/reset")
-async def reset(session: NamedSession) -> SessionState:
+def reset(session: NamedSession) -> SessionState:
     """Begin again at t = 0 with everything as it is set now, after a fault too."""
     session.reset()
     return build_state(session)
 
 
 @router.post("/{session}/step")
-async def step(
+def step(
     session: NamedSession, request: Annotated[StepRequest, Body(examples=[{"ticks": 1}])]
 ) -> SessionState:
     """Run some ticks while paused."""
@@ -91,7 +92,7 @@ async def step(
 
 
 @router.put("/{session}/speed")
-async def set_speed(
+def set_speed(
     session: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
 ) -> SessionState:
     """Slow motion or fast forward."""
@@ -100,7 +101,7 @@ async def set_speed(
 
 
 @router.post("/{session}/experiment")
-async def load_experiment(
+def load_experiment(
     session: NamedSession,
     request: Annotated[
         ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])

@@ -18,8 +18,11 @@ from svsa_server.schemas import (
     build_patch,
 )
 from svsa_server.state import build_state
+from svsa_server.turn import TurnRoute
 
-router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
+router = APIRouter(
+    prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS, route_class=TurnRoute
+)
 
 if TYPE_CHECKING:
     ActuatorPatch = Checked
@@ -30,7 +33,7 @@ else:
 
 
 @router.put("/position")
-async def set_position(
+def set_position(
     session: NamedSession,
     reference: Annotated[
         PositionReference,
@@ -48,7 +51,7 @@ async def set_position(
 
 
 @router.put("/stiffness")
-async def set_stiffness(
+def set_stiffness(
     session: NamedSession,
     reference: Annotated[
         StiffnessReference,
@@ -71,7 +74,7 @@ async def set_stiffness(
 
 
 @router.put("/law")
-async def set_law(
+def set_law(
     session: NamedSession, request: Annotated[LawRequest, Body(examples=[{"law": "fl"}])]
 ) -> SessionState:
     """Control with FL or NDOBC."""
@@ -80,7 +83,7 @@ async def set_law(
 
 
 @router.put("/gains")
-async def set_gains(
+def set_gains(
     session: NamedSession,
     request: Annotated[
         GainsRequest,
@@ -98,7 +101,7 @@ async def set_gains(
 
 
 @router.put("/observer")
-async def set_observer(
+def set_observer(
     session: NamedSession,
     request: Annotated[
         ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [60.0, 60.0, 60.0]}])
@@ -110,7 +113,7 @@ async def set_observer(
 
 
 @router.patch("/actuator")
-async def change_actuator(
+def change_actuator(
     session: NamedSession,
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
@@ -120,7 +123,7 @@ async def change_actuator(
 
 
 @router.patch("/nominal")
-async def change_nominal(
+def change_nominal(
     session: NamedSession,
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
 ) -> SessionState:
@@ -130,7 +133,7 @@ async def change_nominal(
 
 
 @router.put("/effects")
-async def set_effects(
+def set_effects(
     session: NamedSession,
     effects: Annotated[
         Effects,
@@ -143,7 +146,7 @@ async def set_effects(
 
 
 @router.put("/lanes")
-async def set_lanes(
+def set_lanes(
     session: NamedSession,
     request: Annotated[LanesRequest, Body(examples=[{"rivals": [{"law": "fl"}]}, {"rivals": []}])],
 ) -> SessionState:

@@ -13,8 +13,15 @@ import {
 const HOMED = { done: ["link", "motor1", "motor2"], next_step: null, instruction: "" };
 const UNHOMED = { done: [], next_step: "link", instruction: "Turn the link to its mark." };
 
+const TICKING = { state: "ticking" };
 const bench = (change: object) =>
-  ({ status: "off", problems: [], homing: HOMED, ...change }) as unknown as BenchState;
+  ({
+    status: "off",
+    problems: [],
+    homing: HOMED,
+    loop: TICKING,
+    ...change,
+  }) as unknown as BenchState;
 const allowed = (change: object) =>
   Object.entries(allowedOn(bench(change)))
     .filter(([, isAllowed]) => isAllowed)
@@ -42,15 +49,21 @@ describe("the states of a bench", () => {
     expect(allowed({ status: "run" })).toEqual(["stop"]);
     expect(allowed({ status: "ramp" })).toEqual([]);
     expect(allowed({ status: "fault", homing: UNHOMED })).toEqual(["clear"]);
+    const lost = { status: "fault", loop: { state: "gone" } };
+    expect(allowed(lost), "a lost loop is started anew, not cleared").toEqual(["restart"]);
+    expect(allowed({ ...lost, loop: { state: "starting" } })).toEqual([]);
   });
 
   it("tell what to do next", () => {
     expect(adviceFor(bench({ problems: ["No calibration."] }))).toBe("problems");
-    const off = { loop: { alive: true }, supervised: true, ages_s: [1000, 1000, 0.001] };
+    const off = { supervised: true, ages_s: [1000, 1000, 0.001] };
     expect(adviceFor(bench(off))).toBe("arm");
     expect(adviceFor(bench({ ...off, ages_s: [1000, 1000, 1000] }))).toBe("unheard");
     expect(adviceFor(bench({ ...off, supervised: false }))).toBe("unsupervised");
-    expect(adviceFor(bench({ ...off, loop: { alive: false } }))).toBe("loop");
+    for (const status of ["off", "run", "fault"]) {
+      expect(adviceFor(bench({ status, loop: { state: "silent" } }))).toBe("loop");
+      expect(adviceFor(bench({ status, loop: { state: "starting" } }))).toBe("starting");
+    }
     expect(adviceFor(bench({ status: "ready", homing: UNHOMED }))).toBe("home");
     expect(adviceFor(bench({ status: "reset" }))).toBe("wait");
     expect(adviceFor(bench({ status: "fault" }))).toBe("clear");

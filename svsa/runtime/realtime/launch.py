@@ -1,22 +1,36 @@
-"""Start the processes of a bench, the loop and its supervisor, and talk with the loop."""
+"""Start the processes of a bench, the loop and its supervisor, and talk with the loop.
+
+Nothing here blocks but by `rest`: whoever has more to do than wait for a bench says how to.
+"""
 
 import contextlib
+import math
 import subprocess
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.hardware.bench import read_bench
 from svsa.hardware.heartbeat import Heartbeats
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.realtime.link import LinkClosedError, build_links
 from svsa.runtime.realtime.memory import LoopMemory
 
+if TYPE_CHECKING:
+    from svsa.hardware.third_line import ThirdLine
+
 LISTEN_S = 0.1
 ANSWER_S = 0.5
 END_S = 5.0
+LOOP_SILENT_S = 0.5
+_REST_S = 0.001
+
+Process = subprocess.Popen[bytes]
+Rest = Callable[[float], None]
+"""Let so many seconds pass."""
 
 Teller = Callable[[str, float], None]
 
@@ -25,8 +39,8 @@ def keep_quiet(step: str, seconds: float) -> None:
     """Tell nobody what a loop does while it starts."""
 
 
-class BenchError(SvsaError):
-    """The processes of a bench could not be started, or are gone."""
+class BenchError(StateError):
+    """The processes of a bench could not be started, or are gone or silent."""
 
 
 class BenchProcesses:
@@ -34,17 +48,26 @@ class BenchProcesses:
 
     Raises `BenchError` where the loop cannot open the bench, ends, or says nothing for
     silence_s while it starts. tell: hears what it is doing until it is ready, with the seconds
-    since its start. `memory`: see `LoopMemory`. `events`: what the loop has said and nobody has
-    read yet. `notes`: what real time was granted.
+    since its start. `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or
+    end. `events`: what the loop has said and nobody has read yet. `notes`: what real time was
+    granted.
     """
 
     def __init__(
-        self, bench: Path, configuration: Configuration, silence_s: float, tell: Teller
+        self,
+        bench: Path,
+        configuration: Configuration,
+        silence_s: float,
+        tell: Teller,
+        rest: Rest = time.sleep,
     ) -> None:
         self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
         self.events: list[dict[str, Any]] = []
         self.notes: list[str] = []
+        self._rest = rest
         self._number = 0
+        self._waiting: list[int] = []
+        self._answers: dict[int, dict[str, Any]] = {}
         self._link, theirs = build_links()
         self.beats.beat("server")
         names = [str(bench), self.memory.name, self.beats.name, str(theirs.fileno())]
@@ -52,11 +75,13 @@ class BenchProcesses:
         self._loop = _start("svsa.runtime.realtime.process", names, theirs.fileno())
         self._supervisor = _start("svsa.hardware.supervisor", supervise)
         theirs.close()
+        self.third_line = _watch(bench, self.beats, self._loop, self._supervisor)
         try:
             self._link.send({"configuration": configuration.model_dump(mode="json")})
             self._wait_until_ready(silence_s, tell)
         except (LinkClosedError, BenchError) as error:
-            self.close()
+            self.end()
+            self.free()
             raise BenchError(f"The bench cannot be opened: {error}") from None
 
     def _wait_until_ready(self, silence_s: float, tell: Teller) -> None:
@@ -65,8 +90,9 @@ class BenchProcesses:
         heard = begin
         while (now := time.monotonic()) - heard < silence_s:
             tell(step, now - begin)
+            self._rest(LISTEN_S)
             try:
-                self._read(LISTEN_S)
+                self._read()
             except LinkClosedError:
                 raise BenchError(f"its loop has ended, which was {step}.") from None
             while self.events:
@@ -90,52 +116,111 @@ class BenchProcesses:
         return self._loop.poll() is None
 
     @property
-    def complete(self) -> bool:
-        """Whether the supervisor's process runs too: a bench without it does not get ready."""
-        return self.alive and self._supervisor.poll() is None
+    def supervisor_alive(self) -> bool:
+        """Whether the supervisor's process runs: a bench without it does not get ready."""
+        return self._supervisor.poll() is None
+
+    @property
+    def silence_s(self) -> float:
+        """Since the loop's last tick, s; 0 where it has not begun, or has ended in order."""
+        age = self.beats.age_s("loop")
+        return 0.0 if math.isinf(age) else age
+
+    @property
+    def listens(self) -> bool:
+        """Whether the loop can be asked for something: its process runs and ticks."""
+        return self.alive and self.silence_s <= LOOP_SILENT_S
 
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
-        """Have the loop do something between two ticks, and wait for its answer.
+        """Have the loop do something between two ticks, and rest until it answers.
 
         Raises what the loop refused with (`ParameterError`, `StateError`), and `BenchError`
-        where it does not answer in time; a command that comes too late is not carried out.
+        where it is silent or does not answer in time; a command that comes too late is not
+        carried out. Requests that rest at the same time are answered in their order.
         """
-        self._number += 1
+        if not self.listens:
+            raise BenchError(self._describe_silence())
         until = time.monotonic() + ANSWER_S
-        message = {"number": self._number, "do": wanted, "argument": argument, "until": until}
         try:
-            self._link.send(message)
-            while time.monotonic() < until:
-                for answer in self._read(until - time.monotonic()):
-                    if answer["answer"] == self._number:
-                        return _check(answer)
+            number = self._send(wanted, argument, until)
+            self._waiting.append(number)
+            try:
+                while time.monotonic() < until:
+                    self._read()
+                    if number in self._answers and self._waiting[0] == number:
+                        return _check(self._answers.pop(number))
+                    self._rest(_REST_S)
+            finally:
+                self._waiting.remove(number)
         except LinkClosedError:
-            raise BenchError("The loop of the bench is gone.") from None
+            raise BenchError(self._describe_silence()) from None
         raise BenchError(f"The loop of the bench did not answer within {ANSWER_S:g} s.")
+
+    def tell(self, wanted: str, argument: Any = None) -> None:
+        """As `request`, without waiting to hear what becomes of it."""
+        if self.listens:
+            with contextlib.suppress(LinkClosedError):
+                self._send(wanted, argument, time.monotonic() + ANSWER_S)
+
+    def _describe_silence(self) -> str:
+        what = "is silent" if self.alive else "is gone"
+        return (
+            f"The loop of the bench {what} since {self.silence_s:.1f} s: nothing can be asked of"
+            " it. Start it anew."
+        )
+
+    def _send(self, wanted: str, argument: Any, until: float) -> int:
+        self._number += 1
+        message = {"number": self._number, "do": wanted, "argument": argument, "until": until}
+        self._link.send(message)
+        return self._number
 
     def take_events(self) -> list[dict[str, Any]]:
         """What the loop has said since the last time."""
         with contextlib.suppress(LinkClosedError):
-            self._read(0.0)
+            self._read()
         events, self.events = self.events, []
         return events
 
-    def _read(self, timeout_s: float) -> list[dict[str, Any]]:
-        """The answers that have come; events are kept."""
-        messages = self._link.receive(max(timeout_s, 0.0))
-        self.events += [message for message in messages if "event" in message]
-        return [message for message in messages if "answer" in message]
+    def _read(self) -> None:
+        """Take what has come: events, and answers that somebody waits for."""
+        for message in self._link.receive():
+            if "event" in message:
+                self.events.append(message)
+            elif message["answer"] in self._waiting:
+                self._answers[message["answer"]] = message
 
-    def close(self) -> None:
+    def end(self) -> None:
         """Ramp to zero, and end both processes: the supervisor after the loop."""
         with contextlib.suppress(SvsaError):
             self.request("end")
+        if self.alive and self.silence_s > LOOP_SILENT_S:
+            self._loop.kill()
         self._link.close()
-        _wait(self._loop)
+        self._wait(self._loop)
+        self.third_line.stop(self._rest)
         self._supervisor.terminate()
-        _wait(self._supervisor)
+        self._wait(self._supervisor)
+
+    def free(self) -> None:
+        """Let go of the memory: nothing of it can be read any more."""
         self.memory.close()
         self.beats.close()
+
+    def _wait(self, process: subprocess.Popen[bytes]) -> None:
+        """Rest until a process has ended; one that hangs is killed."""
+        end = time.monotonic() + END_S
+        while process.poll() is None and time.monotonic() < end:
+            self._rest(_REST_S)
+        if process.poll() is None:
+            process.kill()
+            process.wait()
+
+
+def _watch(bench: Path, beats: Heartbeats, loop: Process, supervisor: Process) -> "ThirdLine":
+    from svsa.hardware.third_line import ThirdLine  # late: it needs the extra `bench`
+
+    return ThirdLine(read_bench(bench), beats, loop, supervisor)
 
 
 def _start(module: str, arguments: list[str], *descriptors: int) -> subprocess.Popen[bytes]:
@@ -143,15 +228,6 @@ def _start(module: str, arguments: list[str], *descriptors: int) -> subprocess.P
     return subprocess.Popen(  # noqa: S603
         command, pass_fds=descriptors, stdin=subprocess.DEVNULL, start_new_session=True
     )
-
-
-def _wait(process: subprocess.Popen[bytes]) -> None:
-    """Wait for a process that is ending; one that hangs is killed."""
-    try:
-        process.wait(END_S)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
 
 
 def _check(answer: dict[str, Any]) -> dict[str, Any]:

@@ -117,6 +117,7 @@ class LoopProcess:
                 loop.load(Configuration(**argument))
             case "arm":
                 gc.collect()
+                self._beats.beat("loop")
                 plant.arm(now)
             case "start":
                 start = loop.start(now)

@@ -1,5 +1,6 @@
 """A session whose first lane is a bench, seen from the server."""
 
+import time
 from pathlib import Path
 
 from svsa.errors import Fault, StateError
@@ -15,15 +16,17 @@ from svsa.runtime.command import Command, build_command
 from svsa.runtime.configuration import Configuration, Lane
 from svsa.runtime.loop import AT_REST
 from svsa.runtime.realtime.configuration import build_bench_configuration
-from svsa.runtime.realtime.launch import BenchProcesses, Teller, keep_quiet
+from svsa.runtime.realtime.launch import BenchProcesses, Rest, Teller, keep_quiet
+from svsa.runtime.realtime.loss import LOSSES, Loss, find_loss, is_supervised
 from svsa.runtime.realtime.run import BenchRun
 from svsa.runtime.recording.header import PlantKind
 from svsa.runtime.run import Start
 from svsa.runtime.session import Session, Status
 from svsa.signals import State
 
-LOOP_SILENT_S = 0.5
 UNWATCHED_S = 1.0
+UNKNOWN_S = 0.25
+"""So long after the last tick it may not be known yet who stops the drives."""
 
 
 class Hands:
@@ -57,8 +60,9 @@ class BenchSession(Session):
 
     Every start begins a new run, from where the bench stands. hands: told of the loads that
     are on whenever they change, and of the marks. tell: hears what the loop does while it starts.
-    `bench`: the bench file. Raises `BenchError` where the bench cannot be opened,
-    `MissingExtraError` without the extra `bench`.
+    rest: lets time pass where a command waits for the bench; `wake` waits for nothing. `bench`: the
+    bench file. `starting`: its processes are being started anew. Raises `BenchError` where the
+    bench cannot be opened or its loop is silent, `MissingExtraError` without the extra `bench`.
     """
 
     def __init__(
@@ -68,24 +72,39 @@ class BenchSession(Session):
         wanted: Configuration,
         hands: Hands | None = None,
         tell: Teller = keep_quiet,
+        rest: Rest = time.sleep,
     ) -> None:
         require_extra("bench")
         self.bench, self._path, self._hands = read_bench(path), path, hands or Hands()
-        self._tell_start = tell
+        self._tell_start, self._rest = tell, rest
         self.calibration = find_calibration(self.bench)
-        self.bench_status = BenchStatus.OFF
+        self.starting = False
+        self._told_status = BenchStatus.OFF
+        self._changing = 0
         self.problems: list[str] = []
         self.homing_step: Axis | None = None
         self._fault: Fault | None = None
         self._unwatched_since = 0.0
         self._open(build_bench_configuration(self.bench, wanted))
+        self._tell_start = keep_quiet
         super().__init__(name, wanted)
 
     def _open(self, configuration: Configuration) -> None:
+        silence_s = self.bench.timing.start_silence_s
         self.processes = BenchProcesses(
-            self._path, configuration, self.bench.timing.start_silence_s, self._tell_start
+            self._path, configuration, silence_s, self._tell_start, self._rest
         )
         self.memory = self.processes.memory
+
+    @property
+    def bench_status(self) -> BenchStatus:
+        """As the loop says; FAULT where it cannot be believed any more."""
+        return self._told_status if self._fault is None else BenchStatus.FAULT
+
+    @property
+    def loss(self) -> Loss | None:
+        """What has become of the loop where it does not tick, and who stopped the drives."""
+        return None if self.starting else find_loss(self.processes)
 
     @property
     def status(self) -> Status:
@@ -106,8 +125,8 @@ class BenchSession(Session):
 
     @property
     def supervised(self) -> bool:
-        """Whether the supervisor's heartbeat is fresh."""
-        return self.processes.beats.age_s("supervisor") < LOOP_SILENT_S
+        """Whether the supervisor is there and its heartbeat fresh."""
+        return is_supervised(self.processes)
 
     def load(self, configuration: Configuration) -> None:
         """Use its law, references and loads from the next start on; `StateError` in motion."""
@@ -133,14 +152,34 @@ class BenchSession(Session):
 
     def clear(self) -> None:
         """Clear the latched fault: FAULT → OFF; loop and supervisor begin anew if one is gone."""
-        if not self.processes.complete:
-            self.processes.close()
-            self._open(self.run.configuration)
-            self.load(self.run.configuration)
-        elif self.bench_status is BenchStatus.FAULT:
+        if self.loss is not None or not self.processes.supervisor_alive:
+            self.restart()
+        elif self._told_status is BenchStatus.FAULT:
             self._ask("clear")
         self._fault = None
         self.version += 1
+
+    def restart(self) -> None:
+        """End loop and supervisor, by force where they do not listen, and start both anew.
+
+        Raises `StateError` in motion, and `BenchError` where the bench cannot be opened.
+        """
+        if self.starting:
+            raise StateError("The loop of the bench is being started already.")
+        if self.bench_status in MOVING:
+            raise StateError("The bench is moving: stop it before its loop is started anew.")
+        self.starting = True
+        self.version += 1
+        try:
+            before = self.processes
+            before.end()
+            self._open(self.run.configuration)
+            before.free()
+            self._told_status, self._fault = BenchStatus.OFF, None
+            self.load(self.run.configuration)
+        finally:
+            self.starting = False
+            self.version += 1
 
     def start(self) -> None:
         """Begin a run; raises `StateError` unless READY, at home and watched."""
@@ -161,7 +200,13 @@ class BenchSession(Session):
     def quick_stop(self) -> None:
         """The quick stop: zero current now, latched, even where the loop does not listen."""
         self.stop_from_keyboard()
-        self._ask("quick_stop", "quick stop")
+        self._look_for_loss()
+        if self.loss is None and not self.starting:
+            self._ask("quick_stop", "quick stop")
+
+    def halt(self) -> None:
+        """Ramp to zero torque, without waiting for the loop to say that it does."""
+        self.processes.tell("stop", "an error of the program")
 
     def stop_from_keyboard(self) -> None:
         """The quick stop from any thread, through shared memory alone."""
@@ -170,7 +215,8 @@ class BenchSession(Session):
     def close(self) -> None:
         """Ramp to zero, and end the bench's processes."""
         self.stop_recording()
-        self.processes.close()
+        self.processes.end()
+        self.processes.free()
         self.closed = True
 
     def step(self, ticks: int) -> None:
@@ -186,23 +232,19 @@ class BenchSession(Session):
         self.processes.beats.beat("operator")
 
     def wake(self, now: float) -> None:
-        """Take in what the bench has done since the last time."""
+        """Take in what the bench has done since the last time; waits for nothing."""
+        if self.starting:
+            return
         self.processes.beats.beat("server")
-        self._advance(self._bench_run.count_ready())
-        for event in self.processes.take_events():
-            if event["event"] == "state":
-                self._take_state(event)
-        if not self.processes.alive and self._fault is None:
-            values = {"tick": float(self.run.tick)}
-            message = (
-                "The process of the loop has ended: the supervisor has set the drives to zero"
-                " current. Clear the fault to start it anew."
-            )
-            self._latch(Fault("loop_lost", 0, self.run.tick, self.run.time_s, message, values))
+        if not self._changing:
+            self._advance(self._bench_run.count_ready())
+        self._take_events()
+        self._look_for_loss()
         if self.watchers or self.bench_status is not BenchStatus.RUN:
             self._unwatched_since = now
         elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
-            self._ask("stop", "nobody watches")
+            self._unwatched_since = now
+            self.processes.tell("stop", "nobody watches")
 
     def _begin_load(self, load: Load) -> None:
         super()._begin_load(load)
@@ -219,26 +261,46 @@ class BenchSession(Session):
         self._hands.hang(tuple(load.load for load in on))
 
     def _take_state(self, event: dict) -> None:
-        self.bench_status = BenchStatus(event["status"])
+        self._told_status = BenchStatus(event["status"])
         self.problems, self.homing_step = event["problems"], event["homing_step"]
-        fault = event["fault"]
+        fault, is_loss = event["fault"], self._fault is not None and self._fault.code in LOSSES
         if fault is None:
-            self._fault = None
-        elif self._fault is None:
+            self._fault = self._fault if is_loss else None
+        elif self._fault is None or is_loss:
             self._latch(Fault(**fault))
         self.version += 1
 
+    def _look_for_loss(self) -> None:
+        """Latch what has become of a loop that does not tick; what was done may come to be known.
+
+        The loop's own fault, where it has one or comes back with one, is the better reason.
+        """
+        loss, fault = self.loss, self._fault
+        if loss is None or not (fault is None or fault.code in LOSSES):
+            return
+        if loss.stopped_by is None and 0.0 < self.processes.silence_s < UNKNOWN_S:
+            return
+        if fault is None or fault.message != loss.message:
+            run = self.run
+            self._latch(Fault(loss.code, 0, run.tick, run.time_s, loss.message))
+
     def _latch(self, fault: Fault) -> None:
+        is_known = self._fault is not None and self._fault.code == fault.code
         self._fault = fault
-        self._log("fault", label_fault(fault.code))
+        self.version += 1
+        if not is_known:
+            self._log("fault", label_fault(fault.code))
 
     def _ask(self, wanted: str, argument: object = None) -> dict:
         """Have the loop do it; what it says of its state is known when this returns."""
         answer = self.processes.request(wanted, argument)
+        self._take_events()
+        return answer
+
+    def _take_events(self) -> None:
         for event in self.processes.take_events():
             if event["event"] == "state":
                 self._take_state(event)
-        return answer
 
     def _take(self, command: Command) -> Command:
         """The command at the tick at which the loop has taken it."""
@@ -248,7 +310,11 @@ class BenchSession(Session):
             twin = Lane(law=self.run.configuration.law)
             others = tuple(lane for lane in command.argument if lane != twin)
             command = build_command(command.tick, "rivals", (twin, *others))
-        tick = self._ask("change", command.to_json())["tick"]
+        self._changing += 1  # what comes after this tick is not taken in before it is known
+        try:
+            tick = self._ask("change", command.to_json())["tick"]
+        finally:
+            self._changing -= 1
         self._advance(tick - self.run.tick)
         return command._replace(tick=tick)
 

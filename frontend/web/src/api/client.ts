@@ -69,6 +69,7 @@ export const stopWithoutLogin = () => request("post", "quick-stop", undefined, L
 export const armBench = () => call("post", "/bench/arm");
 export const confirmHome = (step: Axis, by: string) => call("post", "/bench/home", { step, by });
 export const clearBench = () => call("post", "/bench/clear");
+export const restartBench = () => call("post", "/bench/restart");
 export const reset = () => call("post", "/reset");
 export const step = (ticks: number) => call("post", "/step", { ticks });
 /** kept: lanes and effects that the figure by itself has not. */

@@ -447,6 +447,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/bench/restart": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restart Loop
+         * @description End loop and supervisor, by force where they do not listen, and start both anew, in seconds.
+         *
+         *     The way back from a loop that is silent or gone; refused while the bench moves.
+         */
+        post: operations["restart_loop_api_v1_sessions__session__bench_restart_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/position": {
         parameters: {
             query?: never;
@@ -2105,8 +2127,32 @@ export interface components {
          * @description The loop's process: how punctual it is, since it started.
          */
         LoopState: {
-            /** Alive */
+            /**
+             * Alive
+             * @description It ticks: its process is there, and not silent
+             */
             alive: boolean;
+            /**
+             * State
+             * @description silent: its process is there and has not ticked for 0.5 s. gone: its process has ended. starting: loop and supervisor are being started anew
+             * @enum {string}
+             */
+            state: "ticking" | "silent" | "gone" | "starting";
+            /**
+             * Silent S
+             * @description Since its last tick, s; null while it ticks
+             */
+            silent_s: number | null;
+            /**
+             * Stopped By
+             * @description Who keeps the drives at zero current in its place; null while it ticks, and where nobody does
+             */
+            stopped_by: ("supervisor" | "server") | null;
+            /**
+             * Unreachable
+             * @description Why the server cannot stop the drives: pull the motors' supply; else null
+             */
+            unreachable: string | null;
             /** Rate Hz */
             rate_hz: number;
             /** Ticks */
@@ -4949,6 +4995,59 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    restart_loop_api_v1_sessions__session__bench_restart_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
                 };
             };
             /** @description No such session, load or run */

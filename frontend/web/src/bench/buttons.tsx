@@ -1,11 +1,11 @@
-import { armBench, clearBench, pause, start } from "../api/client";
+import { armBench, clearBench, pause, restartBench, start } from "../api/client";
 import type { BenchState, SessionState } from "../api/types";
 import { perform } from "../state/actions";
 import { mayCommand } from "../state/control";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { isHeld } from "./hold";
-import { type Allowed, allowedOn } from "./status";
+import { type Allowed, allowedOn, isLoopLost } from "./status";
 
 interface Action {
   name: Exclude<keyof Allowed, "home">;
@@ -21,12 +21,25 @@ const ACTIONS: readonly Action[] = [
   { name: "clear", label: text.bench.clear, hint: text.bench.clearHint, send: clearBench },
 ];
 
+const RESTART: Action = {
+  name: "restart",
+  label: text.bench.restart,
+  hint: text.bench.restartHint,
+  send: restartBench,
+};
+
+/** Where the loop is lost there is nothing to clear: it is started anew. */
+const actionsOn = (bench: BenchState): readonly Action[] =>
+  isLoopLost(bench)
+    ? ACTIONS.map((action) => (action.name === "clear" ? RESTART : action))
+    : ACTIONS;
+
 /** What moves the bench from one state to the next; the next step stands out. Anybody may stop. */
 export function BenchButtons({ bench }: { bench: BenchState }) {
   const allowed = allowedOn(bench, isHeld.value);
   return (
     <fieldset class="bench-buttons" disabled={!isLive.value} aria-label={text.bench.heading}>
-      {ACTIONS.map(({ name, label, hint, send }) => {
+      {actionsOn(bench).map(({ name, label, hint, send }) => {
         const isAllowed = allowed[name] && (name === "stop" || mayCommand.value);
         return (
           <button

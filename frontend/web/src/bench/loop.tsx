@@ -58,6 +58,17 @@ function Lateness({ loop }: { loop: LoopState }) {
   );
 }
 
+/** Who keeps the drives at zero current where the loop does not. */
+function Rescue({ loop: { state, stopped_by: by, unreachable } }: { loop: LoopState }) {
+  if (state !== "silent" && state !== "gone") return null;
+  return (
+    <p class={by === null ? "is-bad" : ""}>
+      {by === null ? words.notStopped : words.stoppedBy[by]}
+      {unreachable !== null && ` ${unreachable}`}
+    </p>
+  );
+}
+
 /** How punctual the loop's process is, and what the system gave it. */
 export function Loop({ loop }: { loop: LoopState }) {
   const { quantiles } = words;
@@ -75,13 +86,15 @@ export function Loop({ loop }: { loop: LoopState }) {
         {words.heading}{" "}
         {isLive.value ? (
           <small class={loop.alive ? "is-good" : "is-bad"}>
-            <span aria-hidden="true">{loop.alive ? "✓" : "▲"}</span>{" "}
-            {loop.alive ? words.alive : words.dead}, {text.status.rate(loop.rate_hz)}
+            <span aria-hidden="true">{loop.alive ? "✓" : "▲"}</span> {words.states[loop.state]}
+            {loop.alive && `, ${text.status.rate(loop.rate_hz)}`}
+            {loop.silent_s !== null && ` ${words.since(formatLapse(loop.silent_s))}`}
           </small>
         ) : (
           <small>{text.bench.drives.notKnown}</small>
         )}
       </h2>
+      {isLive.value && <Rescue loop={loop} />}
       <div class="loop-columns">
         <Lateness loop={loop} />
         <dl aria-label={words.lateness}>

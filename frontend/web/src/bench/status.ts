@@ -17,11 +17,15 @@ export function placeOf(stage: Stage, status: BenchStatus | null): Place {
 
 export const isHomed = (bench: BenchState): boolean => bench.homing.next_step === null;
 
+/** Whether its loop does not tick: nothing can be asked of it but to be started anew. */
+export const isLoopLost = ({ loop }: BenchState): boolean => loop.state !== "ticking";
+
 export interface Allowed {
   arm: boolean;
   run: boolean;
   stop: boolean;
   clear: boolean;
+  restart: boolean;
   home: boolean;
 }
 
@@ -32,7 +36,8 @@ export function allowedOn(bench: BenchState, held = false): Allowed {
     arm: status === "off" && bench.problems.length === 0,
     run: status === "ready" && isHomed(bench) && (held || !bench.dead_man),
     stop: status === "run",
-    clear: status === "fault",
+    clear: status === "fault" && !isLoopLost(bench),
+    restart: isLoopLost(bench) && bench.loop.state !== "starting",
     home: !isHomed(bench) && status === "ready",
   };
 }
@@ -40,6 +45,7 @@ export function allowedOn(bench: BenchState, held = false): Allowed {
 export type Advice =
   | "problems"
   | "loop"
+  | "starting"
   | "unsupervised"
   | "unheard"
   | "arm"
@@ -51,15 +57,15 @@ export type Advice =
   | "clear";
 
 /** The encoder may be heard before the drives are armed; they speak only then. */
-function adviceBeforeArming({ problems, loop, supervised, ages_s: ages }: BenchState): Advice {
+function adviceBeforeArming({ problems, supervised, ages_s: ages }: BenchState): Advice {
   if (problems.length > 0) return "problems";
-  if (!loop.alive) return "loop";
   if (!supervised) return "unsupervised";
   return freshnessOf(ages[2]) === "lost" ? "unheard" : "arm";
 }
 
 /** The next thing to do. */
 export function adviceFor(bench: BenchState): Advice {
+  if (isLoopLost(bench)) return bench.loop.state === "starting" ? "starting" : "loop";
   switch (bench.status) {
     case "off":
       return adviceBeforeArming(bench);

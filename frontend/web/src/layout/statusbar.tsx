@@ -73,7 +73,7 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
   if (!loop.alive) {
     return (
       <Cell name={text.status.loop} class="is-loop is-bad">
-        <span aria-hidden="true">▲</span> {text.status.dead}
+        <span aria-hidden="true">▲</span> {text.bench.loop.states[loop.state]}
       </Cell>
     );
   }

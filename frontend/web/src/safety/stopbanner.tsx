@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
-import { clearBench } from "../api/client";
-import type { SessionState } from "../api/types";
-import { isQuickStop, isStoppedSimulation } from "../bench/status";
+import { clearBench, restartBench } from "../api/client";
+import type { BenchState, SessionState } from "../api/types";
+import { allowedOn, isLoopLost, isQuickStop, isStoppedSimulation } from "../bench/status";
 import { Problem } from "../controls/problem";
 import { perform } from "../state/actions";
 import { isLive, session } from "../state/session";
@@ -32,7 +32,8 @@ function StopNotice({ title, words, isSimulation = false, children }: StopNotice
 }
 
 /** Stays until somebody clears the fault: why it stopped, and how to go on. */
-function LatchedBench({ state }: { state: SessionState }) {
+function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState }) {
+  const isLost = isLoopLost(bench);
   const title = isQuickStop(state) ? text.stop.benchTitle : text.stop.faultTitle;
   return (
     <div class="banner is-stop">
@@ -41,10 +42,11 @@ function LatchedBench({ state }: { state: SessionState }) {
       </span>
       <div class="stop-words">
         <p role="alert">
-          <strong>{title}</strong> {state.fault?.message} {text.stop.latched}
+          <strong>{isLost ? text.stop.lostTitle : title}</strong> {state.fault?.message}{" "}
+          {!isLost && text.stop.latched}
         </p>
         <ol aria-label={text.stop.goOn}>
-          {text.stop.steps.map((step) => (
+          {(isLost ? text.stop.lostSteps : text.stop.steps).map((step) => (
             <li key={step}>{step}</li>
           ))}
         </ol>
@@ -53,11 +55,11 @@ function LatchedBench({ state }: { state: SessionState }) {
       <button
         type="button"
         class="button"
-        title={text.bench.clearHint}
-        disabled={!isLive.value}
-        onClick={() => void perform("bench.clear", clearBench)}
+        title={isLost ? text.bench.restartHint : text.bench.clearHint}
+        disabled={!isLive.value || (isLost && !allowedOn(bench).restart)}
+        onClick={() => void perform("bench.clear", isLost ? restartBench : clearBench)}
       >
-        {text.bench.clear}
+        {isLost ? text.bench.restart : text.bench.clear}
       </button>
     </div>
   );
@@ -77,7 +79,7 @@ export function StopBanners() {
           <p>{text.stop.refusedText}</p>
         </StopNotice>
       )}
-      {state?.bench?.status === "fault" && <LatchedBench state={state} />}
+      {state?.bench?.status === "fault" && <LatchedBench state={state} bench={state.bench} />}
       {state !== null && isStoppedSimulation(state) && (
         <StopNotice
           title={text.stop.simulationTitle}

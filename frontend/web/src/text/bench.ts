@@ -23,6 +23,12 @@ export const benchText = {
     simulationText: "The simulation stands still and nothing is lost. To go on, press Run.",
     benchTitle: "Quick stop.",
     faultTitle: "The bench has stopped on a fault.",
+    lostTitle: "The bench has lost its control loop.",
+    lostSteps: [
+      "If anything still moves, pull the motors' supply.",
+      "See why it was lost, and that nobody is in reach of the link.",
+      "Start the loop anew, arm, confirm the marks, and run.",
+    ],
     latched: "Both drives are without current, and stay so until somebody clears the fault.",
     goOn: "To go on",
     steps: [
@@ -61,9 +67,12 @@ export const benchText = {
     stopHint: "Take the torque down to zero on a ramp (Space)",
     clear: "Clear fault",
     clearHint: "Take the latched fault away; the bench must be armed again",
+    restart: "Start loop anew",
+    restartHint: "End loop and supervisor, by force if need be, and start both; takes seconds",
     advice: {
       problems: "It does not arm yet: see what is missing.",
-      loop: "Its loop is gone: it cannot be armed.",
+      loop: "Its loop does not tick: start it anew when it is safe.",
+      starting: "Its loop is being started…",
       unsupervised: "Its supervisor is not heard: do not arm it.",
       unheard: "It may be armed, but its deflection encoder is not heard.",
       arm: "It may be armed.",
@@ -113,8 +122,18 @@ export const benchText = {
     },
     loop: {
       heading: "Control loop",
-      alive: "alive",
-      dead: "dead",
+      states: {
+        ticking: "ticking",
+        silent: "silent",
+        gone: "gone",
+        starting: "being started",
+      },
+      since: (lapse: string) => `for ${lapse}`,
+      stoppedBy: {
+        supervisor: "The supervisor keeps both drives at zero current.",
+        server: "The server has opened the bus itself and keeps both drives at zero current.",
+      },
+      notStopped: "Nobody is known to have stopped the drives: pull the motors' supply.",
       lateness: "Lateness",
       cost: "Cost of a tick, 99 %",
       skipped: "Skipped ticks",

@@ -49,7 +49,6 @@ export const pageText = {
     late: (median: string, most: string) => `late ${median} / ${most}`,
     skipped: (count: number) => `${count} ticks skipped`,
     lateHint: "Control rate; lateness of the ticks, half of them / 99 of 100; ticks left out",
-    dead: "Loop is dead",
     recording: "Recording",
     notRecording: "off",
     connection: "Connection",

@@ -1,0 +1,65 @@
+"""Commands that wait for a bench, and a server that goes on meanwhile.
+
+A session is plain functions: a command of a bench asks its loop and lets time pass until it
+answers. Taken as a turn, such a function runs as a greenlet on the event loop's own thread, and
+where it lets time pass the event loop goes on, as at an `await`. Nothing else runs beside it.
+"""
+
+import asyncio
+import contextvars
+import functools
+import inspect
+import time
+from collections.abc import Callable
+from typing import Any, ParamSpec, TypeVar
+
+from fastapi.routing import APIRoute
+from greenlet import getcurrent, greenlet
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+class Turn(greenlet):
+    """A function on its way, which comes back for a while whenever it lets time pass."""
+
+
+async def take_turn(do: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
+    """What `do` returns or raises; other tasks go on while it lets time pass."""
+    turn = Turn(do)
+    turn.gr_context = contextvars.copy_context()
+    seconds = turn.switch(*args, **kwargs)
+    while not turn.dead:
+        try:
+            await asyncio.sleep(seconds)
+        except BaseException as error:
+            seconds = turn.throw(type(error), error, error.__traceback__)
+        else:
+            seconds = turn.switch()
+    return seconds
+
+
+def let_pass(seconds: float) -> None:
+    """Let time pass: for others in a turn, and for nobody elsewhere."""
+    turn = getcurrent()
+    if isinstance(turn, Turn) and turn.parent is not None:
+        turn.parent.switch(seconds)
+    else:
+        time.sleep(seconds)
+
+
+class TurnRoute(APIRoute):
+    """A route whose plain function is taken as a turn: it may wait for a bench."""
+
+    def __init__(self, path: str, endpoint: Callable[..., Any], **settings: Any) -> None:
+        if not inspect.iscoroutinefunction(endpoint):
+            endpoint = _build_turn(endpoint)
+        super().__init__(path, endpoint, **settings)
+
+
+def _build_turn(do: Callable[..., Any]) -> Callable[..., Any]:
+    @functools.wraps(do)
+    async def turn(**arguments: Any) -> Any:
+        return await take_turn(do, **arguments)
+
+    return turn

@@ -1,0 +1,73 @@
+"""A bench that holds a load still, in a process of its own: something to be killed.
+
+    python -m tests.hardware.standing_bench BENCH
+
+It arms, confirms the marks, runs, and goes on as the server does. It prints a line when it
+runs, and the code and the message of its fault whenever one comes to be known. A machine that
+is too busy to let it run at first is given other attempts.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+from svsa.errors import StateError
+from svsa.experiment.paper import get_figure
+from svsa.hardware.homing import STEPS
+from svsa.hardware.machine import BenchStatus
+from svsa.reference.trajectories import ConstantPosition
+from svsa.runtime.realtime.session import BenchSession
+
+WAKE_S = 1.0 / 60.0
+ATTEMPTS = 10
+
+
+def main(path: Path) -> None:
+    figure = get_figure("4a").build_configuration(load=False)
+    wanted = figure.changed(position=ConstantPosition(position_rad=0.2))
+    session = BenchSession("lab", path, wanted)
+    session.watchers = 1
+    for _ in range(ATTEMPTS):
+        try:
+            bring_to_run(session)
+            break
+        except StateError:
+            wake(session)
+            session.clear()
+    say("runs")
+    told = ""
+    while True:
+        wake(session)
+        if session.fault is not None and session.fault.message != told:
+            told = session.fault.message
+            say(f"{session.fault.code} {told}")
+
+
+def say(words: str) -> None:
+    sys.stdout.write(f"bench: {words}\n")
+    sys.stdout.flush()
+
+
+def bring_to_run(session: BenchSession) -> None:
+    session.arm()
+    wake_until(session, BenchStatus.READY)
+    for step in STEPS:
+        session.confirm_home(step.name, "a test")
+    session.start()
+    wake_until(session, BenchStatus.RUN)
+
+
+def wake(session: BenchSession) -> None:
+    session.wake(time.monotonic())
+    time.sleep(WAKE_S)
+
+
+def wake_until(session: BenchSession, status: BenchStatus) -> None:
+    while session.bench_status is not status:
+        if session.fault is not None:
+            raise StateError(session.fault.message)
+        wake(session)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
