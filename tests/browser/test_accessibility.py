@@ -104,7 +104,7 @@ def open_calls(page: Page, lab: Lab) -> None:
 
 def open_list(page: Page, lab: Lab) -> None:
     page.goto(lab.url + "/?runs=all")
-    expect(page.get_by_role("listitem").first).to_be_visible()
+    expect(page.get_by_role("rowheader").first).to_be_visible()
 
 
 def open_run(page: Page, lab: Lab) -> None:
@@ -118,7 +118,8 @@ def open_overlay(page: Page, lab: Lab) -> None:
     for choice in page.get_by_role("checkbox", name=re.compile("^Choose")).all():
         choice.check()
     page.get_by_role("button", name="Overlay 2 runs").click()
-    expect(page.get_by_role("table")).to_be_visible()
+    expect(page.get_by_role("table", name="Since the load came on")).to_be_visible()
+    expect(page.get_by_text("All settings of these runs are the same.")).to_be_visible()
 
 
 def open_trash(page: Page, lab: Lab) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from playwright.sync_api import FrameLocator, Page, Route, expect
+from playwright.sync_api import FrameLocator, Locator, Page, Route, expect
 
 from tests.lab import Lab, run_lab
 
@@ -64,6 +64,11 @@ def open_list(page: Page, lab: Lab) -> None:
     expect(page.get_by_role("heading", name=re.compile("^Runs"))).to_be_visible()
 
 
+def find_names(page: Page) -> Locator:
+    """What the runs of the table are called, from the top."""
+    return page.get_by_role("table", name="Recorded runs").locator(".run-title > :first-child")
+
+
 def find_replay(page: Page) -> FrameLocator:
     return page.frame_locator("iframe[title^='Replay of']")
 
@@ -78,42 +83,75 @@ def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, own_la
     expect(page.get_by_role("button", name="Record", exact=True)).to_be_enabled()
     page.keyboard.press("o")
     expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
-    page.get_by_role("link", name="Back to the lab").click()
+    page.get_by_role("link", name="Back to the lab", exact=True).click()
     page.get_by_role("button", name="Record", exact=True).click()
     page.get_by_role("button", name=re.compile("^Recording 0:0[1-9]")).click()
+    note = page.get_by_role("status").filter(has_text="Saved: Fig. 4A · NDOBC · σ 15 · no load")
+    expect(note).to_be_visible()
     page.get_by_role("button", name="Runs", exact=True).click()
-    row = page.get_by_role("list", name="Recorded runs").get_by_role("listitem").first
-    expect(row.get_by_role("link", name="NDOBC")).to_be_visible()
+    row = page.get_by_role("table", name="Recorded runs").get_by_role("row").nth(1)
+    expect(row.get_by_role("link", name="Fig. 4A · NDOBC · σ 15 · no load")).to_be_visible()
+    page.set_viewport_size({"width": 1440, "height": 900})
     expect(row.get_by_role("img", name=re.compile("Position error of NDOBC"))).to_be_visible()
     row.get_by_role("button", name=re.compile("^Delete")).click()
     expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
 
 
-def test_runs_are_found_by_word_and_tag_newest_first(
+def test_runs_are_found_by_what_is_seen_filtered_and_sorted(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:
     open_list(page, own_lab)
-    names = page.get_by_role("list", name="Recorded runs").get_by_role("heading")
+    names = find_names(page)
     expect(names).to_have_text([STIFF, BOTH])
-    curves = page.get_by_role("img", name=re.compile(r"Position error of NDOBC, FL: at most 12"))
-    expect(curves).to_be_visible()
     search = page.get_by_role("searchbox", name="Search")
-    search.fill("alone")
+    search.fill("alone 60")
     expect(names).to_have_text([STIFF])
+    expect(page.locator("mark")).to_have_text(["alone", "60"])
     search.fill("nothing of this kind")
     page.get_by_role("button", name="Show all runs").click()
     expect(names).to_have_text([STIFF, BOTH])
 
+    page.get_by_role("combobox", name="Law").select_option("fl")
+    expect(names).to_have_text([BOTH])
+    page.get_by_role("combobox", name="Law").select_option("")
+    page.get_by_role("button", name="σ", exact=True).click()
+    expect(names).to_have_text([BOTH, STIFF])
+    head = page.get_by_role("columnheader", name="σ")
+    expect(head).to_have_attribute("aria-sort", "ascending")
+    page.keyboard.press("Enter")
+    expect(names).to_have_text([STIFF, BOTH])
+    expect(head).to_have_attribute("aria-sort", "descending")
+
+
+def test_a_tag_is_given_on_the_page_of_a_run_and_filters_the_table(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    page.goto(f"{own_lab.url}/?run={runs[1]}")
     tags = page.get_by_role("list", name=f"Tags of {STIFF}")
     tags.get_by_role("button", name="+ tag").click()
     tags.get_by_role("textbox", name="New tag").fill("stiff")
     page.keyboard.press("Enter")
     expect(tags).to_contain_text("stiff")
+    page.get_by_role("link", name="All runs").click()
     page.get_by_role("combobox", name="Tag").select_option("stiff")
-    expect(names).to_have_text([STIFF])
+    expect(find_names(page)).to_have_text([STIFF])
+    page.get_by_role("link", name=STIFF).click()
     tags.get_by_role("button", name="Remove tag stiff").click()
-    expect(names).to_have_count(0)
+    expect(tags).not_to_contain_text("stiff")
     assert own_lab.client.get(f"/api/v1/runs/{runs[1]}").json()["tags"] == []
+
+
+def test_no_control_of_the_live_session_stands_above_a_replay(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    page.goto(f"{own_lab.url}/?run={runs[1]}")
+    expect(page.get_by_role("button", name="Branch at 0 s")).to_be_visible()
+    top = page.get_by_role("banner")
+    for name in ("Fig. 4A", "Run", "Pause", "Reset", "Record"):
+        expect(top.get_by_role("button", name=name, exact=True)).to_have_count(0)
+    expect(page.get_by_role("button", name="Quick stop")).to_be_visible()
+    top.get_by_role("link", name="Back to the lab").click()
+    expect(top.get_by_role("button", name="Record", exact=True)).to_be_visible()
 
 
 def test_a_link_opens_the_same_run_at_the_same_moment(
@@ -146,7 +184,7 @@ def test_a_run_is_renamed_and_written_about(
     notes.fill("no step at the load")
     notes.press("Enter")
     page.get_by_role("link", name="All runs").click()
-    row = page.get_by_role("listitem").filter(has=page.get_by_role("link", name="Group 3"))
+    row = page.get_by_role("row").filter(has=page.get_by_role("link", name="Group 3"))
     expect(row).to_contain_text("no step at the load")
     page.go_back()
     expect(name).to_have_value("Group 3")
@@ -165,6 +203,8 @@ def test_a_branch_is_a_private_session_that_stands_at_the_moment(
     page.get_by_role("button", name=re.compile("Remove 3 kg")).click()
     expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
     assert own_lab.client.get(path).json()["loads"] == []
+    origin = page.get_by_role("complementary", name="Private session")
+    expect(origin).to_contain_text(f"It goes on from Branch of {BOTH} at 6 s")
     assert own_lab.read()["session"] == "lab"
     page.get_by_role("link", name="Back to the shared lab").click()
     expect(page.get_by_text("Private session.")).to_have_count(0)
@@ -203,6 +243,9 @@ def test_runs_are_laid_over_one_another_from_their_load_on(
     peak = metrics["lane2"]["peak_position_error_rad"] * 57.29578
     row = page.get_by_role("row", name=f"{BOTH} · FL")
     expect(row.get_by_role("cell").nth(1)).to_have_text(f"{peak:.1f}")
+    differing = page.get_by_role("table", name="Settings that differ")
+    expect(differing.get_by_role("row", name="σ_d")).to_contain_text("N·m/rad1560")
+    expect(differing.get_by_role("row", name="Beside it")).to_contain_text("FLnothing")
     entry = page.get_by_role("button", name=f"{BOTH} · FL")
     entry.click()
     expect(entry).to_have_attribute("aria-pressed", "false")
@@ -212,7 +255,7 @@ def test_a_deleted_run_is_taken_back_at_once_or_from_the_trash(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:
     open_list(page, own_lab)
-    names = page.get_by_role("list", name="Recorded runs").get_by_role("heading")
+    names = find_names(page)
     delete = page.get_by_role("button", name=f"Delete {STIFF}")
     delete.click()
     expect(names).to_have_text([BOTH])

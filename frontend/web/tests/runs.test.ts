@@ -23,6 +23,12 @@ let writePlace: typeof WritePlace;
 let findOnset: (run: RunDetails) => number | null;
 let overlayInk: (index: number) => { colour: string; dash: readonly number[] };
 let drawSpark: typeof import("../src/runs/spark").drawSpark;
+let findWords: typeof import("../src/runs/found").findWords;
+let excerpt: typeof import("../src/runs/found").excerpt;
+let formatSetting: typeof import("../src/runs/difference").formatSetting;
+let nextSort: typeof import("../src/runs/table").nextSort;
+let followSaved: typeof import("../src/runs/saved").followSaved;
+let saved: typeof import("../src/runs/saved").saved;
 
 beforeAll(async () => {
   vi.stubGlobal("location", { search: "", pathname: "/", href: "http://lab/" });
@@ -40,6 +46,10 @@ beforeAll(async () => {
   ({ findOnset } = await import("../src/runs/onset"));
   ({ overlayInk } = await import("../src/runs/overlaid"));
   ({ drawSpark } = await import("../src/runs/spark"));
+  ({ findWords, excerpt } = await import("../src/runs/found"));
+  ({ formatSetting } = await import("../src/runs/difference"));
+  ({ nextSort } = await import("../src/runs/table"));
+  ({ followSaved, saved } = await import("../src/runs/saved"));
 });
 
 describe("a place in the address", () => {
@@ -90,5 +100,67 @@ describe("curves", () => {
     const spark = drawSpark({ time_s: [0, 1, 2, 3], lanes });
     expect(spark.peak).toBe(0.1);
     expect(spark.paths[0]?.match(/M/g)).toHaveLength(2);
+  });
+});
+
+describe("what a search has found", () => {
+  const shown = (text: string, words: string[]) =>
+    findWords(text, words).map(({ text: part, isFound }) => (isFound ? `[${part}]` : part));
+
+  it("is marked where it stands, whatever its case", () => {
+    expect(shown("Student 07", ["07", "stud"])).toEqual(["[Stud]", "ent ", "[07]"]);
+    expect(shown("aaa", ["aa"])).toEqual(["[aaa]"]);
+    expect(shown("100 %", ["%"])).toEqual(["100 ", "[%]"]);
+  });
+
+  it("is the whole text where nothing was searched for or folding moves its letters", () => {
+    expect(shown("Fig. 4A", [])).toEqual(["Fig. 4A"]);
+    expect(shown("U\u0308bung", ["übung"])).toEqual(["U\u0308bung"]);
+    expect(shown("", ["a"])).toEqual([]);
+  });
+
+  it("is in sight in a long note", () => {
+    const note = `${"before ".repeat(20)}heavy load`;
+    expect(excerpt(note, ["heavy"])).toBe("…e before before heavy load".slice(-27));
+    expect(excerpt(note, ["nowhere"])).toBe(note);
+  });
+});
+
+describe("a setting that differs", () => {
+  it("is told in the units that people read", () => {
+    const angle = { group: "Motion", name: "Amplitude", unit: "rad", values: [Math.PI / 3, null] };
+    expect(formatSetting(angle)).toEqual({ unit: "deg", values: ["60", "–"] });
+    const others = { group: "Realism", name: "x", unit: "N·m", values: [-0.25, "on", true] };
+    expect(formatSetting(others)).toEqual({ unit: "N·m", values: ["−0.25", "on", "yes"] });
+  });
+});
+
+describe("the order of the table", () => {
+  it("turns round with the second press on a column", () => {
+    expect(nextSort("-created", "name", false)).toBe("name");
+    expect(nextSort("name", "name", false)).toBe("-name");
+    expect(nextSort("name", "peak_position_error_rad", true)).toBe("-peak_position_error_rad");
+    expect(nextSort("-peak_position_error_rad", "peak_position_error_rad", true)).toBe(
+      "peak_position_error_rad",
+    );
+  });
+});
+
+describe("a recording that has ended", () => {
+  it("is saved when its file is finished, and unknown where no answer comes", async () => {
+    vi.useFakeTimers();
+    const answers = [{ state: "recording" }, { state: "complete", title: "Fig. 4A" }];
+    vi.stubGlobal("fetch", async () => Response.json(answers.shift()));
+    const done = followSaved("run-1");
+    expect(saved.value).toEqual({ stage: "saving", run: "run-1" });
+    await vi.advanceTimersByTimeAsync(1000);
+    await done;
+    expect(saved.value).toMatchObject({ stage: "saved", details: { title: "Fig. 4A" } });
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("offline")));
+    const lost = followSaved("run-2", 1000);
+    await vi.advanceTimersByTimeAsync(5000);
+    await lost;
+    expect(saved.value).toEqual({ stage: "unknown", run: "run-2" });
+    vi.useRealTimers();
   });
 });

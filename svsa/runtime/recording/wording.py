@@ -93,7 +93,7 @@ def compute_mean(reference: StiffnessReference | None) -> float | None:
 
 
 def _tell_degrees(angle_rad: float) -> str:
-    return f"{round(math.degrees(angle_rad), 3):g}°"
+    return f"{math.degrees(angle_rad):.4g}°"
 
 
 def describe_load(load: Load) -> str:

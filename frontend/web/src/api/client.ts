@@ -56,8 +56,8 @@ export const putLanes = (laws: readonly Law[]) =>
 export const putEffects = (effects: EffectsRequest) => send("put", "/effects", effects);
 export const patchActuator = (patch: ActuatorPatch) => call("patch", "/actuator", patch);
 export const patchNominal = (patch: ActuatorPatch) => call("patch", "/nominal", patch);
-export const startRecording = (name: string) =>
-  call("post", "/recording", { name, tags: [], notes: "" });
+/** The run is called by its settings until somebody names it. */
+export const startRecording = () => call("post", "/recording", { name: "", tags: [], notes: "" });
 export const stopRecording = () => call("delete", "/recording");
 export const putSpeed = (factor: Speed) => call("put", "/speed", { factor });
 export const start = () => call("post", "/start");

@@ -3,6 +3,7 @@ import { API, request, sessionName } from "./request";
 import type {
   ExportName,
   RunDetails,
+  RunDifference,
   RunList,
   RunMetrics,
   RunOrigin,
@@ -16,7 +17,9 @@ const LONG_WAIT_MS = 60_000;
 
 export interface RunsWanted {
   search: string;
-  tag: string;
+  /** Only runs that have these: facet and value, "" for any. */
+  filters: Readonly<Record<string, string>>;
+  sort: string;
   page: number;
   pageSize: number;
   isTrash: boolean;
@@ -24,10 +27,11 @@ export interface RunsWanted {
 
 const pathOf = (run: string, rest = ""): string => `runs/${encodeURIComponent(run)}${rest}`;
 
-export function listRuns({ search, tag, page, pageSize, isTrash }: RunsWanted): Promise<RunList> {
-  const query = new URLSearchParams({ page: String(page), page_size: String(pageSize) });
+export function listRuns(wanted: RunsWanted): Promise<RunList> {
+  const { search, filters, sort, page, pageSize, isTrash } = wanted;
+  const query = new URLSearchParams({ sort, page: String(page), page_size: String(pageSize) });
   if (search) query.set("search", search);
-  if (tag) query.set("tag", tag);
+  for (const [facet, value] of Object.entries(filters)) if (value) query.set(facet, value);
   if (isTrash) query.set("trash", "true");
   return request("get", `runs?${query}`) as Promise<RunList>;
 }
@@ -40,6 +44,11 @@ export const restoreRun = (run: string) =>
   request("post", pathOf(run, "/restore")) as Promise<RunSummary>;
 export const readRunOrigin = (run: string) =>
   request("get", pathOf(run, "/origin"), undefined, LONG_WAIT_MS) as Promise<RunOrigin>;
+export function readDifference(run: string, others: readonly string[]): Promise<RunDifference> {
+  const query = new URLSearchParams(others.map((other) => ["other", other]));
+  return request("get", pathOf(run, `/difference?${query}`)) as Promise<RunDifference>;
+}
+
 export const branchRun = (run: string, tick: number) =>
   request("post", pathOf(run, "/branch"), { tick }, LONG_WAIT_MS) as Promise<SessionState>;
 

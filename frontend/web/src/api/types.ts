@@ -51,6 +51,7 @@ export type Body<M extends Method, P extends SessionPath> =
 
 export type RunSummary = Schemas["RunSummary"];
 export type RunDetails = Schemas["RunDetails"];
+export type RunDifference = Schemas["RunDifference"];
 export type RunList = Schemas["RunList"];
 export type RunPatch = Schemas["RunPatch"];
 export type RunSamples = Schemas["RunSamples"];

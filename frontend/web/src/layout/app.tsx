@@ -16,6 +16,7 @@ import { Banners } from "./banners";
 import { Comparison } from "./comparison";
 import { Login } from "./login";
 import { Readout } from "./readout";
+import { SavedNote } from "./savednote";
 import { StatusBar } from "./statusbar";
 import { TopBar } from "./topbar";
 import { View } from "./view";
@@ -31,7 +32,7 @@ export function App() {
         </a>
       )}
       <TopBar />
-      {state?.bench && <BenchStrip bench={state.bench} />}
+      {at.kind === "lab" && state?.bench && <BenchStrip bench={state.bench} />}
       <PrivateBanner />
       <Banners />
       <HelpSheet />
@@ -53,6 +54,7 @@ export function App() {
       <LearnPanel />
       {state !== null && at.kind === "lab" && <Tour />}
       <CallsDrawer />
+      <SavedNote />
       <StatusBar />
     </>
   );

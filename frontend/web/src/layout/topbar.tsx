@@ -1,5 +1,7 @@
 import { HelpButton } from "../keys/help";
 import { LearnButton } from "../learning/panel";
+import { place } from "../runs/place";
+import { PlaceLink } from "../runs/placelink";
 import { RunsButton } from "../runs/runs";
 import { CallsButton } from "../script/drawer";
 import { theme, toggleTheme } from "../state/preferences";
@@ -31,12 +33,18 @@ function ThemeButton() {
 
 export function TopBar() {
   const state = session.value;
+  const isLab = place.value.kind === "lab";
   return (
     <header class="topbar">
       <h1>
         {text.name} <span>{text.subtitle}</span>
       </h1>
-      {state && (
+      {!isLab && (
+        <PlaceLink to={{ kind: "lab" }} class="button">
+          ← {text.runs.back}
+        </PlaceLink>
+      )}
+      {isLab && state && (
         <fieldset class="topbar-controls" disabled={!isLive.value} aria-label={text.session}>
           <FigurePicker state={state} />
           {state.bench === null && <Transport state={state} />}

@@ -9,7 +9,6 @@ import { text } from "../text/en";
 import { putIntoTrash } from "./list";
 import { goTo, linkTo } from "./place";
 import { attempt } from "./problem";
-import { nameOf } from "./words";
 
 const words = text.run;
 const KINDS: readonly (ExportName | "html")[] = ["csv", "parquet", "mat", "mcap", "html"];
@@ -83,7 +82,7 @@ export function RunActions({ run, moment }: { run: RunDetails; moment: number })
       <CopyButton read={link} hint={words.linkHint}>
         {words.link}
       </CopyButton>
-      <CopyButton read={() => makeRunScript(run.id, nameOf(run))} hint={words.scriptHint}>
+      <CopyButton read={() => makeRunScript(run.id, run.title)} hint={words.scriptHint}>
         {words.script}
       </CopyButton>
       <Exports run={run} />

@@ -1,5 +1,5 @@
-/** The list of runs as the server gives it for a search, a tag and a page. */
-import { effect, signal } from "@preact/signals";
+/** The list of runs as the server gives it for a search, filters, an order and a page. */
+import { batch, computed, effect, signal } from "@preact/signals";
 import { changeRun, deleteRun, listRuns, restoreRun } from "../api/runs";
 import type { RunList, RunPatch, RunSummary } from "../api/types";
 import { attempt } from "./problem";
@@ -7,8 +7,20 @@ import { attempt } from "./problem";
 export const PAGE_SIZE = 20;
 export const MOST_CHOSEN = 6;
 
+export const FILTERS = ["law", "load", "figure", "plant", "tag"] as const;
+export type Filter = (typeof FILTERS)[number];
+const UNFILTERED: Readonly<Record<Filter, string>> = {
+  law: "",
+  load: "",
+  figure: "",
+  plant: "",
+  tag: "",
+};
+export const NEWEST_FIRST = "-created";
+
 export const search = signal("");
-export const tag = signal("");
+export const filters = signal(UNFILTERED);
+export const sort = signal(NEWEST_FIRST);
 export const pageNumber = signal(1);
 export const isTrash = signal(false);
 export const found = signal<RunList | null>(null);
@@ -24,7 +36,8 @@ export async function refresh(): Promise<void> {
   const mine = newest;
   const wanted = {
     search: search.peek().trim(),
-    tag: tag.peek(),
+    filters: filters.peek(),
+    sort: sort.peek(),
     page: pageNumber.peek(),
     pageSize: PAGE_SIZE,
     isTrash: isTrash.peek(),
@@ -41,17 +54,34 @@ export async function refresh(): Promise<void> {
 /** Asks again whenever what is asked for changes; returns the function that ends it. */
 export const followList = (): (() => void) =>
   effect(() => {
-    void [search.value, tag.value, pageNumber.value, isTrash.value];
+    void [search.value, filters.value, sort.value, pageNumber.value, isTrash.value];
     void refresh();
   });
 
-/** Another search, tag or trash begins on its first page. */
-export function ask(change: { search?: string; tag?: string; isTrash?: boolean }): void {
-  pageNumber.value = 1;
-  if (change.search !== undefined) search.value = change.search;
-  if (change.tag !== undefined) tag.value = change.tag;
-  if (change.isTrash !== undefined) isTrash.value = change.isTrash;
+interface Asked {
+  search?: string;
+  filters?: Partial<Record<Filter, string>>;
+  sort?: string;
+  isTrash?: boolean;
 }
+
+/** Another search, filter, order or trash begins on its first page. */
+export function ask(change: Asked): void {
+  batch(() => {
+    pageNumber.value = 1;
+    if (change.search !== undefined) search.value = change.search;
+    if (change.filters !== undefined) filters.value = { ...filters.peek(), ...change.filters };
+    if (change.sort !== undefined) sort.value = change.sort;
+    if (change.isTrash !== undefined) isTrash.value = change.isTrash;
+  });
+}
+
+/** Whether something keeps runs off the list. */
+export const isNarrowed = computed(
+  () => search.value.trim() !== "" || FILTERS.some((filter) => filters.value[filter] !== ""),
+);
+
+export const showAll = (): void => ask({ search: "", filters: UNFILTERED });
 
 export function toggleChosen(run: string): void {
   const before = chosen.peek();

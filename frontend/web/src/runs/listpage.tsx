@@ -1,63 +1,23 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../text/en";
+import { Finder } from "./finder";
 import {
-  ask,
   chosen,
   followList,
   found,
+  isNarrowed,
   isTrash,
   PAGE_SIZE,
   pageNumber,
   refresh,
-  search,
-  tag,
+  showAll,
 } from "./list";
 import { goTo } from "./place";
 import { PlaceLink } from "./placelink";
-import { RunRow } from "./row";
+import { RunTable } from "./table";
 
 const words = text.runs;
 const RECORDING_MS = 3000;
-
-function Finder() {
-  const tags = Object.entries(found.value?.tags ?? {});
-  return (
-    <search class="runs-finder">
-      <label>
-        <span class="visually-hidden">{words.search}</span>
-        <input
-          type="search"
-          maxLength={200}
-          placeholder={words.searchHint}
-          value={search.value}
-          onInput={(event) => ask({ search: event.currentTarget.value })}
-        />
-      </label>
-      {tags.length > 0 && (
-        <label>
-          <span class="visually-hidden">{words.tag}</span>
-          <select value={tag.value} onChange={(event) => ask({ tag: event.currentTarget.value })}>
-            <option value="">{words.anyTag}</option>
-            {tags.map(([name, count]) => (
-              <option key={name} value={name}>
-                {words.tagCount(name, count)}
-              </option>
-            ))}
-          </select>
-        </label>
-      )}
-      <button
-        type="button"
-        class="button"
-        aria-pressed={isTrash.value}
-        title={words.trashHint}
-        onClick={() => ask({ isTrash: !isTrash.peek() })}
-      >
-        {words.trash}
-      </button>
-    </search>
-  );
-}
 
 function Overlayer() {
   const count = chosen.value.length;
@@ -88,12 +48,12 @@ function Overlayer() {
 }
 
 function Empty() {
-  if (isTrash.value) return <p class="runs-empty">{words.emptyTrash}</p>;
-  if (search.value.trim() !== "" || tag.value !== "") {
+  if (isTrash.value && !isNarrowed.value) return <p class="runs-empty">{words.emptyTrash}</p>;
+  if (isNarrowed.value) {
     return (
       <div class="runs-empty">
         <p>{words.nothing}</p>
-        <button type="button" class="button" onClick={() => ask({ search: "", tag: "" })}>
+        <button type="button" class="button" onClick={showAll}>
           {words.showAll}
         </button>
       </div>
@@ -120,20 +80,37 @@ function Pager({ total }: { total: number }) {
   const go = (page: number) => {
     pageNumber.value = page;
   };
+  const first = (now - 1) * PAGE_SIZE + 1;
   return (
     <nav class="pager" aria-label={words.pages}>
-      <button type="button" class="button" disabled={now <= 1} onClick={() => go(now - 1)}>
-        {words.newer}
+      <button
+        type="button"
+        class="button is-icon"
+        aria-label={words.pageBefore}
+        title={words.pageBefore}
+        disabled={now <= 1}
+        onClick={() => go(now - 1)}
+      >
+        ‹
       </button>
-      <span aria-live="polite">{words.page(now, pages)}</span>
-      <button type="button" class="button" disabled={now >= pages} onClick={() => go(now + 1)}>
-        {words.older}
+      <span aria-live="polite">
+        {words.shown(first, Math.min(first + PAGE_SIZE - 1, total), total)}
+      </span>
+      <button
+        type="button"
+        class="button is-icon"
+        aria-label={words.pageAfter}
+        title={words.pageAfter}
+        disabled={now >= pages}
+        onClick={() => go(now + 1)}
+      >
+        ›
       </button>
     </nav>
   );
 }
 
-/** Every recorded run, newest first. */
+/** Every recorded run as a table, newest first. */
 export function ListPage() {
   useEffect(followList, []);
   const list = found.value;
@@ -150,18 +127,12 @@ export function ListPage() {
           {words.title} {list && <small class="unit">{words.count(list.total)}</small>}
         </h2>
         <Finder />
+        {list && <Pager total={list.total} />}
         <Overlayer />
       </div>
       {list === null && <p class="runs-empty">{words.loading}</p>}
       {list?.runs.length === 0 && <Empty />}
-      {list && list.runs.length > 0 && (
-        <ul class="run-rows" aria-label={words.list}>
-          {list.runs.map((run) => (
-            <RunRow key={run.id} run={run} />
-          ))}
-        </ul>
-      )}
-      {list && <Pager total={list.total} />}
+      {list && list.runs.length > 0 && <RunTable runs={list.runs} />}
     </>
   );
 }

@@ -5,7 +5,6 @@ import type { Ink, PlotColour } from "../plots/definitions";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
 import { findOnset } from "./onset";
-import { nameOf } from "./words";
 
 export const CHANNELS = ["position_error_rad", "stiffness_error_nm_per_rad"] as const;
 export type OverlayChannel = (typeof CHANNELS)[number];
@@ -67,7 +66,7 @@ async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
   return run.lanes.map((lane, index) => ({
     key: `${id}.${lane}`,
     run: id,
-    runName: nameOf(run),
+    runName: run.title,
     lane: run.lane_names[index] ?? lane,
     isAlone: run.lanes.length === 1,
     hasOnset: onset !== null,

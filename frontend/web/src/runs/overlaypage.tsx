@@ -3,6 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { Swatch } from "../plots/legend";
 import { palette } from "../plots/palette";
 import { text } from "../text/en";
+import { DifferenceTable } from "./differencetable";
 import { MetricsTable } from "./metricstable";
 import { CHANNELS, nameCurve, type Overlaid, type OverlayChannel, readOverlaid } from "./overlaid";
 import { OverlayChart } from "./overlaychart";
@@ -124,6 +125,7 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
             <OverlayPlot key={channel} channel={channel} curves={curves} hidden={hidden} />
           ))}
           <MetricsTable curves={curves} />
+          <DifferenceTable runs={key.split(",")} />
         </div>
       )}
     </>

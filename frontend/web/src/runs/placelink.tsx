@@ -4,6 +4,7 @@ import { goTo, linkTo, type Place } from "./place";
 interface PlaceLinkProps {
   to: Place;
   class?: string;
+  title?: string;
   children: ComponentChildren;
 }
 
@@ -12,7 +13,7 @@ export function PlaceLink({ to, children, ...rest }: PlaceLinkProps) {
   return (
     <a
       href={linkTo(to)}
-      class={rest.class}
+      {...rest}
       onClick={(event) => {
         if (event.button !== 0 || event.ctrlKey || event.metaKey || event.shiftKey) return;
         event.preventDefault();

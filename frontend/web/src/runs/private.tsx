@@ -1,16 +1,19 @@
 import { isPrivate } from "../api/request";
-import { phase } from "../state/session";
+import { phase, session } from "../state/session";
 import { text } from "../text/en";
+import { SessionOrigin } from "./sessionorigin";
 
 /** Says that the page shows a private session, or that it has ended, and leads back. */
 export function PrivateBanner() {
   if (!isPrivate) return null;
+  const branch = session.value?.branch_of;
   const isEnded = phase.value === "ended";
   return (
     <aside class="private-banner" aria-label={text.private.label}>
       <p role="status">
         <strong>{isEnded ? text.private.endedTitle : text.private.title}</strong>{" "}
-        {isEnded ? text.private.endedText : text.private.text}
+        {isEnded ? text.private.endedText : text.private.text}{" "}
+        {branch && <SessionOrigin runId={branch.run_id} tick={branch.tick} />}
       </p>
       <a class={`button ${isEnded ? "is-primary" : ""}`} href={location.pathname}>
         {text.private.back}

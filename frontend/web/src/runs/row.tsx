@@ -1,20 +1,17 @@
 import { useEffect, useState } from "preact/hooks";
 import type { RunSummary } from "../api/types";
 import { markOf, PlantMark } from "../layout/plantmark";
-import { inkOf } from "../plots/inks";
-import { Swatch } from "../plots/legend";
 import { text } from "../text/en";
-import { formatNumber, toDegrees } from "../units";
+import { COLUMNS } from "./columns";
+import { excerpt, searchedWords } from "./found";
 import { chosen, MOST_CHOSEN, putIntoTrash, takeBack, toggleChosen } from "./list";
+import { Marked } from "./marked";
+import { OriginLink } from "./originlink";
 import { PlaceLink } from "./placelink";
 import { type Glance, keepGlance } from "./spark";
 import { Sparkline } from "./sparkline";
-import { Tags } from "./tags";
-import { formatDuration, formatMoment, nameOf } from "./words";
 
 const words = text.runs;
-const degrees = (rad: number | undefined) =>
-  formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);
 
 /** Null until it is read, and where the run cannot be read. */
 function useGlance({ id, ticks }: RunSummary): Glance | null {
@@ -30,29 +27,6 @@ function useGlance({ id, ticks }: RunSummary): Glance | null {
     };
   }, [id, ticks]);
   return glance;
-}
-
-function LaneNumbers({ run, names }: { run: RunSummary; names: readonly string[] }) {
-  return (
-    <dl class="run-lanes">
-      {run.lanes.map((lane, index) => (
-        <div key={lane}>
-          <dt>
-            <Swatch look={inkOf(index + 1)} />
-            {names[index] ?? lane}
-          </dt>
-          <dd>
-            <span class="unit">{words.rms}</span>{" "}
-            {degrees(run.metrics?.[index]?.rms_position_error_rad)}°
-          </dd>
-          <dd>
-            <span class="unit">{words.peak}</span>{" "}
-            {degrees(run.metrics?.[index]?.peak_position_error_rad)}°
-          </dd>
-        </div>
-      ))}
-    </dl>
-  );
 }
 
 function State({ run }: { run: RunSummary }) {
@@ -71,7 +45,7 @@ function Choose({ run }: { run: RunSummary }) {
     <input
       type="checkbox"
       class="run-choose"
-      aria-label={words.choose(nameOf(run))}
+      aria-label={words.choose(run.title)}
       checked={isChosen}
       disabled={run.ticks === 0 || (!isChosen && chosen.value.length >= MOST_CHOSEN)}
       onChange={() => toggleChosen(run.id)}
@@ -79,56 +53,104 @@ function Choose({ run }: { run: RunSummary }) {
   );
 }
 
-/** A run in the list: how its error went, what it is called, how good it was. */
+function Remove({ run }: { run: RunSummary }) {
+  return (
+    <button
+      type="button"
+      class="button is-icon run-delete"
+      aria-label={words.removeThis(run.title)}
+      title={words.remove}
+      disabled={run.state === "recording"}
+      onClick={() => void putIntoTrash(run.id)}
+    >
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        <path d="M6 1h4l.6 1.2H14v1.5H2V2.2h3.4zM3 5h10l-.7 10H3.7zm3 1.800l.3 6.400h1.200l-.2-6.400zm2.700 0l-.2 6.400h1.200l.3-6.400z" />
+      </svg>
+    </button>
+  );
+}
+
+/** What the run is called, and what people wrote to it, as far as there is room. */
+function Name({ run }: { run: RunSummary }) {
+  const notes = [run.notes, run.message].filter((note) => note !== "").join(" · ");
+  return (
+    <th scope="row" class="run-what">
+      <div class="run-title">
+        {run.deleted === null ? (
+          <PlaceLink
+            to={{ kind: "run", run: run.id, timeS: 0 }}
+            class={run.name === "" ? "is-own" : "is-given"}
+            title={run.title}
+          >
+            <Marked>{run.title}</Marked>
+          </PlaceLink>
+        ) : (
+          <span title={run.title}>
+            <Marked>{run.title}</Marked>
+          </span>
+        )}
+        <State run={run} />
+        <PlantMark kind={markOf(run.plant)} />
+        {run.tags.map((tag) => (
+          <span key={tag} class="run-tag">
+            <Marked>{tag}</Marked>
+          </span>
+        ))}
+        {run.branch_of && <OriginLink origin={run.branch_of} />}
+        {notes !== "" && (
+          <span class="run-notes" title={notes}>
+            <Marked>{excerpt(notes, searchedWords.value)}</Marked>
+          </span>
+        )}
+      </div>
+    </th>
+  );
+}
+
+/** A run in the table: what it is called, how its error went, how it was set, how good it was. */
 export function RunRow({ run }: { run: RunSummary }) {
-  const name = nameOf(run);
   const isDeleted = run.deleted !== null;
   const glance = useGlance(run);
   return (
-    <li class="run-row">
-      {!isDeleted && <Choose run={run} />}
-      <Sparkline glance={glance} />
-      <div class="run-what">
-        <h3>
-          {isDeleted ? (
-            name
-          ) : (
-            <PlaceLink to={{ kind: "run", run: run.id, timeS: 0 }}>{name}</PlaceLink>
-          )}
-          <State run={run} />
-          <PlantMark kind={markOf(run.plant)} />
-        </h3>
-        <p class="run-when">
-          {formatMoment(run.created)} · {formatDuration(run.duration_s)}
-          {run.notes !== "" && <span class="run-notes"> · {run.notes}</span>}
-          {run.message !== "" && <span class="run-notes"> · {run.message}</span>}
-        </p>
-        {!isDeleted && <Tags run={run} />}
-      </div>
-      <LaneNumbers run={run} names={glance?.lanes ?? []} />
-      {isDeleted ? (
-        <button
-          type="button"
-          class="button"
-          aria-label={words.restoreThis(name)}
-          onClick={() => void takeBack(run.id)}
-        >
-          {words.restore}
-        </button>
-      ) : (
-        <button
-          type="button"
-          class="button is-icon run-delete"
-          aria-label={words.removeThis(name)}
-          title={words.remove}
-          disabled={run.state === "recording"}
-          onClick={() => void putIntoTrash(run.id)}
-        >
-          <svg viewBox="0 0 16 16" aria-hidden="true">
-            <path d="M6 1h4l.6 1.2H14v1.5H2V2.2h3.4zM3 5h10l-.7 10H3.7zm3 1.800l.3 6.400h1.200l-.2-6.400zm2.700 0l-.2 6.400h1.200l.3-6.400z" />
-          </svg>
-        </button>
-      )}
-    </li>
+    <tr class={`run-row ${run.name === "" ? "is-auto" : ""}`}>
+      <td class="run-pick">{!isDeleted && <Choose run={run} />}</td>
+      <Name run={run} />
+      <td class="run-spark">
+        <Sparkline glance={glance} />
+      </td>
+      {COLUMNS.map(({ key, label, isNumber, isInName, show, hintOf }) => {
+        const value = show(run);
+        const isEmpty = value === null || value === "";
+        const look = `${isNumber ? "is-number" : ""} ${isInName ? "is-in-name" : ""}`;
+        return (
+          <td
+            key={key}
+            class={`run-${key} ${look} ${isEmpty ? "is-empty" : ""}`}
+            title={hintOf?.(run)}
+          >
+            {label && (
+              <span class="run-label" aria-hidden="true">
+                {label}{" "}
+              </span>
+            )}
+            {isEmpty ? "–" : value}
+          </td>
+        );
+      })}
+      <td class="run-act">
+        {isDeleted ? (
+          <button
+            type="button"
+            class="button is-small"
+            aria-label={words.restoreThis(run.title)}
+            onClick={() => void takeBack(run.id)}
+          >
+            {words.restore}
+          </button>
+        ) : (
+          <Remove run={run} />
+        )}
+      </td>
+    </tr>
   );
 }

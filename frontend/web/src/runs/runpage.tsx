@@ -4,12 +4,13 @@ import type { RunDetails, RunSummary } from "../api/types";
 import { text } from "../text/en";
 import { RunActions } from "./actions";
 import { patchRun } from "./list";
+import { OriginLink } from "./originlink";
 import { keepMoment } from "./place";
 import { PlaceLink } from "./placelink";
 import { attempt } from "./problem";
 import { ReplayFrame } from "./replayframe";
 import { Tags } from "./tags";
-import { formatDuration, formatMoment, nameOf } from "./words";
+import { formatDuration, formatMoment } from "./words";
 
 const words = text.run;
 
@@ -53,11 +54,11 @@ function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummar
   };
   return (
     <div class="run-about">
-      <h2 class="visually-hidden">{nameOf(run)}</h2>
+      <h2 class="visually-hidden">{run.title}</h2>
       <div class="run-line">
         <Written
           label={words.name}
-          hint={run.id}
+          hint={run.settings?.name || run.id}
           class="run-name"
           longest={200}
           value={run.name}
@@ -66,6 +67,8 @@ function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummar
         <span class="run-when">
           {formatMoment(run.created)} · {formatDuration(run.duration_s)}
         </span>
+        {run.name !== "" && run.settings && <span class="run-when">{run.settings.name}</span>}
+        {run.branch_of && <OriginLink origin={run.branch_of} />}
         <Tags run={run} onChanged={onChanged} />
       </div>
       <Written
@@ -130,7 +133,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
         <About run={run} onChanged={(changed) => setRun({ ...run, ...changed })} />
         <RunActions run={run} moment={moment} />
       </div>
-      <ReplayFrame run={id} name={nameOf(run)} startS={timeS} onMoment={follow} />
+      <ReplayFrame run={id} name={run.title} startS={timeS} onMoment={follow} />
     </>
   );
 }

@@ -6,7 +6,6 @@ import { OverlayPage } from "./overlaypage";
 import { type Place, place, toggleRuns } from "./place";
 import { runsProblem } from "./problem";
 import { RunPage } from "./runpage";
-import { nameOf } from "./words";
 
 function Inside({ at }: { at: Exclude<Place, { kind: "lab" }> }) {
   if (at.kind === "list") return <ListPage />;
@@ -21,7 +20,7 @@ function Undo() {
     <div class="undo" role="status" hidden={run === null}>
       {run && (
         <>
-          <span>{text.runs.deleted(nameOf(run))}</span>
+          <span>{text.runs.deleted(run.title)}</span>
           <button type="button" class="button" onClick={() => void takeBack(run.id)}>
             {text.runs.undo}
           </button>

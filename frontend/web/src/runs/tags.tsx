@@ -23,7 +23,7 @@ export function Tags({ run, onChanged }: TagsProps) {
     if (tag !== "" && !run.tags.includes(tag)) void put([...run.tags, tag]);
   };
   return (
-    <ul class="tags" aria-label={text.runs.tagsOf(run.name || run.id)}>
+    <ul class="tags" aria-label={text.runs.tagsOf(run.title)}>
       {run.tags.map((tag) => (
         <li key={tag} class="tag">
           {tag}

@@ -1,8 +1,5 @@
 /** A run in words. */
-import type { RunSummary } from "../api/types";
 import { text } from "../text/en";
-
-export const nameOf = (run: Pick<RunSummary, "id" | "name">): string => run.name || run.id;
 
 const DAY = new Intl.DateTimeFormat("en-GB", {
   day: "numeric",
@@ -16,6 +13,20 @@ const DAY = new Intl.DateTimeFormat("en-GB", {
 export function formatMoment(iso: string): string {
   const moment = new Date(iso);
   return Number.isNaN(moment.getTime()) ? iso : DAY.format(moment);
+}
+
+const SHORT = new Intl.DateTimeFormat("en-GB", {
+  day: "numeric",
+  month: "short",
+  hour: "2-digit",
+  minute: "2-digit",
+});
+const SHORT_FOR_MS = 300 * 86_400_000;
+
+/** As `formatMoment`; the year only where it may be doubted. */
+export function formatMomentShort(iso: string): string {
+  const isRecent = Date.now() - new Date(iso).getTime() < SHORT_FOR_MS;
+  return isRecent ? SHORT.format(new Date(iso)) : formatMoment(iso);
 }
 
 export function formatDuration(seconds: number): string {

@@ -10,9 +10,8 @@ import {
   stopRecording,
 } from "../api/client";
 import type { SessionState } from "../api/types";
-import { text } from "../text/en";
 import { perform } from "./actions";
-import { laneNames, otherLaw, rivalsOf } from "./lanes";
+import { otherLaw, rivalsOf } from "./lanes";
 import { hungWeights, nextWeight } from "./load";
 
 /** Names of the controls that show why a command was refused. */
@@ -27,8 +26,7 @@ export function toggleRun(state: SessionState): Promise<boolean> {
 }
 
 export function toggleRecording({ recording }: SessionState): Promise<boolean> {
-  const begin = () => startRecording(text.compare.versus(laneNames.peek()));
-  return perform(CONTROL.session, recording === null ? begin : stopRecording);
+  return perform(CONTROL.session, recording === null ? startRecording : stopRecording);
 }
 
 export function toggleCompare(state: SessionState): Promise<boolean> {

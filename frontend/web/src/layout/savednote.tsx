@@ -1,0 +1,51 @@
+import type { RunDetails } from "../api/types";
+import { PlaceLink } from "../runs/placelink";
+import { saved } from "../runs/saved";
+import { formatDuration } from "../runs/words";
+import { text } from "../text/en";
+
+const words = text.recording;
+
+function told({ state, title, duration_s: durationS, message }: RunDetails): [string, string] {
+  if (state === "complete") return [words.saved, `${title} · ${formatDuration(durationS)}`];
+  return [words.savedPartly, `${title} · ${formatDuration(durationS)}. ${message}`];
+}
+
+/** After a recording: that it is being saved, and then under which name it is found. */
+export function SavedNote() {
+  const now = saved.value;
+  const [head, rest] =
+    now === null
+      ? ["", ""]
+      : now.stage === "saved"
+        ? told(now.details)
+        : now.stage === "saving"
+          ? [words.saving, ""]
+          : [words.savedUnknown, ""];
+  const close = () => {
+    saved.value = null;
+  };
+  return (
+    <div class="undo saved" role="status" hidden={now === null}>
+      {now && (
+        <>
+          <span>
+            <strong>{head}</strong> {rest}
+          </span>
+          {now.stage === "saved" && (
+            <span onClickCapture={close}>
+              <PlaceLink to={{ kind: "run", run: now.run, timeS: 0 }} class="button">
+                {words.open}
+              </PlaceLink>
+            </span>
+          )}
+          {now.stage !== "saving" && (
+            <button type="button" class="quiet" aria-label={text.runs.dismiss} onClick={close}>
+              ✕
+            </button>
+          )}
+        </>
+      )}
+    </div>
+  );
+}
