@@ -119,7 +119,7 @@ def open_overlay(page: Page, lab: Lab) -> None:
         choice.check()
     page.get_by_role("button", name="Overlay 2 runs").click()
     expect(page.get_by_role("table", name="Since the load came on")).to_be_visible()
-    expect(page.get_by_text("All settings of these runs are the same.")).to_be_visible()
+    expect(page.get_by_role("table", name="Settings that differ")).to_be_visible()
 
 
 def open_trash(page: Page, lab: Lab) -> None:
