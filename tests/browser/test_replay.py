@@ -195,6 +195,40 @@ def test_a_click_goes_there_and_a_drag_zooms(page: Page, exported: Path) -> None
     expect(whole).to_be_disabled()
 
 
+CURVE = """plot => {
+    const canvas = plot.querySelector("canvas");
+    const { width, height } = canvas;
+    const pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data;
+    const middles = [];
+    for (let x = Math.round(width * 0.3); x < width * 0.8; x++) {
+        let weight = 0, sum = 0;
+        for (let y = 0; y < height; y++) {
+            const [red, , blue, alpha] = pixels.subarray(4 * (y * width + x));
+            const ink = blue - red > 60 ? alpha : 0;
+            weight += ink;
+            sum += ink * y;
+        }
+        middles.push(sum / weight);
+    }
+    return middles;
+}"""
+
+
+@pytest.mark.browser
+def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
+    """A rise of 40 pixels over some hundreds, drawn between whole pixels: to a fifth of one."""
+    samples, mass = make_run(ticks=50, lanes=1)
+    samples[:, :, CHANNELS.index("position_rad")] = np.linspace(0.0, 0.02, 50)[:, None]
+    samples[:, :, CHANNELS.index("position_reference_rad")] = np.nan
+    path = write_page(tmp_path, ("FL",), samples=samples, load_mass_kg=mass)
+    open_file(page, path)
+    middles = page.locator('[data-plot="position"]').evaluate(CURVE)
+    across = np.arange(len(middles))
+    assert np.ptp(middles) > 15
+    line = np.polyval(np.polyfit(across, middles, 1), across)
+    assert np.std(middles - line) < 0.1
+
+
 @pytest.mark.browser
 def test_the_run_tells_about_itself(page: Page, exported: Path) -> None:
     watch = open_file(page, exported)

@@ -137,6 +137,7 @@ const timeAxis = (isLast: boolean): uPlot.Axis => ({
   values: (_, splits) => splits.map((value) => (isLast ? text.plots.timeTick(value) : "")),
 });
 
+/** Not moved to whole pixels, which would turn a slow curve into steps. */
 function drawnCurve(curve: Curve): uPlot.Series {
   return {
     label: curve.label,
@@ -144,5 +145,6 @@ function drawnCurve(curve: Curve): uPlot.Series {
     width: curve.width,
     dash: [...curve.dash],
     points: { show: false },
+    pxAlign: 0,
   };
 }

@@ -104,5 +104,6 @@ function drawn(curve: Overlaid): uPlot.Series {
     width: curve.ink.width,
     dash: [...curve.ink.dash],
     points: { show: false },
+    pxAlign: 0,
   };
 }
