@@ -245,3 +245,24 @@ def test_eight_plots_do_not_scroll_the_page(page: Page, lab: Lab) -> None:
     expect(find_axis(page)).to_be_in_viewport(ratio=1)
     heights = page.evaluate("() => [document.documentElement.scrollHeight, window.innerHeight]")
     assert heights[0] == heights[1]
+
+
+def test_the_last_event_stands_still_beside_the_plots(page: Page, lab: Lab) -> None:
+    open_page(page, lab)
+    page.keyboard.press("z")
+    expect(page.get_by_text("No event yet")).to_be_visible()
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
+    title = page.locator(".zoom-title")
+    expect(title).to_have_text(re.compile(r"[\d.]+ s: 3 kg load on"))
+    onset = lab.read()["loads"][0]["start_s"]
+    wait_for_samples(page, onset + 1.5)
+    page.wait_for_timeout(300)
+    picture = "canvas => canvas.toDataURL()"
+    live, zoom = find_plot(page, "Position").locator("canvas").all()
+    before = live.evaluate(picture), zoom.evaluate(picture)
+    wait_for_samples(page, onset + 2.5)
+    page.wait_for_timeout(300)
+    assert live.evaluate(picture) != before[0]
+    assert zoom.evaluate(picture) == before[1]
+    page.keyboard.press("z")
+    expect(find_plot(page, "Position").locator("canvas")).to_have_count(1)

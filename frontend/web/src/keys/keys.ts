@@ -4,6 +4,7 @@ import { pause } from "../api/client";
 import type { SessionState } from "../api/types";
 import { canHold, hold, letGo } from "../bench/hold";
 import { closeNewest } from "../panel/escape";
+import { toggleZoom } from "../plots/eventzoom";
 import { place, toggleRuns } from "../runs/place";
 import { pressStop } from "../safety/stop";
 import { toggleDrawer } from "../script/drawer";
@@ -22,7 +23,10 @@ import { type Command, endsHold, findCommand, focusOf } from "./shortcuts";
 const HOLD_GRIP = "key";
 export const isHelpOpen = signal(false);
 
-type SessionCommand = Exclude<Command, "hold" | "stop" | "runs" | "calls" | "help" | "close">;
+type SessionCommand = Exclude<
+  Command,
+  "hold" | "zoom" | "stop" | "runs" | "calls" | "help" | "close"
+>;
 
 /** No key starts a motor: on a bench Space only stops. */
 function answerRun(state: SessionState): Promise<boolean> | undefined {
@@ -58,6 +62,7 @@ export function answerKey(event: KeyboardEvent): void {
   event.stopPropagation();
   if (command === "stop") void pressStop();
   else if (command === "hold") hold(HOLD_GRIP);
+  else if (command === "zoom") toggleZoom();
   else if (command === "runs") toggleRuns();
   else if (command === "calls") toggleDrawer();
   else if (command === "help") isHelpOpen.value = !isHelpOpen.peek();

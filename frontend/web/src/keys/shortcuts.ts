@@ -7,6 +7,7 @@ export type Command =
   | "load"
   | "compare"
   | "hold"
+  | "zoom"
   | "runs"
   | "calls"
   | "help"
@@ -26,6 +27,7 @@ const COMMANDS: Readonly<Record<string, Command>> = {
   l: "load",
   c: "compare",
   d: "hold",
+  z: "zoom",
   o: "runs",
   p: "calls",
   "?": "help",

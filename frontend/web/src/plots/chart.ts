@@ -9,7 +9,7 @@ import type { Bound, Trace } from "./definitions";
 import { StrokeLayer } from "./layer";
 import { drawBeginning, drawBounds, drawCursorSamples, drawEvents } from "./marks";
 import { includeBounds, niceRange } from "./range";
-import { shownRing, shownSpan } from "./span";
+import type { ChartView } from "./span";
 
 const MARGIN_PX = 6;
 
@@ -25,6 +25,7 @@ export class Chart {
     host: HTMLElement,
     traces: readonly Trace[],
     private readonly leastSpan: number,
+    private readonly view: ChartView,
   ) {
     this.#curves = traces.map((trace) => new Curve(trace));
     this.#shown = this.#curves;
@@ -46,8 +47,8 @@ export class Chart {
   }
 
   draw(): void {
-    const ring = shownRing();
-    const span = shownSpan();
+    const ring = this.view.ring();
+    const span = this.view.span();
     const pixels = this.#plot.bbox.width / uPlot.pxRatio;
     for (const curve of this.#curves) {
       const perBucket = curve.fill(ring, span, pixels);
@@ -83,13 +84,13 @@ export class Chart {
     const { min = 0, max = 1 } = scales.y as uPlot.Scale;
     const { width, height } = bbox;
     if (this.#perBucketS > 0 && width > 0 && height > 0) {
-      const frame = { ring: shownRing(), span: shownSpan(), min, max, width, height };
+      const frame = { ring: this.view.ring(), span: this.view.span(), min, max, width, height };
       this.#layer.draw({ ...frame, shown: this.#shown }, this.#perBucketS);
       this.#layer.paint(ctx, bbox.left, bbox.top);
     }
     drawBounds(this.#plot, this.#bounds);
-    drawBeginning(this.#plot, this.#shown);
-    drawCursorSamples(this.#plot, this.#shown);
+    drawBeginning(this.#plot, this.#shown, this.view.ring());
+    if (this.view.hasCursors) drawCursorSamples(this.#plot, this.#shown);
   }
 
   #range(): [number, number] {

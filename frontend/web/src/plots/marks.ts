@@ -2,6 +2,7 @@
 import type uPlot from "uplot";
 import type { SessionEvent } from "../api/types";
 import { session } from "../state/session";
+import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
 import { cursorSamples } from "./cursors";
 import { addSign, type Curve, placeOn } from "./curves";
@@ -104,8 +105,7 @@ export function drawCursorSamples(plot: uPlot, curves: readonly Curve[]): void {
 }
 
 /** Where no curve has samples as old as those held: from when on there are some. */
-export function drawBeginning(plot: uPlot, curves: readonly Curve[]): void {
-  const ring = shownRing();
+export function drawBeginning(plot: uPlot, curves: readonly Curve[], ring: SampleRing): void {
   const times = curves.map(({ trace }) => ring.beginningOf(trace.channel, trace.lane));
   const begin = Math.min(...times.filter((time) => !Number.isNaN(time)));
   if (!(begin > ring.oldestTime) || begin === Number.POSITIVE_INFINITY) return;

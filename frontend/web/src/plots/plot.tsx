@@ -5,14 +5,16 @@ import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";
 import { Chart } from "./chart";
+import { ChartBox } from "./chartbox";
 import type { Trace } from "./definitions";
-import { addDrawing, onFrame, renew } from "./frame";
+import { EVENT_VIEW, isZoomOn } from "./eventzoom";
+import { onFrame } from "./frame";
 import { hoverShare, sampleRead } from "./hover";
 import { Legend } from "./legend";
 import { PlotMenu } from "./menu";
 import { PhaseChart } from "./phase";
 import type { PlotSetup } from "./setups";
-import { shownRing } from "./span";
+import { PLOTS_VIEW, shownRing } from "./span";
 import { composeContent, tracesOf } from "./traces";
 
 const READING_MS = 120;
@@ -24,11 +26,14 @@ export function titleOf({ preset, channels }: PlotSetup): string {
 }
 
 function makeChart(host: HTMLElement, { preset, channels }: PlotSetup, traces: readonly Trace[]) {
-  if (preset !== "phase") return new Chart(host, traces, spanOf(channels));
+  if (preset !== "phase") return new Chart(host, traces, spanOf(channels), PLOTS_VIEW);
   const [x, y] = channels.map((channel) => ({ channel, ...CHANNELS[channel] }));
   if (x === undefined || y === undefined) throw new Error("a phase plane has two channels");
   return new PhaseChart(host, traces, { x, y });
 }
+
+const makeZoom = (host: HTMLElement, { channels }: PlotSetup, traces: readonly Trace[]) =>
+  new Chart(host, traces, spanOf(channels), EVENT_VIEW);
 
 /** The curves of a plot as its reader wants them. */
 function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>) {
@@ -42,43 +47,6 @@ function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>)
   const shownKey = [...shown].join();
   const traces = useMemo(() => tracesOf(content, shown, lanes.length), [content, shownKey]);
   return { content, shown, traces, isSideBySide: lanes.length > 1 };
-}
-
-/** The chart in its host: made anew for other curves, drawn by the clock of all plots. */
-function useChart(setup: PlotSetup, traces: readonly Trace[], hidden: ReadonlySet<string>) {
-  const host = useRef<HTMLDivElement>(null);
-  const readings = useRef(new Map<string, HTMLElement>());
-  const hide = useRef<(keys: ReadonlySet<string>) => void>(() => undefined);
-  useEffect(() => {
-    const element = host.current;
-    if (element === null) return;
-    const chart = makeChart(element, setup, traces);
-    let isSeen = true;
-    const drawing = { draw: () => chart.draw(), isSeen: () => isSeen };
-    hide.current = (keys) => {
-      chart.hide(keys);
-      renew(drawing);
-    };
-    const removeDrawing = addDrawing(drawing);
-    const resizing = new ResizeObserver(() => {
-      chart.resize(element.clientWidth, element.clientHeight);
-      renew(drawing);
-    });
-    const seeing = new IntersectionObserver((entries) => {
-      isSeen = entries.at(-1)?.isIntersecting ?? true;
-    });
-    resizing.observe(element);
-    seeing.observe(element);
-    return () => {
-      removeDrawing();
-      resizing.disconnect();
-      seeing.disconnect();
-      chart.destroy();
-    };
-  }, [setup, traces]);
-  useEffect(() => hide.current(hidden), [hidden, traces]);
-  useEffect(() => keepReadings(traces, readings.current), [traces]);
-  return { host, readings: readings.current };
 }
 
 /** Writes the values under the pointer, or the newest, into the legend. */
@@ -134,7 +102,8 @@ export function Plot({ setup }: { setup: PlotSetup }) {
   const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
   const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
   const { content, shown, traces, isSideBySide } = useTraces(setup, chosen);
-  const { host, readings } = useChart(setup, traces, hidden);
+  const readings = useRef(new Map<string, HTMLElement>()).current;
+  useEffect(() => keepReadings(traces, readings), [traces]);
   const title = titleOf(setup);
   const isPhase = setup.preset === "phase";
   const hasTruth = content.groups.some(({ traces: [leader, ...rest] }) =>
@@ -170,7 +139,12 @@ export function Plot({ setup }: { setup: PlotSetup }) {
         />
         <PlotMenu setup={setup} title={title} traces={traces} hidden={hidden} />
       </div>
-      <div class="plot-canvas" ref={host} />
+      <div class="plot-row">
+        <ChartBox class="plot-canvas" make={makeChart} {...{ setup, traces, hidden }} />
+        {isZoomOn.value && !isPhase && (
+          <ChartBox class="plot-zoom" make={makeZoom} {...{ setup, traces, hidden }} />
+        )}
+      </div>
     </section>
   );
 }

@@ -4,6 +4,7 @@ import { text } from "../text/en";
 import { CursorHandles, CursorLines } from "./cursorlines";
 import { areCursorsOn, releaseCursors } from "./cursors";
 import { EventMarks } from "./events";
+import { followChannels, isZoomOn } from "./eventzoom";
 import { listenToGestures } from "./gestures";
 import { MeasureTable } from "./measures";
 import { HoverLine } from "./overlays";
@@ -12,6 +13,7 @@ import { setups } from "./setups";
 import { followSession, isHeld } from "./span";
 import { TimeAxis } from "./timeaxis";
 import { Toolbar } from "./toolbar";
+import { ZoomAxis, ZoomTitle } from "./zoomaxis";
 
 /** The plots over time between the events and the axis, and what lies across all of them. */
 function Stage() {
@@ -26,6 +28,7 @@ function Stage() {
     <div class="plots-stage" ref={stage}>
       <div class="plots-top">
         <EventMarks />
+        {isZoomOn.value && <ZoomTitle />}
       </div>
       {overTime.map((setup) => (
         <Plot key={setup.key} setup={setup} />
@@ -39,6 +42,7 @@ function Stage() {
           <TimeAxis />
           <CursorHandles box={box} />
         </div>
+        {isZoomOn.value && <ZoomAxis />}
       </div>
     </div>
   );
@@ -47,17 +51,22 @@ function Stage() {
 /** All plots, in step with each other. */
 export function Plots() {
   useEffect(() => {
-    const ends = [followSession(), releaseCursors()];
+    const ends = [followSession(), followChannels(), releaseCursors()];
     return () => {
       for (const end of ends) end();
     };
   }, []);
   const phase = setups.value.find(({ preset }) => preset === "phase");
   const isEmpty = setups.value.length === 0;
-  const isCut = !isLive.value && !isHeld.value;
+  const looks = {
+    "is-frozen": !isLive.value && !isHeld.value,
+    "is-measured": areCursorsOn.value,
+    "is-zoomed": isZoomOn.value,
+  };
+  const look = Object.entries(looks).flatMap(([name, isOn]) => (isOn ? [name] : []));
   return (
     <section
-      class={`plots ${isCut ? "is-frozen" : ""} ${areCursorsOn.value ? "is-measured" : ""}`}
+      class={["plots", ...look].join(" ")}
       aria-label={text.plots.heading}
       id="plots"
       tabIndex={-1}

@@ -18,6 +18,16 @@ export const shownRing = (): SampleRing => held.peek()?.ring ?? samples.ring;
 
 export const shownSpan = (): Span => held.peek() ?? liveSpan(samples.ring, windowS.peek());
 
+/** What a chart draws: which samples, and from when to when. */
+export interface ChartView {
+  ring(): SampleRing;
+  span(): Span;
+  /** The cursors' samples are marked. */
+  hasCursors: boolean;
+}
+
+export const PLOTS_VIEW: ChartView = { ring: shownRing, span: shownSpan, hasCursors: true };
+
 /** The plots stand still, on a copy of what is there now. */
 export function hold(): void {
   if (held.peek() !== null) return;

@@ -30,7 +30,7 @@ const KEYS: Readonly<Record<string, () => void>> = {
 };
 
 /** Numbers of the axis at round times. */
-function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
+export function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
   const context = canvas.getContext("2d");
   if (context === null) return;
   const ratio = devicePixelRatio;

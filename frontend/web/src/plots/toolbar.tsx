@@ -2,6 +2,7 @@ import { useLiveText } from "../layout/live";
 import { chooseWindow, WINDOWS_S, type WindowS, windowS } from "../state/preferences";
 import { text } from "../text/en";
 import { areCursorsOn, toggleCursors } from "./cursors";
+import { isZoomOn, toggleZoom } from "./eventzoom";
 import { PlotPicker } from "./picker";
 import { saveWindowCsv } from "./save";
 import { behindS, goLive, held, hold, isHeld, showLength, zoom } from "./span";
@@ -108,6 +109,16 @@ export function Toolbar() {
           <path d="M3 0h1.4v12H3zM7.6 0H9v12H7.6z" />
         </svg>
         {text.cursors.switch}
+      </button>
+      <button
+        type="button"
+        class="tool"
+        aria-pressed={isZoomOn.value}
+        aria-keyshortcuts="Z"
+        title={text.zoom.switchHint}
+        onClick={toggleZoom}
+      >
+        {text.zoom.switch}
       </button>
       <WindowPicker />
       <ZoomButton name={text.plots.zoomOut} factor={ZOOM} path="M1 5.2h10v1.6H1z" />

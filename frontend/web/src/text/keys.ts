@@ -11,6 +11,7 @@ export const keysText = {
       load: "Hang or remove 3 kg",
       compare: "Switch the comparison on or off",
       hold: "Hold the dead-man's switch of the bench, as long as it is down",
+      zoom: "Zoom of the last event beside the plots",
       runs: "Recorded runs, and back to the lab",
       calls: "What you did, as Python and curl",
       help: "Show or hide this sheet",

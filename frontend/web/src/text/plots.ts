@@ -44,6 +44,13 @@ export const plotsText = {
     gestures: "Wheel zooms, dragging moves, double-click goes live",
     events: "Events",
   },
+  zoom: {
+    switch: "Last event",
+    switchHint: "Beside each plot the second around the last event, which stands still (Z)",
+    title: (time: string, event: string) => `${time} s: ${event}`,
+    none: "No event yet",
+    gone: "No samples of the last event",
+  },
   picker: {
     open: "Plots",
     openHint: "Choose the plots and what is in them",
