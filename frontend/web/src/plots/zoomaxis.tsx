@@ -1,4 +1,5 @@
 import { useEffect, useRef } from "preact/hooks";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { hasZoomed, zoomedEvent, zoomedSpan } from "./eventzoom";
 import { onFrame } from "./frame";
@@ -6,6 +7,7 @@ import { drawTicks } from "./timeaxis";
 
 /** What the zoom beside the plots is of. */
 export function ZoomTitle() {
+  void session.value;
   const event = zoomedEvent.value;
   if (event === null) return <p class="zoom-title">{text.zoom.none}</p>;
   const words = text.zoom.title(event.time_s.toFixed(2), event.label);
