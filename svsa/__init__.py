@@ -27,6 +27,7 @@ from svsa.plant.disturbances import (
     MassLoad,
     PaperLoad,
     PulseLoad,
+    PushLoad,
     SeriesLoad,
     SineLoad,
 )
@@ -81,6 +82,7 @@ __all__ = [
     "PaperLoad",
     "ParameterError",
     "PulseLoad",
+    "PushLoad",
     "Result",
     "SeriesLoad",
     "SeriesPosition",

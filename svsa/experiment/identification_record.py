@@ -15,7 +15,7 @@ from svsa.errors import SvsaError
 from svsa.experiment.identification_kernel import UNLOADED, Setting, Torques, measure
 from svsa.model.dynamics import build_actuator
 from svsa.model.lever import compute_lever_ratio
-from svsa.plant.disturbances import ScheduledLoad, schedule_load
+from svsa.plant.disturbances import follow_loads
 from svsa.plant.effects import build_bench
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
@@ -115,17 +115,9 @@ def find_loads(
     configuration: Configuration, commands: Sequence[Command], period: float
 ) -> list[tuple[int, float]]:
     """First tick and end of every load that was on, of the configuration or by command."""
-    loads: dict[int, ScheduledLoad] = {}
-    for load in configuration.loads:
-        loads[len(loads) + 1] = schedule_load(len(loads) + 1, load, 0, period)
-    for command in commands:
-        if command.kind == "load":
-            number = len(loads) + 1
-            loads[number] = schedule_load(number, command.argument, command.tick, period)
-        elif command.kind == "unload" and command.argument in loads:
-            load = loads[command.argument]
-            loads[load.number] = load._replace(end_tick=min(load.end_tick, command.tick))
-    return [(load.start_tick, load.end_tick) for load in loads.values()]
+    changes = [(c.tick, c.argument) for c in commands if c.kind in ("load", "unload")]
+    loads = follow_loads(configuration.loads, changes, period)
+    return [(load.start_tick, load.end_tick) for load in loads]
 
 
 def _find_plant(

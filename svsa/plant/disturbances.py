@@ -1,7 +1,7 @@
 """Loads: what a student can do to the actuator, and what the plant feels of it."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Annotated, Literal, NamedTuple, Self
 
 import numpy as np
@@ -66,6 +66,21 @@ class PulseLoad(_Load):
         return self.duration_s
 
 
+class PushLoad(_Load):
+    """A torque that somebody holds: told again, it is changed and lasts on; else it ends.
+
+    One is on at a time: the next one told while it is on takes its place, see `continue_push`.
+    """
+
+    kind: Literal["push"] = "push"
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+    hold_s: Number = quantity("s", "How long it lasts after it was told", gt=0, le=60, default=0.5)
+
+    def get_duration(self) -> float:
+        """How long it lasts, s, unless it is told again."""
+        return self.hold_s
+
+
 class SineLoad(_Load):
     """torque · sin(2π f (t − onset) + phase)."""
 
@@ -116,7 +131,7 @@ class SeriesLoad(_Load):
 
 
 Load = Annotated[
-    PaperLoad | MassLoad | ConstantLoad | PulseLoad | SineLoad | SeriesLoad,
+    PaperLoad | MassLoad | ConstantLoad | PulseLoad | PushLoad | SineLoad | SeriesLoad,
     Field(discriminator="kind"),
 ]
 
@@ -163,6 +178,44 @@ def schedule_load(number: int, load: Load, tick: int, period: float) -> Schedule
     return ScheduledLoad(number, load, start, end)
 
 
+def continue_push(
+    loads: Iterable[ScheduledLoad], load: Load, tick: int, period: float
+) -> ScheduledLoad | None:
+    """The push that is on, as `load` changes it from `tick` on; None where it changes none.
+
+    Number and onset stay, so that a push is one load from its beginning to its end.
+    """
+    if isinstance(load, PushLoad) and load.start_s is None:
+        for held in loads:
+            if isinstance(held.load, PushLoad) and held.start_tick <= tick < held.end_tick:
+                told = schedule_load(held.number, load, tick, period)
+                return told._replace(start_tick=held.start_tick)
+    return None
+
+
+def follow_loads(
+    planned: Iterable[Load], changes: Iterable[tuple[int, Load | int]], period: float
+) -> list[ScheduledLoad]:
+    """Every load of a run, with the ticks at which it came and went.
+
+    planned: those of its configuration. changes: tick, and the load applied or the number of
+    the one taken off. A push that was told again is one load, as it was told last.
+    """
+    loads: dict[int, ScheduledLoad] = {}
+    number = 0
+    for tick, change in [*((0, load) for load in planned), *changes]:
+        if isinstance(change, int):
+            if change in loads:
+                taken = loads[change]
+                loads[change] = taken._replace(end_tick=min(taken.end_tick, tick))
+            continue
+        number += 1
+        held = continue_push(loads.values(), change, tick, period)
+        load = held or schedule_load(number, change, tick, period)
+        loads[load.number] = load
+    return list(loads.values())
+
+
 def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
     """The arrays of `LoadTable` for these loads; they add up where they overlap."""
     rows = np.zeros((len(loads), 12))
@@ -172,7 +225,7 @@ def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
         match load:
             case PaperLoad():
                 row[KIND], row[W2 : W6 + 1] = CONSTANT, PAPER_TORQUE_NM
-            case ConstantLoad() | PulseLoad():
+            case ConstantLoad() | PulseLoad() | PushLoad():
                 row[KIND], row[W2 : W6 + 1] = CONSTANT, load.torque_nm
             case SineLoad():
                 row[KIND], row[W2 : W6 + 1] = SINE, load.torque_nm

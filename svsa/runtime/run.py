@@ -11,7 +11,13 @@ from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffn
 from svsa.model.spring import compute_stiffness
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
-from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table, schedule_load
+from svsa.plant.disturbances import (
+    Load,
+    ScheduledLoad,
+    build_load_table,
+    continue_push,
+    schedule_load,
+)
 from svsa.plant.effects import Effects
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.reference.trajectories import (
@@ -185,7 +191,16 @@ class Run:
         return origins
 
     def add_load(self, load: Load) -> ScheduledLoad:
-        """Apply a load now or at its `start_s`; raises `StateError` when there are too many."""
+        """Apply a load now or at its `start_s`; raises `StateError` when there are too many.
+
+        A push told while one is on changes that one, which is returned. Each command counts,
+        so that a load's number is that of its command.
+        """
+        held = continue_push(self.loads, load, self.tick, self.period_s)
+        if held is not None:
+            self._load_count += 1
+            self._set_loads(tuple(held if one.number == held.number else one for one in self.loads))
+            return held
         lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
         if len(lasting) >= MOST_LOADS:
             raise StateError(f"{MOST_LOADS} loads are applied or planned: clear one first.")

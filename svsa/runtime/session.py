@@ -8,7 +8,7 @@ from typing import Any, Literal, Self
 
 from svsa.errors import Fault, StateError
 from svsa.fault_labels import label_fault
-from svsa.plant.disturbances import Load, MassLoad, PaperLoad
+from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
 from svsa.runtime.clock import SimulationClock
 from svsa.runtime.command import KINDS, Command, build_command
 from svsa.runtime.configuration import MOST_LANES, Configuration
@@ -223,6 +223,8 @@ class Session:
             self.recorder.write_command(command.tick, command.to_json())
         match kind:
             case "load":
+                if answer.start_tick < self.run.tick:
+                    self._hang_loads()
                 self.version += 1
             case "unload":
                 taken = loads[argument]
@@ -292,6 +294,9 @@ class Session:
     def _end_load(self, load: Load) -> None:
         self._log("load_off", f"{describe_load(load)} off")
 
+    def _hang_loads(self) -> None:
+        """Tell whoever hangs the loads of a bench; a simulation needs nobody to."""
+
     def _find_next_edge(self) -> int:
         edges = [edge for load in self.run.loads for edge in (load.start_tick, load.end_tick)]
         later = [int(edge) for edge in edges if self.run.tick < edge < math.inf]
@@ -305,5 +310,7 @@ def describe_load(load: Load) -> str:
             return "3 kg load"
         case MassLoad():
             return f"{load.mass_kg:g} kg mass"
+        case PushLoad():
+            return "Push"
         case _:
             return f"{load.kind.capitalize()} torque"

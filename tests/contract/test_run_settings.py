@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from svsa.experiment.paper import get_figure
-from svsa.plant.disturbances import MassLoad, PaperLoad, PulseLoad
+from svsa.plant.disturbances import MassLoad, PaperLoad, PulseLoad, PushLoad
 from svsa.plant.effects import RIG, Friction
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
 from svsa.runtime.command import Command
@@ -87,6 +87,17 @@ def test_loads_are_told_apart_and_those_in_turn_are_counted() -> None:
     assert describe((0, "load", PaperLoad()), (5, "load", mass)).load == (
         "3 kg + 1.5 kg mass at 100 mm"
     )
+
+
+def test_a_push_that_was_told_again_is_one_load() -> None:
+    """Held from 1 s to 1.3 s; a second one is another."""
+    told = [
+        (tick, "load", PushLoad(torque_nm=(tick / 1000, 0.0, 0.0), hold_s=0.2))
+        for tick in (1000, 1100, 1200)
+    ]
+    assert describe(*told, (1300, "unload", 1)).load == "push"
+    assert describe(*told, (1300, "unload", 1), first_tick=1300, ticks=50).load == "no load"
+    assert describe(*told, (2000, "load", told[0][2])).load == "push (2×)"
 
 
 def test_what_changed_while_it_was_recorded_stands_behind_an_arrow() -> None:

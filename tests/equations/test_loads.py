@@ -145,6 +145,23 @@ def test_a_run_feels_its_loads_in_the_sample_of_their_onset():
     np.testing.assert_allclose(link, expected, atol=1e-11)
 
 
+def test_a_push_that_is_told_again_is_one_load_that_changes_and_lasts_on():
+    """No gap and no overlap: each torque from its tick on, until it was not told again."""
+    configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
+    run = Run(configuration.changed(nominal=configuration.actuator))
+    link = []
+    for torque in (0.5, 0.8, -0.3):
+        run.add_load(svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.02))
+        link.append(record(run, 10)[:, CHANNEL_INDEX["disturbance_link_nm"]])
+    link.append(record(run, 20)[:, CHANNEL_INDEX["disturbance_link_nm"]])
+    expected = np.repeat([0.5, 0.8, -0.3, -0.3, 0.0], 10)
+    np.testing.assert_allclose(np.concatenate(link), expected, atol=1e-11)
+    (push,) = run.loads
+    assert (push.number, push.start_tick, push.end_tick) == (1, 0, 40)
+    again = run.add_load(svsa.PushLoad(torque_nm=TRIPLE))
+    assert (again.number, again.start_tick) == (4, 50), "that one had ended: another begins"
+
+
 def test_loads_are_numbered_removed_and_limited_in_number():
     run = Run(svsa.paper.get_figure("4a").build_configuration())
     added = [run.add_load(svsa.ConstantLoad(torque_nm=TRIPLE)) for _ in range(MOST_LOADS - 1)]

@@ -47,6 +47,7 @@ stiffnesses = st.builds(
 loads = st.one_of(
     st.just(CRASH),
     st.builds(svsa.ConstantLoad, torque_nm=torques, start_s=onsets),
+    st.builds(svsa.PushLoad, torque_nm=torques, hold_s=st.floats(1e-3, 0.3)),
     st.builds(svsa.PulseLoad, torque_nm=torques, duration_s=st.floats(1e-4, 0.3), start_s=onsets),
     st.builds(svsa.SineLoad, torque_nm=torques, frequency_hz=st.floats(0.1, 20), start_s=onsets),
     st.builds(svsa.MassLoad, mass_kg=st.floats(0.1, 1.0), start_s=onsets),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.runtime.command import KINDS
+from svsa.runtime.command import KINDS, Command, read_command, replay
 from svsa.signals import CHANNEL_INDEX
 
 from .sessions import PULSE, build_session, list_events, read_samples
@@ -68,6 +68,42 @@ def test_taking_a_load_off_is_logged_and_ends_it():
     assert list_events(session)[2:] == [], "a load that was only planned has not acted"
     kinds = [(command.tick, command.kind) for command in session.commands]
     assert kinds == [(0, "load"), (10, "unload"), (20, "load"), (20, "unload")]
+
+
+def test_a_push_is_one_mark_however_often_it_is_told():
+    session = build_session()
+    for torque in np.linspace(0.1, 1.5, 15):
+        session.change("load", svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05))
+        session.step(20)
+    number = session.run.loads[0].number
+    session.change("unload", number)
+    session.step(10)
+    labels = [(event.tick, event.label) for event in session.events]
+    assert labels == [(0, "Push on"), (300, "Push off")]
+    assert [row["kind"] for row in map(Command.to_json, session.commands)].count("load") == 15
+    (since,) = [metrics.summarize() for metrics in session.since_load]
+    assert since.duration_s == pytest.approx(0.3)
+
+
+def test_a_push_that_nobody_holds_any_more_ends_by_itself():
+    session = build_session()
+    session.change("load", svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05))
+    session.step(30)
+    session.change("load", svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05))
+    session.step(100)
+    assert list_events(session) == [(0, "load_on"), (80, "load_off")]
+
+
+def test_a_push_replays_bit_for_bit():
+    session = build_session()
+    for torque in (0.4, 0.9, -0.7):
+        session.change("load", svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.1))
+        session.step(60)
+    session.change("unload", session.run.loads[0].number)
+    session.step(100)
+    written = [read_command(command.to_json()) for command in session.commands]
+    again = [samples for _, samples in replay(session.initial, written, session.run.tick)]
+    np.testing.assert_array_equal(np.concatenate(again, axis=1)[0], read_samples(session))
 
 
 def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():

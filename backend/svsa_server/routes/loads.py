@@ -26,6 +26,7 @@ def apply_load(
                 {"kind": "paper"},
                 {"kind": "mass", "mass_kg": 3.0, "arm_m": 0.068},
                 {"kind": "pulse", "torque_nm": [2.0, 0.0, 0.0], "duration_s": 0.5},
+                {"kind": "push", "torque_nm": [1.0, 0.0, 0.0], "hold_s": 0.5},
                 {"kind": "sine", "torque_nm": [1.0, 0.0, 0.0], "frequency_hz": 1.0},
                 {
                     "kind": "series",
@@ -36,7 +37,10 @@ def apply_load(
         ),
     ],
 ) -> SessionState:
-    """Apply a load, now or at `start_s`; it is the last of `loads` in the answer."""
+    """Apply a load, now or at `start_s`; it is the last of `loads` in the answer.
+
+    A push ends by itself: sent again while it is on, it is changed and lasts on, as one load.
+    """
     session.change("load", load)
     return build_state(session)
 

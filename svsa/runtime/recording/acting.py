@@ -1,6 +1,5 @@
 """What acted on a recorded run: every setting from its first sample to its last, every load."""
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,7 +7,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from svsa.errors import ParameterError
 from svsa.parameters import Limits
-from svsa.plant.disturbances import Load, ScheduledLoad, schedule_load
+from svsa.plant.disturbances import Load, ScheduledLoad, follow_loads
 from svsa.runtime.command import KINDS
 from svsa.runtime.configuration import Sampling
 from svsa.runtime.recording.header import RecordHeader
@@ -91,20 +90,17 @@ def _find_loads(
     planned = _read(_LOADS, header.configuration.get("loads") or ())
     if planned is None:
         return None
-    given = [(0, load) for load in planned]
-    taken_off: dict[int, int] = {}
+    changes: list[tuple[int, Load | int]] = []
     for tick, command in commands:
         if command.get("kind") == "load":
             load = _read(KINDS["load"].argument, command.get("argument"))
             if load is None:
                 return None
-            given.append((tick, load))
+            changes.append((tick, load))
         elif command.get("kind") == "unload" and isinstance(command.get("argument"), int):
-            taken_off[command["argument"]] = tick
-    applied = []
-    for number, (tick, load) in enumerate(given, 1):
-        on = schedule_load(number, load, tick, header.period_s)
-        on = on._replace(end_tick=min(on.end_tick, taken_off.get(number, math.inf)))
-        if max(on.start_tick, first) < min(on.end_tick, end):
-            applied.append(on)
-    return tuple(applied)
+            changes.append((tick, command["argument"]))
+    return tuple(
+        load
+        for load in follow_loads(planned, changes, header.period_s)
+        if max(load.start_tick, first) < min(load.end_tick, end)
+    )

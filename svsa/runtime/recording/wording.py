@@ -10,6 +10,7 @@ from svsa.plant.disturbances import (
     MassLoad,
     PaperLoad,
     PulseLoad,
+    PushLoad,
     SineLoad,
 )
 from svsa.plant.effects import IDEAL, RIG, Effects
@@ -97,7 +98,7 @@ def _tell_degrees(angle_rad: float) -> str:
 
 
 def describe_load(load: Load) -> str:
-    """A load: "3 kg" as the paper prints it, "3 kg mass", "5 N·m", "pulse 5 N·m"."""
+    """A load: "3 kg" as the paper prints it, "3 kg mass", "5 N·m", "pulse 5 N·m", "push"."""
     match load:
         case PaperLoad():
             return "3 kg"
@@ -106,6 +107,8 @@ def describe_load(load: Load) -> str:
             return f"{load.mass_kg:g} kg mass{arm}"
         case ConstantLoad():
             return _tell_torque(load.torque_nm)
+        case PushLoad():
+            return "push"
         case PulseLoad():
             return f"pulse {_tell_torque(load.torque_nm)}"
         case SineLoad():

@@ -685,6 +685,8 @@ export interface paths {
         /**
          * Apply Load
          * @description Apply a load, now or at `start_s`; it is the last of `loads` in the answer.
+         *
+         *     A push ends by itself: sent again while it is on, it is changed and lasts on, as one load.
          */
         post: operations["apply_load_api_v1_sessions__session__loads_post"];
         /**
@@ -2088,7 +2090,7 @@ export interface components {
             /** Active */
             active: boolean;
             /** Load */
-            load: components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
+            load: components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
         };
         /**
          * LoginRequest
@@ -2491,6 +2493,39 @@ export interface components {
              * @description Duration, s
              */
             duration_s: number;
+        };
+        /**
+         * PushLoad
+         * @description A torque that somebody holds: told again, it is changed and lasts on; else it ends.
+         *
+         *     One is on at a time: the next one told while it is on takes its place, see `continue_push`.
+         */
+        PushLoad: {
+            /**
+             * Start S
+             * @description Session time of onset, s
+             */
+            start_s?: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "push";
+            /**
+             * Torque Nm
+             * @description (w2, w4, w6) on link, motor 1, motor 2, each from −50 to 50, N·m
+             */
+            torque_nm: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Hold S
+             * @description How long it lasts after it was told, s
+             * @default 0.5
+             */
+            hold_s: number;
         };
         /**
          * ReasonState
@@ -5943,7 +5978,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
+                "application/json": components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
             };
         };
         responses: {

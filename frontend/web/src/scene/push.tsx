@@ -1,21 +1,17 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { addLoad } from "../api/client";
 import { Problem } from "../controls/problem";
 import { closeOnEscape } from "../panel/escape";
-import { perform } from "../state/actions";
 import { samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
+import { heldTorque, keepPush } from "./hold";
 import { angleSeen, pullOf } from "./ray";
 import { cameraNow } from "./viewer";
 
 export const isPushing = signal(false);
 
-const PULSE_S = 0.15;
-const KEY_PULSE_S = 0.3;
 const KEY_NM = 1;
-const LEAST_NM = 0.05;
 
 interface Grip {
   x: number;
@@ -27,10 +23,9 @@ interface Grip {
 const linkAngle = () => samples.ring.newest("position_rad");
 const pull = signal<{ from: Grip; x: number; y: number; torque: number } | null>(null);
 
-function push(torque: number, seconds: number): Promise<boolean> {
-  return perform("scene.push", () =>
-    addLoad({ kind: "pulse", torque_nm: [torque, 0, 0], duration_s: seconds }),
-  );
+function holdAt(torque: number): void {
+  heldTorque.value = torque;
+  void keepPush();
 }
 
 function pointerAngle(layer: HTMLElement, event: { clientX: number; clientY: number }) {
@@ -40,15 +35,6 @@ function pointerAngle(layer: HTMLElement, event: { clientX: number; clientY: num
   const right = ((event.clientX - box.left) / box.width) * 2 - 1;
   const up = 1 - ((event.clientY - box.top) / box.height) * 2;
   return angleSeen(camera, right, up);
-}
-
-/** One pulse after the other, never two at once, while the link is held; each ends by itself. */
-async function keepPulling(): Promise<void> {
-  while (pull.peek() !== null) {
-    const torque = pull.peek()?.torque ?? 0;
-    if (Math.abs(torque) > LEAST_NM && !(await push(torque, PULSE_S))) break;
-    await new Promise((resolve) => setTimeout(resolve, 1000 * PULSE_S));
-  }
 }
 
 function Band() {
@@ -65,6 +51,14 @@ function Band() {
   );
 }
 
+const torqueOf = ({ key }: KeyboardEvent): number | undefined =>
+  ({ ArrowLeft: -KEY_NM, ArrowRight: KEY_NM })[key];
+
+function release(): void {
+  pull.value = null;
+  heldTorque.value = null;
+}
+
 /** Lies over the 3D view while the link may be taken: a drag is a spring that pulls at it. */
 export function PushLayer() {
   const layer = useRef<HTMLButtonElement>(null);
@@ -75,7 +69,7 @@ export function PushLayer() {
     });
     return () => {
       forget();
-      pull.value = null;
+      release();
     };
   }, []);
   const follow = (event: PointerEvent, from: Grip) => {
@@ -83,12 +77,9 @@ export function PushLayer() {
     const angle = pointerAngle(host, event);
     if (angle === null) return;
     const box = host.getBoundingClientRect();
-    pull.value = {
-      from,
-      x: event.clientX - box.left,
-      y: event.clientY - box.top,
-      torque: pullOf(angle, linkAngle(), from.taken),
-    };
+    const torque = pullOf(angle, linkAngle(), from.taken);
+    pull.value = { from, x: event.clientX - box.left, y: event.clientY - box.top, torque };
+    holdAt(torque);
   };
   const take = (event: PointerEvent) => {
     const host = layer.current as HTMLElement;
@@ -101,15 +92,11 @@ export function PushLayer() {
       y: event.clientY - box.top,
       taken: angle - linkAngle(),
     });
-    void keepPulling();
-  };
-  const release = () => {
-    pull.value = null;
   };
   const answer = (event: KeyboardEvent) => {
-    const torque = { ArrowLeft: -KEY_NM, ArrowRight: KEY_NM }[event.key];
-    if (torque !== undefined && !event.repeat) void push(torque, KEY_PULSE_S);
-    else return;
+    const torque = torqueOf(event);
+    if (torque === undefined) return;
+    if (!event.repeat) holdAt(torque);
     event.preventDefault();
     event.stopPropagation();
   };
@@ -128,6 +115,10 @@ export function PushLayer() {
         onPointerUp={release}
         onPointerCancel={release}
         onKeyDown={answer}
+        onKeyUp={(event) => {
+          if (torqueOf(event) !== undefined) release();
+        }}
+        onBlur={release}
       />
       <Band />
       <div class="push-problem">

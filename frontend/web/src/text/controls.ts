@@ -95,7 +95,7 @@ export const controlsText = {
     custom: "A torque of your own",
     customKind: "Shape of the torque",
     customChannel: "Where it acts",
-    kinds: { constant: "Constant", pulse: "Pulse", sine: "Sine" },
+    kinds: { constant: "Constant", pulse: "Pulse", push: "Push", sine: "Sine" },
     torque: "Torque",
     duration: "Duration",
     frequency: "Frequency",

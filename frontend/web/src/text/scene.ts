@@ -7,7 +7,8 @@ export const sceneText = {
     cameraHint: (name: string) => `Camera: ${name}`,
     push: "Push",
     pushHint: "Take the link with the mouse and pull: a spring pushes it towards the pointer",
-    pushLayer: "Drag to push the link; arrows left and right push by 1 N·m, Esc ends",
+    pushLayer:
+      "Drag to push the link; the arrows left and right push by 1 N·m while they are down, Esc ends",
     pulling: (torque: string) => `${torque} N·m`,
     low: "Low graphics",
     lowHint: "Fewer parts, coarser, 15 pictures a second: for computers without a graphics card",
