@@ -1,11 +1,15 @@
 """A recorded run as one page with 3D replay and plots, which needs no server."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
-from svsa.plant.disturbances import get_hung_mass
+from svsa.plant.disturbances import PushLoad, ScheduledLoad, follow_loads, get_hung_mass
+from svsa.runtime.command import Command
+from svsa.runtime.configuration import Configuration
 from svsa.runtime.recording.reader import Record
 from svsa.runtime.resimulation import read_origin
-from svsa.runtime.run import Run
 from svsa_scene.replay import build_replay_html
 from svsa_server.lane_names import name_lanes
 
@@ -31,7 +35,7 @@ def build_replay(record: Record) -> str:
             "plant": header.plant,
             "notes": header.notes,
             "configuration": header.configuration,
-            "commands": [command for _, command in record.commands],
+            "commands": list_marks(*read_origin(record)),
         },
         first_tick=record.first_tick,
     )
@@ -39,21 +43,31 @@ def build_replay(record: Record) -> str:
 
 def compute_hung_mass(record: Record) -> np.ndarray:
     """The mass on the link at every tick of the record, kg, (ticks,)."""
-    configuration, commands = read_origin(record)
-    run = Run(configuration)
-    spans = {load.number: (load.start_tick, load.end_tick, load.load) for load in run.loads}
-    for command in commands:
-        if command.kind not in ("load", "unload"):
-            continue
-        run.tick = command.tick
-        command.apply(run)
-        for number, load, start, end in run.loads:
-            spans[number] = (start, end, load)
-        if command.kind == "unload":
-            start, end, load = spans[command.argument]
-            spans[command.argument] = (start, min(end, command.tick), load)
     ticks = np.arange(record.first_tick, record.first_tick + record.tick_count)
     mass = np.zeros(len(ticks))
-    for start, end, load in spans.values():
+    for _, load, start, end in _follow_loads(*read_origin(record)):
         mass[(ticks >= start) & (ticks < end)] += get_hung_mass(load)
     return mass
+
+
+def list_marks(configuration: Configuration, commands: Sequence[Command]) -> list[dict[str, Any]]:
+    """The commands of a run as it tells them: a push is one mark on and one off."""
+    loads = _follow_loads(configuration, commands)
+    pushes = {load.number: load for load in loads if isinstance(load.load, PushLoad)}
+    told = [
+        command.to_json()
+        for command in commands
+        if not (
+            isinstance(command.argument, PushLoad)
+            or (command.kind == "unload" and command.argument in pushes)
+        )
+    ]
+    for push in pushes.values():
+        told.append({"tick": push.start_tick, "label": "Push on"})
+        told.append({"tick": push.end_tick, "label": "Push off"})
+    return sorted(told, key=lambda mark: mark["tick"])
+
+
+def _follow_loads(configuration: Configuration, commands: Sequence[Command]) -> list[ScheduledLoad]:
+    changes = [(one.tick, one.argument) for one in commands if one.kind in ("load", "unload")]
+    return follow_loads(configuration.loads, changes, configuration.sampling.period_s)

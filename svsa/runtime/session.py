@@ -8,7 +8,7 @@ from typing import Any, Literal, Self
 
 from svsa.errors import Fault, StateError
 from svsa.fault_labels import label_fault
-from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
+from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad, ScheduledLoad
 from svsa.runtime.clock import SimulationClock
 from svsa.runtime.command import KINDS, Command, build_command
 from svsa.runtime.configuration import MOST_LANES, Configuration
@@ -223,7 +223,7 @@ class Session:
             self.recorder.write_command(command.tick, command.to_json())
         match kind:
             case "load":
-                if answer.start_tick < self.run.tick:
+                if isinstance(answer, ScheduledLoad) and answer.start_tick < self.run.tick:
                     self._hang_loads()
                 self.version += 1
             case "unload":
