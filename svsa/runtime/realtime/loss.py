@@ -1,5 +1,6 @@
 """What has become of a bench's loop that does not tick, and who has stopped the drives."""
 
+import math
 from typing import Literal, NamedTuple
 
 from svsa.runtime.realtime.launch import BenchProcesses
@@ -43,7 +44,9 @@ def find_loss(processes: BenchProcesses) -> Loss | None:
     code = "loop_silent" if processes.alive else "loop_lost"
     stopped_by: Stopper | None = None
     done = "Nobody has stopped the drives yet: be ready to pull the motors' supply."
-    if intervention is not None or not (processes.alive or processes.supervisor_alive):
+    ended_in_order = not processes.alive and math.isinf(processes.beats.age_s("loop"))
+    both_gone = not (processes.alive or processes.supervisor_alive or ended_in_order)
+    if intervention is not None or both_gone:
         code = "loop_and_supervisor_lost"
     if problem is not None:
         done = (
@@ -56,6 +59,8 @@ def find_loss(processes: BenchProcesses) -> Loss | None:
             f"The server has opened the bus itself, set both drives to zero current {after_s:.2f} s"
             " after the loop's last tick, and resets them."
         )
+    elif ended_in_order:
+        done = "It ended in order and left both drives at zero current."
     elif processes.beats.age_s("stopping") < STOPPING_S:
         stopped_by = "supervisor"
         done = "The supervisor keeps both drives at zero current and resets them."

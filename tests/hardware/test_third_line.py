@@ -1,0 +1,159 @@
+"""The third line: needed where loop and supervisor are both gone, and what it says of it."""
+
+import time
+import types
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from svsa.hardware import third_line
+from svsa.hardware.bench import read_bench
+from svsa.hardware.bus import BusError
+from svsa.hardware.heartbeat import Heartbeats
+from svsa.hardware.third_line import ThirdLine
+from svsa.runtime.realtime.loss import find_loss
+from tests.hardware.wired_bench import RIG_BENCH
+
+PATIENCE_S = 60.0
+
+
+class Bus:
+    """Keeps what is sent."""
+
+    def __init__(self) -> None:
+        self.sent: list[int] = []
+        self.is_open = True
+
+    def send(self, message: Any) -> None:
+        self.sent.append(message.arbitration_id)
+
+    def recv(self, timeout: float) -> None:
+        return None
+
+    def shutdown(self) -> None:
+        self.is_open = False
+
+
+class Process:
+    """A process that is there until it is killed."""
+
+    def __init__(self) -> None:
+        self.returncode: int | None = None
+
+    def poll(self) -> int | None:
+        return self.returncode
+
+    def kill(self) -> None:
+        self.returncode = -9
+
+
+class Watched:
+    """A third line, with the processes and the bus that it has to do with."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.bus, self.refusals = Bus(), 0
+        self.loop, self.supervisor = Process(), Process()
+        self.beats = Heartbeats.create()
+        monkeypatch.setattr(third_line, "open_bus", self._open)
+        monkeypatch.setattr(third_line, "request_priority", lambda _: "")
+        self.line = ThirdLine(read_bench(RIG_BENCH), self.beats, self.loop, self.supervisor)  # pyright: ignore[reportArgumentType]
+
+    def _open(self, _: Any) -> Bus:
+        if self.refusals:
+            self.refusals -= 1
+            raise BusError("The adapter is held.")
+        return self.bus
+
+    def find_loss(self) -> Any:
+        gone = self.loop.returncode is not None
+        return find_loss(
+            types.SimpleNamespace(  # pyright: ignore[reportArgumentType]
+                listens=not gone,
+                alive=not gone,
+                supervisor_alive=self.supervisor.returncode is None,
+                beats=self.beats,
+                third_line=self.line,
+            )
+        )
+
+
+@pytest.fixture
+def watched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Watched]:
+    made = Watched(monkeypatch)
+    yield made
+    made.line.stop()
+    made.beats.close()
+
+
+def wait_until(done: Callable[[], object]) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not done():
+        assert time.monotonic() < end
+        time.sleep(0.002)
+
+
+def test_it_does_nothing_while_one_is_left_or_none_has_begun(watched: Watched) -> None:
+    watched.loop.kill()
+    watched.supervisor.kill()
+    time.sleep(0.1)
+    assert watched.line.intervention is None, "a loop that has not begun is not missed"
+    watched.supervisor.returncode = None
+    watched.beats.beat("loop")
+    end = time.monotonic() + 0.3
+    while time.monotonic() < end:
+        watched.beats.beat("supervisor")
+        time.sleep(0.005)
+    assert watched.line.intervention is None
+    assert watched.bus.sent == []
+
+
+def test_where_both_have_ended_it_stops_the_drives_until_told_to_stop(watched: Watched) -> None:
+    watched.beats.beat("loop")
+    watched.loop.kill()
+    watched.supervisor.kill()
+    wait_until(lambda: watched.bus.sent.count(0x000) >= 3)
+    assert set(watched.bus.sent) == {0x013, 0x023, 0x000}
+    intervention = watched.line.intervention
+    assert intervention is not None
+    assert intervention.problem is None
+    assert intervention.after_s is not None
+    assert intervention.after_s > 0.02
+    loss = watched.find_loss()
+    assert (loss.code, loss.stopped_by) == ("loop_and_supervisor_lost", "server")
+    watched.line.stop()
+    assert not watched.bus.is_open
+
+
+def test_where_both_stand_still_it_ends_them_first(watched: Watched) -> None:
+    watched.beats.beat("supervisor")
+    watched.beats.beat("loop")
+    wait_until(lambda: watched.bus.sent)
+    assert (watched.loop.returncode, watched.supervisor.returncode) == (-9, -9)
+
+
+def test_a_bus_that_cannot_be_opened_is_told_and_tried_again(watched: Watched) -> None:
+    watched.refusals = 10**9
+    watched.beats.beat("loop")
+    watched.loop.kill()
+    watched.supervisor.kill()
+    wait_until(lambda: watched.line.intervention is not None)
+    loss = watched.find_loss()
+    assert loss.stopped_by is None
+    assert "pull the motors' supply. The adapter is held." in loss.message
+    watched.refusals = 0
+    wait_until(lambda: watched.bus.sent)
+    wait_until(lambda: watched.find_loss().stopped_by == "server")
+    assert watched.find_loss().problem is None
+
+
+def test_a_loop_that_ended_in_order_is_lost_and_has_left_nothing_behind(watched: Watched) -> None:
+    """As where the bench could not be opened again."""
+    watched.beats.beat("loop")
+    watched.beats.end("loop")
+    watched.loop.kill()
+    watched.supervisor.kill()
+    loss = watched.find_loss()
+    assert (loss.code, loss.stopped_by) == ("loop_lost", None)
+    assert "in order" in loss.message
+    assert "Nobody" not in loss.message
