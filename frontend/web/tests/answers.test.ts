@@ -113,6 +113,28 @@ describe("a command whose answer was lost", () => {
   });
 });
 
+describe("a change of a run whose answer was lost", () => {
+  it("is told as done where it was done, and is not done again", async () => {
+    const page = await load((method) =>
+      method === "PATCH" ? "lost" : outcome("carried_out", 200),
+    );
+    const { changeRun } = await import("../src/api/runs");
+    const { attempt, runsProblem } = await import("../src/runs/problem");
+    expect(await attempt(() => changeRun("a", { name: "A" }))).toBeNull();
+    expect(runsProblem.value).toBe(page.words.doneUnseen);
+    expect(asked.filter((each) => each.startsWith("PATCH"))).toHaveLength(1);
+  });
+
+  it("is not asked after where it only reads", async () => {
+    const page = await load(() => "lost");
+    const { readRun } = await import("../src/api/runs");
+    const { attempt, runsProblem } = await import("../src/runs/problem");
+    expect(await attempt(() => readRun("a"))).toBeNull();
+    expect(runsProblem.value).toBe(page.words.unreachable);
+    expect(asked).toHaveLength(1);
+  });
+});
+
 describe("an answer that came", () => {
   it("is taken, or its refusal is told, and nothing is asked", async () => {
     const page = await load(() => ({ status: 200, body: STATE }));

@@ -1,8 +1,10 @@
 /** What a call about runs came to: done, or why not, in words. */
 import { signal } from "@preact/signals";
-import { LockedError } from "../api/errors";
+import { LockedError, UnansweredError } from "../api/errors";
+import { learnOutcome } from "../api/outcome";
 import { explain } from "../state/actions";
 import { phase } from "../state/session";
+import { text } from "../text/en";
 
 /** The last refusal; the next call takes its place. */
 export const runsProblem = signal("");
@@ -14,7 +16,18 @@ export async function attempt<T>(request: () => Promise<T>): Promise<T | null> {
     return await request();
   } catch (error) {
     if (error instanceof LockedError) phase.value = "locked";
-    runsProblem.value = explain(error);
+    runsProblem.value = await tellOutcome(error);
     return null;
+  }
+}
+
+/** Of a lost answer what became of the request, as the server says; else why it was refused. */
+async function tellOutcome(error: unknown): Promise<string> {
+  if (!(error instanceof UnansweredError) || error.request === null) return explain(error);
+  try {
+    await learnOutcome(error);
+    return text.connection.doneUnseen;
+  } catch (outcome) {
+    return explain(outcome);
   }
 }

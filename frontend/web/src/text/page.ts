@@ -68,6 +68,7 @@ export const pageText = {
       "Whether the last command was carried out is unknown; the page is asking the server.",
     carriedOutTitle: "The last command was carried out.",
     carriedOutText: "Only its answer was lost.",
+    doneUnseen: "This was carried out, but its answer was lost: reload the page to see it.",
     notCarriedOut: "The server did not get this: it was not carried out.",
     refused: (status: number) => `The server refused this (${status}): it was not carried out.`,
     stillUnknown:
