@@ -1,7 +1,7 @@
 """What goes over the wire besides the library's own values."""
 
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal, Optional, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, Field, create_model, model_validator
 
@@ -106,9 +106,12 @@ class _Patch(Checked):
 
 
 def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
-    """`model` with every field optional, for PATCH; bounds, units and words stay."""
+    """`model` with every field left out at will, for PATCH; bounds, units and words stay.
+
+    What is given must be a value: null would be refused by the model, and not silently kept.
+    """
     fields: dict[str, Any] = {
-        name: (Optional[field.annotation], field.merge_field_infos(field, default=None))  # noqa: UP045
+        name: (field.annotation, field.merge_field_infos(field, default=None))
         for name, field in model.model_fields.items()
     }
     patch = create_model(f"{section.title()}Patch", __base__=_Patch, **fields)

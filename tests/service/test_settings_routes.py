@@ -113,6 +113,7 @@ REFUSED = [
     ),
     ("PATCH", "actuator", {"radius_m": 0}, "actuator.radius_m", "m", "at least 0.001 m"),
     ("PATCH", "nominal", {"radius_m": 0}, "nominal.radius_m", "m", "at least 0.001 m"),
+    ("PATCH", "nominal", {"radius_m": None}, "nominal.radius_m", "m", "a number, at least 0.001 m"),
     ("PATCH", "nominal", {"mass": 1}, "nominal.mass", "", "no such field"),
     (
         "PUT",
@@ -211,7 +212,7 @@ def test_malformed_json_is_named_as_such_with_its_place(
     lab: Lab, text: str | bytes, kind: str, words: str
 ) -> None:
     answer = lab.client.put(
-        lab.session + "/controller", content=text, headers={"Content-Type": "application/json"}
+        lab.session + "/law", content=text, headers={"Content-Type": "application/json"}
     )
     assert answer.status_code == 422
     assert answer.json()["error"] == kind
@@ -226,7 +227,7 @@ def test_a_body_that_was_not_sent_as_json_is_named_as_such(
     lab: Lab, header: str | None, words: str
 ) -> None:
     headers = {"Content-Type": header} if header else {}
-    answer = lab.client.put(lab.session + "/controller", content=b'{"law":"fl"}', headers=headers)
+    answer = lab.client.put(lab.session + "/law", content=b'{"law":"fl"}', headers=headers)
     assert answer.status_code == 422
     assert answer.json()["error"] == "content_type"
     assert words in answer.json()["message"]

@@ -156,4 +156,4 @@ def set_lanes(
 
 
 def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:
-    return actuator.changed(**patch.model_dump(exclude_none=True))
+    return actuator.changed(**patch.model_dump(exclude_unset=True))

@@ -1158,52 +1158,53 @@ export interface components {
              * Link Inertia Kg M2
              * @description Output link inertia M, kg·m²
              */
-            link_inertia_kg_m2?: number | null;
+            link_inertia_kg_m2?: number;
             /**
              * Motor1 Inertia Kg M2
              * @description Principal motor inertia B1, kg·m²
              */
-            motor1_inertia_kg_m2?: number | null;
+            motor1_inertia_kg_m2?: number;
             /**
              * Motor2 Inertia Kg M2
              * @description Stiffness motor inertia B2, kg·m²
              */
-            motor2_inertia_kg_m2?: number | null;
+            motor2_inertia_kg_m2?: number;
             /**
              * Link Damping Nms Per Rad
              * @description Link damping D, N·m·s/rad
              */
-            link_damping_nms_per_rad?: number | null;
+            link_damping_nms_per_rad?: number;
             /**
              * Motor1 Damping Nms Per Rad
              * @description Motor 1 damping D1, N·m·s/rad
              */
-            motor1_damping_nms_per_rad?: number | null;
+            motor1_damping_nms_per_rad?: number;
             /**
              * Motor2 Damping Nms Per Rad
              * @description Motor 2 damping D2, N·m·s/rad
              */
-            motor2_damping_nms_per_rad?: number | null;
+            motor2_damping_nms_per_rad?: number;
             /**
              * Spring Stiffness N Per M
              * @description Spring stiffness K_s, N/m
              */
-            spring_stiffness_n_per_m?: number | null;
+            spring_stiffness_n_per_m?: number;
             /**
              * Radius M
              * @description Radius R, m
              */
-            radius_m?: number | null;
+            radius_m?: number;
             /**
              * Spiral Reduction
              * @description Reduction γ of the spiral, 1
              */
-            spiral_reduction?: number | null;
+            spiral_reduction?: number;
             /**
              * Reaction Torque
              * @description τ_r: energy-consistent, or as printed in Eq 5
+             * @enum {string}
              */
-            reaction_torque?: ("energy" | "printed") | null;
+            reaction_torque?: "energy" | "printed";
         };
         /**
          * BenchState
@@ -2316,52 +2317,53 @@ export interface components {
              * Link Inertia Kg M2
              * @description Output link inertia M, kg·m²
              */
-            link_inertia_kg_m2?: number | null;
+            link_inertia_kg_m2?: number;
             /**
              * Motor1 Inertia Kg M2
              * @description Principal motor inertia B1, kg·m²
              */
-            motor1_inertia_kg_m2?: number | null;
+            motor1_inertia_kg_m2?: number;
             /**
              * Motor2 Inertia Kg M2
              * @description Stiffness motor inertia B2, kg·m²
              */
-            motor2_inertia_kg_m2?: number | null;
+            motor2_inertia_kg_m2?: number;
             /**
              * Link Damping Nms Per Rad
              * @description Link damping D, N·m·s/rad
              */
-            link_damping_nms_per_rad?: number | null;
+            link_damping_nms_per_rad?: number;
             /**
              * Motor1 Damping Nms Per Rad
              * @description Motor 1 damping D1, N·m·s/rad
              */
-            motor1_damping_nms_per_rad?: number | null;
+            motor1_damping_nms_per_rad?: number;
             /**
              * Motor2 Damping Nms Per Rad
              * @description Motor 2 damping D2, N·m·s/rad
              */
-            motor2_damping_nms_per_rad?: number | null;
+            motor2_damping_nms_per_rad?: number;
             /**
              * Spring Stiffness N Per M
              * @description Spring stiffness K_s, N/m
              */
-            spring_stiffness_n_per_m?: number | null;
+            spring_stiffness_n_per_m?: number;
             /**
              * Radius M
              * @description Radius R, m
              */
-            radius_m?: number | null;
+            radius_m?: number;
             /**
              * Spiral Reduction
              * @description Reduction γ of the spiral, 1
              */
-            spiral_reduction?: number | null;
+            spiral_reduction?: number;
             /**
              * Reaction Torque
              * @description τ_r: energy-consistent, or as printed in Eq 5
+             * @enum {string}
              */
-            reaction_torque?: ("energy" | "printed") | null;
+            reaction_torque?: "energy" | "printed";
         };
         /**
          * ObserverBandwidth

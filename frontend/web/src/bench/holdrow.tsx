@@ -1,6 +1,7 @@
 import { useId } from "preact/hooks";
 import type { BenchState } from "../api/types";
 import { mayCommand, otherHolder } from "../state/control";
+import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { ended, type Grip, hold, isHeld, letGo, wordsFor } from "./hold";
 
@@ -28,6 +29,8 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
   const id = useId();
   const held = isHeld.value;
   const other = otherHolder.value;
+  const told =
+    other === null ? words.words[wordsFor(status, held, ended.value)] : words.other(other);
   return (
     <section class={`hold is-${held ? "held" : "free"}`} aria-label={words.heading}>
       <button
@@ -55,7 +58,7 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
         <strong>
           <span aria-hidden="true">{held ? "●" : "○"}</span> {held ? words.held : words.notHeld}
         </strong>{" "}
-        {other === null ? words.words[wordsFor(status, held, ended.value)] : words.other(other)}
+        {isLive.value ? told : words.unheard}
       </p>
     </section>
   );

@@ -37,6 +37,7 @@ export const controlText = {
       letGo: "You let go: the bench has gone to zero torque. Hold again and press Run to go on.",
       late: "This page was too busy to be heard every 0.1 s: the bench has gone to zero torque. Press Run to go on.",
     },
+    unheard: "No connection: nothing that is held here is heard.",
     other: (name: string) => `${name} is in control: only what ${name} holds counts.`,
   },
 } as const;
