@@ -126,16 +126,22 @@ def _refuse_request(request: Request, error: RequestValidationError) -> JSONResp
             place = f"line {found.lineno}, column {found.colno}"
             return _answer(422, "malformed_json", f"The body is no JSON: {found.msg} at {place}.")
         (body if where == "body" else others).append(problem | {"loc": rest})
-    if body and isinstance(error.body, bytes):
-        given = request.headers.get("content-type")
+    given, wanted = request.headers.get("content-type"), _find_media_type(request)
+    if body and isinstance(error.body, bytes) and (given or "").partition(";")[0] != wanted:
         said = f"its Content-Type is {given[:80]!r}" if given else "it has no Content-Type"
-        message = f"The body was not read, because {said}: send Content-Type: application/json."
+        message = f"The body was not read, because {said}: send Content-Type: {wanted}."
         return _answer(422, "content_type", message)
     violations = [
         replace(violation, name="body") if violation.name == "value" else violation
         for violation in explain_problems(body)
     ]
     return _refuse_values(violations + explain_problems(others, {}))
+
+
+def _find_media_type(request: Request) -> str:
+    """Of the body that the route takes."""
+    field = getattr(request.scope.get("route"), "body_field", None)
+    return getattr(getattr(field, "field_info", None), "media_type", "application/json")
 
 
 def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:

@@ -112,10 +112,11 @@ def test_figures_health_and_documentation(lab: Lab) -> None:
     assert lab.client.get("/api/v1/health").json()["status"] == "ok"
     schema = lab.client.get("/openapi.json").json()
     bodies = [
-        operation["requestBody"]["content"]["application/json"]
+        body
         for path in schema["paths"].values()
         for operation in path.values()
         if "requestBody" in operation
+        for body in operation["requestBody"]["content"].values()
     ]
     assert bodies
     assert all("examples" in body["schema"] or "examples" in body for body in bodies)
