@@ -56,17 +56,18 @@ def plot_run(result: "Result") -> Picture:
     """One run: position, its error, stiffness, torques, disturbance true and estimated."""
     picture = Picture(figsize=(8.0, 10.0), layout="constrained")
     position, error, stiffness, torque, disturbance = picture.subplots(5, 1, sharex=True)
-    time = result.time_s
-    law = LAW_STYLES.get(result.law, LAW_STYLES["own"] | {"label": result.law})
+    time, period = result.time_s, result.configuration.sampling.period_s
     position.plot(
         time, np.degrees(result.position_reference_rad), label="reference", **REFERENCE_STYLE
     )
-    position.plot(time, np.degrees(result.position_rad), **law)
-    error.plot(time, np.degrees(result.position_error_rad), **law)
+    for law, rows in result.list_stretches():
+        style, at = LAW_STYLES.get(law, LAW_STYLES["own"] | {"label": law}), time[rows]
+        position.plot(at, np.degrees(result.position_rad[rows]), **style)
+        error.plot(at, np.degrees(result.position_error_rad[rows]), **style)
+        stiffness.plot(at, result.stiffness_nm_per_rad[rows], **style)
     stiffness.plot(
         time, result.stiffness_reference_nm_per_rad, label="reference", **REFERENCE_STYLE
     )
-    stiffness.plot(time, result.stiffness_nm_per_rad, **law)
     torque.plot(time, result.torque1_nm, color=CHANNEL_COLORS[0], label="u1")
     torque.plot(time, result.torque2_nm, color=CHANNEL_COLORS[1], label="u2")
     for part, color in zip(("link", "motor1", "motor2"), CHANNEL_COLORS, strict=True):
@@ -82,6 +83,9 @@ def plot_run(result: "Result") -> Picture:
     _label(torque, "Torque [N·m]")
     _label(disturbance, "Disturbance [N·m]\n(true dashed)")
     disturbance.set_xlabel("Time [s]")
+    for axes in (position, error, stiffness, torque, disturbance):
+        for moment in {command.tick * period for command in result.commands}:
+            axes.axvline(moment, color="#888888", linewidth=0.8, linestyle=":")
     return picture
 
 
@@ -101,4 +105,5 @@ def _label(axes: Axes, text: str) -> None:
     axes.grid(alpha=0.25)
     axes.margins(x=0)
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="upper right", fontsize="small", ncols=3)
+        named = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+        axes.legend(named.values(), named, loc="upper right", fontsize="small", ncols=3)

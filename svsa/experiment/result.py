@@ -35,7 +35,7 @@ class Result(Channels):
     `svsa.signals.CHANNELS`. A channel is also an attribute: `result.position_error_rad`. fault:
     why the run ended early, or None. rivals: the results of the controllers that ran beside this
     one. law: what controlled first, "own" for a function of one's own. commands: what was changed
-    on the way. name: what a recorded run is called.
+    of this lane on the way. name: what a recorded run is called.
     """
 
     configuration: Configuration
@@ -68,6 +68,17 @@ class Result(Channels):
             bound = f"a stretch with samples between {begin:g} and {end:g} s"
             raise ParameterError(Violation("(start_s, end_s)", (start_s, end_s), "s", bound))
         return compute_metrics(rows, period)
+
+    def list_stretches(self) -> list[tuple[str, slice]]:
+        """The laws that controlled, one after the other, each with its rows of the samples."""
+        period, rows = self.configuration.sampling.period_s, len(self.samples)
+        first = round(float(self.time_s[0]) / period) if rows else 0
+        begins = [(0, self.law)]
+        for tick, kind, argument in self.commands:
+            if kind == "law" and 0 < tick - first < rows and argument != begins[-1][1]:
+                begins.append((tick - first, argument))
+        ends = [begin for begin, _ in begins[1:]] + [rows]
+        return [(law, slice(at, end)) for (at, law), end in zip(begins, ends, strict=True)]
 
     def to_dataframe(self) -> "pandas.DataFrame":
         """All channels as a pandas DataFrame, one row a tick."""
@@ -109,9 +120,10 @@ class Result(Channels):
         """The run in two lines: what it is, and how it went."""
         period = self.configuration.sampling.period_s
         beside = f" beside {', '.join(_name(r.law) for r in self.rivals)}" if self.rivals else ""
+        laws = " → ".join(_name(law) for law, _ in self.list_stretches())
         called = f"{self.name}: " if self.name else ""
         first = (
-            f"{called}{_name(self.law)}{beside}, {len(self.samples) * period:g} s at"
+            f"{called}{laws}{beside}, {len(self.samples) * period:g} s at"
             f" {1.0 / period:g} Hz ({len(self.samples)} samples of {len(CHANNELS)} channels)"
         )
         if not len(self.samples):
@@ -137,11 +149,10 @@ def build_results(
     name: str = "",
 ) -> Result:
     """The first lane's result with those of its rivals. samples: (lanes, ticks, channels)."""
-    first, *rivals = (
-        Result(configuration, rows, fault, (), law, commands, name)
-        for rows, law in zip(samples, laws, strict=True)
-    )
-    return Result(configuration, first.samples, fault, tuple(rivals), first.law, commands, name)
+    of_all = tuple(command for command in commands if command.kind != "law")
+    (rows, law), *others = zip(samples, laws, strict=True)
+    rivals = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)
+    return Result(configuration, rows, fault, rivals, law, commands, name)
 
 
 def _name(law: str) -> str:

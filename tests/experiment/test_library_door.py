@@ -168,7 +168,9 @@ def test_a_typo_is_a_type_error(tmp_path: Path) -> None:
 def test_a_result_is_two_lines_and_a_picture(result: svsa.Result) -> None:
     lines = repr(result).splitlines()
     assert len(lines) == 2
-    assert lines[0].startswith("NDOBC beside FL, 0.6 s at 1000 Hz (600 samples of 28 channels)")
+    assert lines[0].startswith(
+        "NDOBC → FL → NDOBC beside FL, 0.6 s at 1000 Hz (600 samples of 28 channels)"
+    )
     assert re.fullmatch(r"position error [\d.e-]+° rms, .* peak; stiffness .* N·m", lines[1])
     png = result._repr_png_()
     assert png is not None
@@ -185,3 +187,18 @@ def test_a_run_without_samples_says_so(result: svsa.Result) -> None:
     assert empty._repr_png_() is None
     assert "&lt;its limit&gt;" in empty._repr_html_()
     assert "<img" not in empty._repr_html_()
+
+
+def test_a_law_names_only_what_it_controlled(result: svsa.Result) -> None:
+    """History is not renamed by the law of the beginning, nor rivals by the first lane's."""
+    stretches = [(law, rows.start, rows.stop) for law, rows in result.list_stretches()]
+    assert stretches == [("ndobc", 0, 100), ("fl", 100, 400), ("ndobc", 400, 600)]
+    rival = result.rivals[0]
+    assert rival.list_stretches() == [("fl", slice(0, 600))]
+    assert all(command.kind != "law" for command in rival.commands)
+    error = result.plot().axes[1]
+    drawn = [(line.get_label(), len(line.get_xdata())) for line in error.lines[:3]]
+    assert drawn == [("NDOBC", 100), ("FL", 300), ("NDOBC", 200)]
+    legend = error.get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == ["NDOBC", "FL"]
