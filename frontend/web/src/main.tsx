@@ -10,6 +10,7 @@ import "./plots/tools.css";
 import "./controls/controls.css";
 import "./controls/realism.css";
 import "./controls/load.css";
+import "./controls/shaped.css";
 import "./panel/panel.css";
 import "./design/design.css";
 import "./design/plane.css";

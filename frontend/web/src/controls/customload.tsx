@@ -1,10 +1,11 @@
-import { useId, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { addLoad } from "../api/client";
 import type { Load } from "../api/types";
-import { type Quantity, shownAs } from "../quantities";
+import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
 import { Choice } from "./choice";
+import { NumberBox } from "./numberbox";
 import { Problem } from "./problem";
 
 type Kind = "constant" | "pulse" | "sine";
@@ -25,29 +26,6 @@ function loadOf(kind: Kind, channel: Channel, torque: number, detail: number): L
   if (kind === "pulse") return { kind, torque_nm, duration_s: detail };
   if (kind === "sine") return { kind, torque_nm, frequency_hz: detail };
   return { kind, torque_nm };
-}
-
-interface NumberBoxProps extends Quantity {
-  value: string;
-  onInput: (value: string) => void;
-}
-
-function NumberBox({ label, unit, value, onInput }: NumberBoxProps) {
-  const id = useId();
-  return (
-    <div class="field is-plain">
-      <label for={id}>{label}</label>
-      <input
-        id={id}
-        type="number"
-        step="any"
-        required
-        value={value}
-        onInput={(event) => onInput(event.currentTarget.value)}
-      />
-      <span class="unit">{unit}</span>
-    </div>
-  );
 }
 
 /** A torque of the user's own on one of the three channels. */

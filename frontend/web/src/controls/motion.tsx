@@ -1,4 +1,4 @@
-import { useRef } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import { putPosition } from "../api/client";
 import type { PositionReference, Sent, SessionState } from "../api/types";
 import { shownAs } from "../quantities";
@@ -9,14 +9,17 @@ import { Choice } from "./choice";
 import { Field } from "./field";
 import { Group } from "./group";
 import { Problem } from "./problem";
+import { Shaped } from "./shaped";
+import type { Shape } from "./shapes";
 
 type Sine = Extract<PositionReference, { kind: "sine" }>;
-type Kind = "sine" | "constant";
+type Kind = "sine" | "constant" | "other";
 
 const FIRST_SINE: Sent<Sine> = { kind: "sine", amplitude_rad: toRadians(60), frequency_hz: 0.2 };
 const KINDS = [
   { value: "sine", label: text.motion.sine },
   { value: "constant", label: text.motion.constant },
+  { value: "other", label: text.references.other },
 ] as const;
 
 function SineFields({ reference }: { reference: Sine }) {
@@ -48,15 +51,20 @@ function SineFields({ reference }: { reference: Sine }) {
   );
 }
 
-const kindOf = ({ kind }: PositionReference): Kind | null =>
-  kind === "sine" || kind === "constant" ? kind : null;
+const kindOf = ({ kind }: PositionReference): Kind =>
+  kind === "sine" || kind === "constant" ? kind : "other";
 
 export function Motion({ state }: { state: SessionState }) {
   const reference = state.configuration.position;
   const lastSine = useRef<Sent<Sine>>(FIRST_SINE);
   if (reference.kind === "sine") lastSine.current = reference;
 
+  const [isOther, setOther] = useState(false);
+  const shown = isOther ? "other" : kindOf(reference);
+
   const choose = (kind: Kind) => {
+    setOther(kind === "other");
+    if (kind === "other") return;
     const held = reference.kind === "sine" ? reference.offset_rad : 0;
     const next: Sent<PositionReference> =
       kind === "sine" ? lastSine.current : { kind: "constant", position_rad: held };
@@ -67,17 +75,12 @@ export function Motion({ state }: { state: SessionState }) {
     <Group
       title={text.motion.title}
       topic="motion"
-      aside={
-        <Choice
-          label={text.motion.kind}
-          options={KINDS}
-          value={kindOf(reference)}
-          onChoose={choose}
-        />
-      }
+      aside={<Choice label={text.motion.kind} options={KINDS} value={shown} onChoose={choose} />}
     >
       <Problem control="motion.kind" />
-      {reference.kind === "sine" ? (
+      {shown === "other" ? (
+        <Shaped follows="position" held={reference.kind} />
+      ) : reference.kind === "sine" ? (
         <SineFields reference={reference} />
       ) : reference.kind === "constant" ? (
         <Field
@@ -87,8 +90,14 @@ export function Motion({ state }: { state: SessionState }) {
           range={{ min: -90, max: 90, step: 1 }}
           send={(position_rad) => putPosition({ kind: "constant", position_rad })}
         />
-      ) : (
-        <p class="note">{text.references.kinds[reference.kind]}</p>
+      ) : null}
+      {kindOf(reference) === "other" && (
+        <p class="hint">
+          {text.references.following(
+            text.references.kinds[reference.kind as Shape],
+            reference.transition_s,
+          )}
+        </p>
       )}
     </Group>
   );

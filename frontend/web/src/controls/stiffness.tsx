@@ -1,4 +1,4 @@
-import { useRef } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import { putStiffness } from "../api/client";
 import type { Sent, SessionState, StiffnessReference } from "../api/types";
 import { shownAs } from "../quantities";
@@ -9,15 +9,18 @@ import { Field } from "./field";
 import { Group } from "./group";
 import { Problem } from "./problem";
 import type { SliderRange } from "./scale";
+import { Shaped } from "./shaped";
+import type { Shape } from "./shapes";
 
 type Sine = Extract<StiffnessReference, { kind: "sine" }>;
-type Kind = "sine" | "constant";
+type Kind = "sine" | "constant" | "other";
 
 /** What the mechanism can reach, N·m/rad. */
 const REACH: SliderRange = { min: 1.7, max: 150.56, logarithmic: true };
 const KINDS = [
   { value: "constant", label: text.stiffness.constant },
   { value: "sine", label: text.stiffness.sine },
+  { value: "other", label: text.references.other },
 ] as const;
 
 function SineFields({ reference }: { reference: Sine }) {
@@ -49,8 +52,8 @@ function SineFields({ reference }: { reference: Sine }) {
   );
 }
 
-const kindOf = ({ kind }: StiffnessReference): Kind | null =>
-  kind === "sine" || kind === "constant" ? kind : null;
+const kindOf = ({ kind }: StiffnessReference): Kind =>
+  kind === "sine" || kind === "constant" ? kind : "other";
 
 /** What to hold, or to swing about, after this reference. */
 function meanOf(reference: StiffnessReference): number {
@@ -72,7 +75,12 @@ export function Stiffness({ state }: { state: SessionState }) {
   const lastSine = useRef<Sent<Sine> | null>(null);
   if (reference.kind === "sine") lastSine.current = reference;
 
+  const [isOther, setOther] = useState(false);
+  const shown = isOther ? "other" : kindOf(reference);
+
   const choose = (kind: Kind) => {
+    setOther(kind === "other");
+    if (kind === "other") return;
     const mean = meanOf(reference);
     const next: Sent<StiffnessReference> =
       kind === "constant"
@@ -90,17 +98,12 @@ export function Stiffness({ state }: { state: SessionState }) {
     <Group
       title={text.stiffness.title}
       topic="stiffness"
-      aside={
-        <Choice
-          label={text.stiffness.kind}
-          options={KINDS}
-          value={kindOf(reference)}
-          onChoose={choose}
-        />
-      }
+      aside={<Choice label={text.stiffness.kind} options={KINDS} value={shown} onChoose={choose} />}
     >
       <Problem control="stiffness.kind" />
-      {reference.kind === "sine" ? (
+      {shown === "other" ? (
+        <Shaped follows="stiffness" held={reference.kind} />
+      ) : reference.kind === "sine" ? (
         <SineFields reference={reference} />
       ) : reference.kind === "constant" ? (
         <Field
@@ -110,8 +113,14 @@ export function Stiffness({ state }: { state: SessionState }) {
           range={REACH}
           send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}
         />
-      ) : (
-        <p class="note">{text.references.kinds[reference.kind]}</p>
+      ) : null}
+      {kindOf(reference) === "other" && (
+        <p class="hint">
+          {text.references.following(
+            text.references.kinds[reference.kind as Shape],
+            reference.transition_s,
+          )}
+        </p>
       )}
     </Group>
   );

@@ -39,12 +39,49 @@ export const controlsText = {
     frequency: "Frequency",
   },
   references: {
+    other: "Other",
+    kind: "Shape",
     kinds: {
       steps: "Steps",
-      minimum_jerk: "Minimum jerk",
+      minimum_jerk: "Min. jerk",
       chirp: "Chirp",
-      series: "Time series",
+      series: "CSV",
     },
+    inputs: {
+      low: "First level",
+      high: "Second level",
+      hold: "Every",
+      count: "Steps",
+      from: "From",
+      to: "To",
+      duration: "Duration",
+      mean: "Mean",
+      amplitude: "Amplitude",
+      startHz: "From frequency",
+      endHz: "To frequency",
+    },
+    does: {
+      steps: "Each step rises smoothly in 0.2 s.",
+      minimum_jerk: "The least jerk from rest to rest; the jerk itself jumps at both ends.",
+      chirp: "The amplitude rises in the first quarter of a second and falls in the last.",
+      series: "A spline of degree 7 through every row, from rest to rest.",
+    },
+    openCsv: "Open CSV…",
+    pasteCsv: "Time series as CSV",
+    csvHint: "The head names the unit. 2 to 2000 rows.",
+    example: {
+      position: "time_s,position_deg\n0,0\n1,30\n2,-30\n3,0\n",
+      stiffness: "time_s,stiffness_nm_per_rad\n0,15\n1,30\n3,15\n",
+    },
+    isOther: {
+      position: "This CSV holds positions: open it under Motion.",
+      stiffness: "This CSV holds stiffness: open it under Stiffness.",
+    },
+    course: (least: string, greatest: string, unit: string, end: string, rate: string) =>
+      `${least} to ${greatest} ${unit} in ${end} s, at most ${rate} ${unit}/s`,
+    apply: "Apply",
+    following: (kind: string, fadeS: number) =>
+      `Following now: ${kind}. It fades in for ${fadeS} s, then begins; its end is held.`,
   },
   controller: {
     title: "Controller",

@@ -1,0 +1,33 @@
+"""A time series on the page: looked at before it is applied, refused with its row."""
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+GOOD = "time_s,stiffness_nm_per_rad\n0,15\n1,25\n2,15\n"
+
+
+@pytest.mark.usefixtures("without_3d")
+def test_a_csv_of_stiffness_is_seen_then_applied(page: Page, lab: Lab) -> None:
+    lab.load_figure()
+    page.goto(lab.url)
+    stiffness = page.get_by_role("region", name="Stiffness", exact=True)
+    stiffness.get_by_role("radio", name="Other").check(force=True)
+    stiffness.get_by_role("radio", name="CSV").check(force=True)
+    text = stiffness.get_by_role("textbox", name="Time series as CSV")
+    text.fill(GOOD + "1.5,20\n")
+    expect(stiffness.get_by_role("alert")).to_contain_text("time_s in row 5 is 1.5 s")
+    apply = stiffness.get_by_role("button", name="Apply")
+    expect(apply).to_be_disabled()
+    text.fill("time_s,position_deg\n0,0\n1,10\n")
+    expect(stiffness.get_by_role("alert")).to_contain_text("open it under Motion")
+    text.fill(GOOD)
+    picture = stiffness.get_by_role("img", name="15.0 to 25.0 N·m/rad in 2.00 s")
+    expect(picture).to_be_visible()
+    assert lab.read()["configuration"]["stiffness"]["kind"] == "constant", "nothing is changed yet"
+    apply.click()
+    expect(stiffness.get_by_text("Following now: CSV")).to_be_visible()
+    held = lab.read()["configuration"]["stiffness"]
+    assert (held["kind"], held["stiffness_nm_per_rad"]) == ("series", [15, 25, 15])
