@@ -7,6 +7,7 @@ from collections.abc import AsyncIterator
 from fastapi import APIRouter, FastAPI
 
 import svsa
+from svsa.runtime.configuration import load_prototype, read_design
 from svsa.runtime.session import Session
 from svsa_server.access import AccessGuard, SharedSecret
 from svsa_server.config import Settings
@@ -21,6 +22,7 @@ from svsa_server.routes import (
     bench,
     control,
     design,
+    identification,
     lab,
     loads,
     outcomes,
@@ -59,6 +61,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
     app.state.secret = secret
     app.state.config = config
     app.state.shared = shared
+    app.state.design = read_design(config.parameters) if config.parameters else load_prototype()
     app.state.outcomes = Outcomes()
     app.add_middleware(OutcomeKeeper, outcomes=app.state.outcomes)
     app.add_middleware(AccessGuard, secret=secret)
@@ -71,6 +74,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         bench,
         settings,
         design,
+        identification,
         loads,
         recordings,
         references,
@@ -88,7 +92,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
 async def _live(app: FastAPI) -> AsyncIterator[None]:
     """Start the sessions and the 3D view, and end them with the server."""
     config: Settings = app.state.config
-    shared = app.state.shared or build_shared_session(None)
+    shared = app.state.shared or build_shared_session(None, design=app.state.design)
     laboratory = Laboratory(shared, config.most_sessions, config.idle_s, config.control_s)
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)

@@ -18,6 +18,10 @@ def serve(
     bench: Annotated[
         Path | None, typer.Option(help="Bench file: drive this bench; simulate if left out.")
     ] = None,
+    parameters: Annotated[
+        Path | None,
+        typer.Option(help="Parameter file, as identify writes it; the paper's if left out."),
+    ] = None,
 ) -> None:
     """Start the lab: the page, the REST interface, the streams and the 3D view.
 
@@ -26,7 +30,22 @@ def serve(
     require_extra("server")
     from svsa_server.serve import run_server
 
-    run_server(host, port, bench)
+    run_server(host, port, bench, parameters)
+
+
+def excite(
+    url: Annotated[str, typer.Option(help="Where the lab is.")] = "http://127.0.0.1:8000",
+    session: Annotated[str, typer.Option(help="Session to excite.")] = "lab",
+    name: Annotated[str, typer.Option(help="Name of the run.")] = "Identification",
+) -> None:
+    """Play and record on a running lab the excitation that identify takes, 32 s.
+
+    A lab with a secret gets it from SVSA_SECRET; a bench is to be armed before.
+    """
+    require_extra("server")
+    from svsa_server.excite_command import play_excitation
+
+    play_excitation(url, session, name)
 
 
 def openapi() -> None:

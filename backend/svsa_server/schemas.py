@@ -14,12 +14,13 @@ from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import MOST_LANES, Configuration, Lane, Law
+from svsa.runtime.configuration import MOST_LANES, Configuration, Design, Lane, Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.session import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
 
+LONGEST_PARAMETER_FILE = 100_000
 _Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_PER_S)]
 Pole = _Part | tuple[_Part, _Part]
 
@@ -150,9 +151,9 @@ class ExperimentRequest(Checked):
     rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1, default=())
     effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
 
-    def build_configuration(self) -> Configuration:
-        """What the session is set to; raises `ParameterError`."""
-        figure = get_figure(self.figure).build_configuration(self.law, self.load)
+    def build_configuration(self, design: Design) -> Configuration:
+        """What the session is set to, with the lab's design; raises `ParameterError`."""
+        figure = get_figure(self.figure).build_configuration(self.law, self.load, design)
         return figure.changed(rivals=self.rivals, effects=self.effects)
 
 
@@ -162,9 +163,9 @@ class SessionRequest(ExperimentRequest):
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
-    def build_configuration(self) -> Configuration:
-        """What the session is set to; raises `ParameterError`."""
-        return super().build_configuration().changed(seed=self.seed)
+    def build_configuration(self, design: Design) -> Configuration:
+        """What the session is set to, with the lab's design; raises `ParameterError`."""
+        return super().build_configuration(design).changed(seed=self.seed)
 
 
 class RecordingRequest(Checked):
@@ -267,6 +268,29 @@ class RecordingState(BaseModel):
     bytes: int
 
 
+class ExcitationState(BaseModel):
+    """How far the identification excitation has been played; it is recorded."""
+
+    elapsed_s: float
+    duration_s: float
+
+
+class ExcitationRequest(Checked):
+    """What the recording of the excitation is called."""
+
+    name: Annotated[str, Field(max_length=200)] = quantity(
+        "", "Name of the run", default="Identification"
+    )
+
+
+class ParameterFileRequest(Checked):
+    """A parameter file as `svsa identify` writes it."""
+
+    toml: Annotated[str, Field(max_length=LONGEST_PARAMETER_FILE)] = quantity(
+        "", "The text of the file"
+    )
+
+
 class SessionProgress(BaseModel):
     """What of a session moves by itself: where it is and how well it does."""
 
@@ -281,6 +305,9 @@ class SessionProgress(BaseModel):
     metrics: SessionMetrics = Field(description="Of lane 1")
     lanes: list[LaneMetrics]
     recording: RecordingState | None
+    excitation: ExcitationState | None = Field(
+        description="The identification excitation, while it is being played"
+    )
     bench: BenchState | None = Field(description="Null for a simulated session")
 
 

@@ -7,7 +7,8 @@ import uvicorn
 from rich.console import Console
 
 from svsa.cli import prepare
-from svsa.errors import SvsaError
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.runtime.configuration import read_design
 from svsa_server.config import Settings
 from svsa_server.console import HINT, show_bench_start, watch_keyboard
 
@@ -49,13 +50,18 @@ class AnnouncedServer(uvicorn.Server):
             Console(soft_wrap=True).print(self.announcement, highlight=False)
 
 
-def run_server(host: str, port: int, bench: Path | None) -> None:
+def run_server(host: str, port: int, bench: Path | None, parameters: Path | None) -> None:
     """Serve the lab until a signal ends it, with a bench where its file is given.
 
     Raises `SecurityError`, `ListenError`, and `BenchError` where the bench cannot be opened.
     """
     config = Settings()
     bench = bench or config.bench
+    config = config.model_copy(update={"parameters": parameters or config.parameters})
+    if bench is not None and config.parameters is not None:
+        bound = "left out with a bench: its own file names it, as [design] file"
+        raise ParameterError(Violation("--parameters", str(config.parameters), "", bound))
+    design = read_design(config.parameters) if config.parameters else None
     chosen = config.choose_host(host)
     config.check_exposure(chosen)
     listener = bind(chosen, port)
@@ -64,7 +70,7 @@ def run_server(host: str, port: int, bench: Path | None) -> None:
     from svsa_server.laboratory import build_shared_session
 
     with show_bench_start() as tell:
-        shared = build_shared_session(bench, tell)
+        shared = build_shared_session(bench, tell, design)
     server = AnnouncedServer(
         uvicorn.Config(
             build_app(config, shared),

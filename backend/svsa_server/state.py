@@ -16,6 +16,7 @@ from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
 from svsa_server.control import build_control
+from svsa_server.excitation import build_excitation
 from svsa_server.lane_names import name_laws
 from svsa_server.schemas import (
     BranchState,
@@ -51,6 +52,7 @@ def build_progress(session: Session) -> SessionProgress:
             for number, (law, name) in enumerate(zip(laws, names, strict=True))
         ],
         recording=_build_recording(session.recorder),
+        excitation=build_excitation(session),
         bench=build_bench_state(session) if isinstance(session, BenchSession) else None,
     )
 

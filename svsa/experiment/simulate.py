@@ -1,6 +1,7 @@
 """A whole run at once, as fast as it goes."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from svsa.experiment.paper import DURATION_S, get_figure
 from svsa.experiment.result import Result, build_results
 from svsa.runtime.change import Change, build_commands
 from svsa.runtime.command import play
-from svsa.runtime.configuration import Configuration, Law
+from svsa.runtime.configuration import Configuration, Design, Law, read_design
 from svsa.runtime.run import Run
 from svsa.runtime.stepwise import Controller
 from svsa.signals import CHANNELS
@@ -27,6 +28,7 @@ def simulate(
     duration_s: float = DURATION_S,
     steps: int = 1,
     commands: Sequence[Change] = (),
+    parameters: Design | Path | str | None = None,
     **changes: Any,
 ) -> Result:
     """Simulate a run from rest and return everything that happened.
@@ -35,8 +37,10 @@ def simulate(
     "ndobc", "fl", or a function (`Controller`): time in s, `Reference`, x̂ as `State`, ŵ as
     `Disturbance` → (u1, u2) in N·m. duration_s: s. steps: Runge–Kutta steps a control
     period. commands: what is changed while it runs, such as
-    `svsa.Change(at_s=5.0, law="fl")`. changes: fields of the configuration to replace, e.g.
-    position, stiffness, loads, gains, observer, limits, actuator, nominal, rivals, effects, seed.
+    `svsa.Change(at_s=5.0, law="fl")`. parameters: a parameter file, such as `svsa identify`
+    writes, or its `Design`, instead of the experiment's own. changes: fields of the configuration
+    to replace, e.g. position, stiffness, loads, gains, observer, limits, actuator, nominal,
+    rivals, effects, seed.
 
     Raises `ParameterError` for a value out of range. A run that leaves the domain of the
     model ends early: see `Result.fault`.
@@ -45,6 +49,9 @@ def simulate(
         configuration = experiment
     else:
         configuration = get_figure(experiment).build_configuration()
+    if parameters is not None:
+        design = parameters if isinstance(parameters, Design) else read_design(parameters)
+        configuration = configuration.changed(**dict(design))
     own = law if callable(law) else None
     if law is not None and own is None:
         changes["law"] = law

@@ -84,9 +84,18 @@ def read_design(path: Path | str) -> Design:
     Raises `ParameterError` for a file that cannot be read and for every wrong value.
     """
     try:
-        sections = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        return parse_design(Path(path).read_text(encoding="utf-8"), str(path))
+    except (OSError, UnicodeDecodeError) as error:
         violation = Violation("parameter file", str(path), "", f"a readable TOML file ({error})")
+        raise ParameterError(violation) from None
+
+
+def parse_design(text: str, name: str = "") -> Design:
+    """The design in the text of a parameter file called `name`; raises `ParameterError`."""
+    try:
+        sections = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        violation = Violation("parameter file", name, "", f"a readable TOML file ({error})")
         raise ParameterError(violation) from None
     return Design(**{name: _strip_sources(section) for name, section in sections.items()})
 

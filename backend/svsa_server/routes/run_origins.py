@@ -4,9 +4,10 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 
 from svsa.runtime.catalogue.entry import RunEntry
+from svsa.runtime.configuration import Design
 from svsa.runtime.recording.header import BranchPoint, PlantKind
 from svsa_server.routes.depends import NamedSession, RunId, Runs
 from svsa_server.run_schemas import BranchOrigin, RunCommand, RunOrigin
@@ -16,7 +17,7 @@ router = APIRouter()
 
 
 @router.get("/sessions/{session}/origin")
-async def read_origin(session: NamedSession) -> RunOrigin:
+async def read_origin(request: Request, session: NamedSession) -> RunOrigin:
     """The run that a session is on: how it stood at t = 0 and what was changed since."""
     return _tell(
         session.initial.model_dump(mode="json"),
@@ -24,11 +25,12 @@ async def read_origin(session: NamedSession) -> RunOrigin:
         session.run.tick,
         session.run.period_s,
         session.plant,
+        request.app.state.design,
     )
 
 
 @router.get("/runs/{run_id}/origin")
-def read_run_origin(runs: Runs, run_id: RunId) -> RunOrigin:
+def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
     """A recorded run: how it stood at its t = 0 and what was changed, to its last sample."""
     record = runs.open(run_id)
     header = record.header
@@ -38,6 +40,7 @@ def read_run_origin(runs: Runs, run_id: RunId) -> RunOrigin:
         record.first_tick + record.tick_count,
         header.period_s,
         header.plant,
+        request.app.state.design,
     )
 
 
@@ -61,6 +64,7 @@ def _tell(
     tick: int,
     period_s: float,
     plant: PlantKind,
+    design: Design,
 ) -> RunOrigin:
     return RunOrigin(
         configuration=configuration,
@@ -68,10 +72,10 @@ def _tell(
         tick=tick,
         period_s=period_s,
         plant=plant,
-        defaults=_build_defaults(),
+        defaults=_build_defaults(design),
     )
 
 
 @cache
-def _build_defaults() -> dict[str, Any]:
-    return SessionRequest(load=False).build_configuration().model_dump(mode="json")
+def _build_defaults(design: Design) -> dict[str, Any]:
+    return SessionRequest(load=False).build_configuration(design).model_dump(mode="json")

@@ -35,7 +35,9 @@ async def create_session(
     wanted: Annotated[SessionRequest, Body(examples=[{"figure": "4a", "rivals": [{"law": "fl"}]}])],
 ) -> SessionState:
     """A private simulated session, running; it ends by itself when nobody uses it."""
-    return build_state(request.app.state.laboratory.create(wanted.build_configuration()))
+    return build_state(
+        request.app.state.laboratory.create(wanted.build_configuration(request.app.state.design))
+    )
 
 
 @router.delete("/{session}", status_code=204)
@@ -102,8 +104,9 @@ def set_speed(
 
 @router.post("/{session}/experiment")
 def load_experiment(
+    request: Request,
     session: NamedSession,
-    request: Annotated[
+    wanted: Annotated[
         ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])
     ],
 ) -> SessionState:
@@ -111,7 +114,7 @@ def load_experiment(
 
     What is set comes from the figure; lanes and effects from the request. A bench has its own.
     """
-    session.load(request.build_configuration())
+    session.load(wanted.build_configuration(request.app.state.design))
     session.start()
     return build_state(session)
 

@@ -56,6 +56,9 @@ export const putLanes = (laws: readonly Law[]) =>
 export const putEffects = (effects: EffectsRequest) => send("put", "/effects", effects);
 export const patchActuator = (patch: ActuatorPatch) => call("patch", "/actuator", patch);
 export const patchNominal = (patch: ActuatorPatch) => call("patch", "/nominal", patch);
+export const putNominal = (toml: string) => call("put", "/nominal", { toml });
+export const excite = (name: string) => call("post", "/excitation", { name });
+export const stopExcitation = () => call("delete", "/excitation");
 /** The run is called by its settings until somebody names it. */
 export const startRecording = () => call("post", "/recording", { name: "", tags: [], notes: "" });
 export const stopRecording = () => call("delete", "/recording");

@@ -597,7 +597,11 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
-        put?: never;
+        /**
+         * Load Nominal
+         * @description Let controller and observer believe in the nominal model of a parameter file (TOML).
+         */
+        put: operations["load_nominal_api_v1_sessions__session__nominal_put"];
         post?: never;
         delete?: never;
         options?: never;
@@ -668,6 +672,33 @@ export interface paths {
          */
         post: operations["predict_design_api_v1_sessions__session__predict_post"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/excitation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Excite
+         * @description Play the identification excitation from now on and record it, 32 s; starts what is paused.
+         *
+         *     Slow and fast, soft and stiff: what `svsa identify` needs. Only without loads. It ends by
+         *     itself, and with it the recording; a reference of your own breaks it off.
+         */
+        post: operations["excite_api_v1_sessions__session__excitation_post"];
+        /**
+         * Stop Excitation
+         * @description Break the excitation off, and end its recording; the references stay as they are.
+         */
+        delete: operations["stop_excitation_api_v1_sessions__session__excitation_delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1684,6 +1715,28 @@ export interface components {
             label: string;
         };
         /**
+         * ExcitationRequest
+         * @description What the recording of the excitation is called.
+         */
+        ExcitationRequest: {
+            /**
+             * Name
+             * @description Name of the run
+             * @default Identification
+             */
+            name: string;
+        };
+        /**
+         * ExcitationState
+         * @description How far the identification excitation has been played; it is recorded.
+         */
+        ExcitationState: {
+            /** Elapsed S */
+            elapsed_s: number;
+            /** Duration S */
+            duration_s: number;
+        };
+        /**
          * ExperimentRequest
          * @description One of the paper's figures, from t = 0; with other lanes and effects than it has.
          */
@@ -2419,6 +2472,17 @@ export interface components {
             kind: "paper";
         };
         /**
+         * ParameterFileRequest
+         * @description A parameter file as `svsa identify` writes it.
+         */
+        ParameterFileRequest: {
+            /**
+             * Toml
+             * @description The text of the file
+             */
+            toml: string;
+        };
+        /**
          * PositionSeries
          * @description A CSV with angles, as `PUT …/position` takes it.
          */
@@ -3136,6 +3200,8 @@ export interface components {
             /** Lanes */
             lanes: components["schemas"]["LaneMetrics"][];
             recording: components["schemas"]["RecordingState"] | null;
+            /** @description The identification excitation, while it is being played */
+            excitation: components["schemas"]["ExcitationState"] | null;
             /** @description Null for a simulated session */
             bench: components["schemas"]["BenchState"] | null;
         };
@@ -3222,6 +3288,8 @@ export interface components {
             /** Lanes */
             lanes: components["schemas"]["LaneMetrics"][];
             recording: components["schemas"]["RecordingState"] | null;
+            /** @description The identification excitation, while it is being played */
+            excitation: components["schemas"]["ExcitationState"] | null;
             /** @description Null for a simulated session */
             bench: components["schemas"]["BenchState"] | null;
             /** Session */
@@ -5629,6 +5697,90 @@ export interface operations {
             };
         };
     };
+    load_nominal_api_v1_sessions__session__nominal_put: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ParameterFileRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
     change_nominal_api_v1_sessions__session__nominal_patch: {
         parameters: {
             query?: never;
@@ -5947,6 +6099,152 @@ export interface operations {
             };
             /** @description The body is longer than 4194304 bytes. */
             413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    excite_api_v1_sessions__session__excitation_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ExcitationRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    stop_excitation_api_v1_sessions__session__excitation_delete: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };

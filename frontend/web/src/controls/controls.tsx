@@ -2,6 +2,7 @@ import type { SessionState } from "../api/types";
 import { mayCommand } from "../state/control";
 import { text } from "../text/en";
 import { Controller } from "./controller";
+import { Identification } from "./identification";
 import { Loads } from "./load";
 import { Motion } from "./motion";
 import { Observer } from "./observer";
@@ -18,6 +19,7 @@ export function Controls({ state }: { state: SessionState }) {
       <Observer state={state} />
       <Loads state={state} />
       {state.bench === null && <Realism state={state} />}
+      <Identification state={state} />
     </fieldset>
   );
 }

@@ -3,6 +3,7 @@ import { benchText } from "./bench";
 import { controlText } from "./control";
 import { controlsText } from "./controls";
 import { designText } from "./design";
+import { identificationText } from "./identification";
 import { keysText } from "./keys";
 import { learningText } from "./learning";
 import { pageText } from "./page";
@@ -22,6 +23,7 @@ export const text = {
   ...learningText,
   ...sceneText,
   ...keysText,
+  ...identificationText,
   ...realismText,
   ...runsText,
   ...scriptText,

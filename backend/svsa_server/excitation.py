@@ -1,0 +1,108 @@
+"""The identification excitation played on a session: one reference after another, recorded."""
+
+import asyncio
+import logging
+from collections import deque
+from weakref import WeakKeyDictionary
+
+from svsa.errors import StateError, SvsaError
+from svsa.experiment.excitation import EXCITATION_DURATION_S, build_commands
+from svsa.runtime.session import Session
+from svsa_server.schemas import ExcitationState
+from svsa_server.turn import take_turn
+
+FASTEST_SPEED = 10.0
+TAG = "identification"
+_PLAYED = ("position", "stiffness")
+_PERIOD_S = 1.0 / 60.0
+_log = logging.getLogger("svsa")
+
+
+class Excitation:
+    """The excitation from this tick of a session's run on, which is being recorded.
+
+    It ends with the recording: when it has been played, or earlier where the run ends, somebody
+    gives a reference of his own, or the run refuses one.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session, self._run_number = session, session.run_number
+        self._first_tick = session.run.tick
+        self._waiting = deque(build_commands(session.run.period_s, self._first_tick))
+        self._seen = len(session.commands)
+
+    @property
+    def elapsed_s(self) -> float:
+        """How much of it has been played, s."""
+        return (self._session.run.tick - self._first_tick) * self._session.run.period_s
+
+    @property
+    def over(self) -> bool:
+        """Whether it has ended, or was broken off."""
+        session = self._session
+        return (
+            session.recorder is None
+            or session.run_number != self._run_number
+            or session.status == "fault"
+            or self.elapsed_s >= EXCITATION_DURATION_S
+            or any(command.kind in _PLAYED for command in session.commands[self._seen :])
+        )
+
+    def play(self) -> None:
+        """Give the references that are due; raises what the session refuses them with."""
+        while self._waiting and self._waiting[0].tick <= self._session.run.tick:
+            command = self._waiting.popleft()
+            self._session.change(command.kind, command.argument)
+            self._seen = len(self._session.commands)
+
+
+_playing: WeakKeyDictionary[Session, Excitation] = WeakKeyDictionary()
+_tasks: set[asyncio.Task[None]] = set()
+
+
+def check_excitable(session: Session) -> None:
+    """Raise `StateError` where the excitation would not tell what it should."""
+    if session in _playing:
+        raise StateError("The excitation is being played already.")
+    if session.recorder is not None:
+        raise StateError("The session is being recorded: stop that first, this is its own run.")
+    if any(load.end_tick > session.run.tick for load in session.run.loads):
+        raise StateError("A load is on, or is to come: take every load off first.")
+    if session.clock.speed > FASTEST_SPEED:
+        raise StateError(f"Speed {session.clock.speed:g} is too fast: at most {FASTEST_SPEED:g}.")
+
+
+def begin_excitation(session: Session) -> None:
+    """Play it in the background from now on; the session runs and is being recorded."""
+    excitation = _playing[session] = Excitation(session)
+    session.version += 1
+    task = asyncio.get_running_loop().create_task(_play(session, excitation))
+    _tasks.add(task)
+    task.add_done_callback(_tasks.discard)
+
+
+async def _play(session: Session, excitation: Excitation) -> None:
+    """Give each reference when it is due; what refuses one breaks it off."""
+    try:
+        while _playing.get(session) is excitation and not excitation.over:
+            await take_turn(excitation.play)
+            await asyncio.sleep(_PERIOD_S)
+    except SvsaError as error:
+        _log.warning("The excitation of session %s was broken off. %s", session.name, error)
+    if _playing.get(session) is excitation:
+        end_excitation(session)
+
+
+def end_excitation(session: Session) -> None:
+    """Break it off; the recording ends, the references stay as they are."""
+    if _playing.pop(session, None) is not None:
+        session.stop_recording()
+        session.version += 1
+
+
+def build_excitation(session: Session) -> ExcitationState | None:
+    """How far it is, or None."""
+    excitation = _playing.get(session)
+    if excitation is None:
+        return None
+    return ExcitationState(elapsed_s=excitation.elapsed_s, duration_s=EXCITATION_DURATION_S)

@@ -1,0 +1,77 @@
+import { excite, putNominal, stopExcitation } from "../api/client";
+import type { SessionState } from "../api/types";
+import { perform } from "../state/actions";
+import { text } from "../text/en";
+import { formatSeconds } from "../units";
+import { Group } from "./group";
+import { Problem } from "./problem";
+
+const words = text.identification;
+
+/** Plays what `svsa identify` needs, and takes what came of it as the model. */
+export function Identification({ state }: { state: SessionState }) {
+  const { excitation } = state;
+  return (
+    <Group title={words.title}>
+      <p class="hint">
+        {words.explanation} <code>{words.command}</code>
+      </p>
+      {excitation === null ? (
+        <button
+          type="button"
+          class="button"
+          onClick={() => void perform("identification.excite", () => excite(words.runName))}
+        >
+          {words.excite}
+        </button>
+      ) : (
+        <div class="identification-run">
+          <progress
+            max={excitation.duration_s}
+            value={excitation.elapsed_s}
+            aria-label={words.title}
+          />
+          <span>
+            {words.exciting(
+              formatSeconds(excitation.elapsed_s),
+              formatSeconds(excitation.duration_s),
+            )}
+          </span>
+          <button
+            type="button"
+            class="button"
+            onClick={() => void perform("identification.excite", stopExcitation)}
+          >
+            {words.stop}
+          </button>
+        </div>
+      )}
+      <Problem control="identification.excite" />
+      {state.bench === null ? <ModelFile /> : <p class="hint">{words.bench}</p>}
+    </Group>
+  );
+}
+
+function ModelFile() {
+  const load = async (input: HTMLInputElement) => {
+    const file = input.files?.[0];
+    if (file === undefined) return;
+    const toml = await file.text();
+    input.value = "";
+    await perform("identification.file", () => putNominal(toml));
+  };
+  return (
+    <>
+      <label class="button identification-file" title={words.fileHint}>
+        {words.file}
+        <input
+          type="file"
+          accept=".toml"
+          class="visually-hidden"
+          onChange={(event) => void load(event.currentTarget)}
+        />
+      </label>
+      <Problem control="identification.file" />
+    </>
+  );
+}
