@@ -1,7 +1,6 @@
 """What decides the samples of a run, live or recorded: enough to do it again in a script."""
 
 from collections.abc import Iterable, Mapping
-from functools import cache
 from typing import Any
 
 from fastapi import APIRouter, Request
@@ -76,6 +75,5 @@ def _tell(
     )
 
 
-@cache
 def _build_defaults(design: Design) -> dict[str, Any]:
     return SessionRequest(load=False).build_configuration(design).model_dump(mode="json")
