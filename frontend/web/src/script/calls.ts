@@ -16,6 +16,8 @@ export interface Call {
 const MOST_CALLS = 200;
 /** What carries the lab's secret is shown nowhere. */
 const SECRET_PATH = "login";
+/** What is only looked at, at every key that is pressed. */
+const LOOKED_AT = "references/";
 
 export const calls = signal<readonly Call[]>([]);
 let lastId = 0;
@@ -33,7 +35,7 @@ export function noteCall(
   status: number | null,
   answer: unknown = null,
 ): number | null {
-  if (method === "get" || path === SECRET_PATH) return null;
+  if (method === "get" || path === SECRET_PATH || path.startsWith(LOOKED_AT)) return null;
   return addCall({ method, path, body, status, timeS: readTime(answer) });
 }
 
