@@ -67,7 +67,9 @@ class BenchState(BaseModel):
     calibrated_on: str | None = Field(description="ISO 8601")
     problems: list[str] = Field(description="Why it does not arm; empty if it may")
     homing: HomingState
-    current_a: tuple[float, float]
+    current_a: tuple[float, float] | None = Field(
+        description="As the drives say; null where no loop ticks that would hear them"
+    )
     ages_s: tuple[float, float, float] = Field(description="Of motor 1, motor 2, deflection")
     supervised: bool = Field(description="The supervisor's heartbeat is fresh")
     operator_required: bool = Field(description="Somebody must watch while it runs")

@@ -1,5 +1,7 @@
 """A bench as it is told on the wire."""
 
+import math
+
 import numpy as np
 
 from svsa.hardware.homing import STEPS, Axis, get_instruction
@@ -22,8 +24,8 @@ def build_bench_state(session: BenchSession) -> BenchState:
         calibrated_on=calibration.date if calibration else None,
         problems=session.problems,
         homing=_build_homing(session.homing_step),
-        current_a=tuple(fields["current_a"].tolist()),
-        ages_s=tuple(np.minimum(fields["ages_s"], 1e3).tolist()),
+        current_a=tuple(fields["current_a"].tolist()) if _is_ticking(session) else None,
+        ages_s=tuple(np.minimum(fields["ages_s"] + _find_silence_s(session), 1e3).tolist()),
         supervised=session.supervised,
         operator_required=bench.safety.needs_watcher,
         dead_man=bench.safety.dead_man,
@@ -45,7 +47,7 @@ def _build_loop(session: BenchSession) -> LoopState:
     ends = np.minimum(starts + _BINS_A_WIRE_BIN, len(lateness)) - 1
     edges = np.minimum(LATENESS_EDGES_S[ends], 10.0)
     return LoopState(
-        alive=loss is None and not session.starting,
+        alive=_is_ticking(session),
         state=_name_state(session),
         silent_s=session.processes.silence_s if loss else None,
         stopped_by=loss.stopped_by if loss else None,
@@ -62,6 +64,15 @@ def _build_loop(session: BenchSession) -> LoopState:
         lateness_counts=np.add.reduceat(lateness, starts).tolist(),
         notes=session.processes.notes,
     )
+
+
+def _is_ticking(session: BenchSession) -> bool:
+    return session.loss is None and not session.starting
+
+
+def _find_silence_s(session: BenchSession) -> float:
+    """How much older the loop's word is than it says, s; infinite where nobody knows."""
+    return 0.0 if _is_ticking(session) else session.processes.silence_s or math.inf
 
 
 def _name_state(session: BenchSession) -> LoopStateName:

@@ -314,6 +314,8 @@ def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_nobody_else(bench: Be
     assert (state["status"], state["bench"]["status"]) == ("fault", "fault")
     assert (loop["alive"], loop["state"], loop["stopped_by"]) == (False, "silent", "supervisor")
     assert loop["silent_s"] > 0.5
+    assert state["bench"]["current_a"] is None, "nobody hears what they make"
+    assert min(state["bench"]["ages_s"]) > 0.5, "what was heard is as old as the last tick"
     before = client.get(path).json()["tick"]
     assert "silent" in bench.refuse("/bench/arm")
     wait_until(lambda: client.get(path).json()["tick"] > before + 1000)

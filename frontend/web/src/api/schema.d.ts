@@ -1272,11 +1272,14 @@ export interface components {
              */
             problems: string[];
             homing: components["schemas"]["HomingState"];
-            /** Current A */
+            /**
+             * Current A
+             * @description As the drives say; null where no loop ticks that would hear them
+             */
             current_a: [
                 number,
                 number
-            ];
+            ] | null;
             /**
              * Ages S
              * @description Of motor 1, motor 2, deflection

@@ -58,7 +58,7 @@ function Drives({ bench }: { bench: BenchState }) {
         </thead>
         <tbody>
           {ages.map((age, index) => {
-            const current = currents[index];
+            const current = currents?.[index];
             return (
               <tr key={drives.names[index]}>
                 <th scope="row">{drives.names[index]}</th>
