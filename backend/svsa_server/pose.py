@@ -1,12 +1,14 @@
 """What the 3D view shows of a session."""
 
+import math
+
 import numpy as np
 
 from svsa.plant.disturbances import get_hung_mass
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose, RivalPose
-from svsa_server.lane_names import name_laws
+from svsa_server.lanes import list_session_stretches
 
 
 def read_pose(session: Session) -> ActuatorPose | None:
@@ -38,14 +40,14 @@ def read_pose(session: Session) -> ActuatorPose | None:
 
 
 def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
-    """Where the links of the other lanes are."""
+    """Where the links of the other lanes are; none before a lane's first sample."""
     poses = []
-    names = name_laws([lane.law for lane in session.run.configuration.lanes], session.plant)
-    for number, name in enumerate(names[1:], start=1):
+    for number, stretches in enumerate(list_session_stretches(session)[1:], start=1):
         newest = session.history.read_newest(number)
-        if newest is not None:
-            position = float(np.nan_to_num(newest[CHANNEL_INDEX["position_rad"]]))
-            poses.append(RivalPose(name, position))
+        position = math.nan if newest is None else float(newest[CHANNEL_INDEX["position_rad"]])
+        if math.isfinite(position):
+            present = stretches[-1]
+            poses.append(RivalPose(present.name, position, present.ink))
     return tuple(poses)
 
 

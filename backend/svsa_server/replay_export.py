@@ -10,8 +10,10 @@ from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.recording.reader import Record
 from svsa.runtime.resimulation import read_origin
+from svsa_scene.pose import LaneStretch
 from svsa_scene.replay import build_replay_html
-from svsa_server.lane_names import name_lanes
+from svsa_server.lane_schemas import StretchState
+from svsa_server.lanes import list_record_stretches, name_lanes, trace_record
 
 
 def build_replay(record: Record) -> str:
@@ -20,10 +22,11 @@ def build_replay(record: Record) -> str:
     Raises `ParameterError` where the record lacks a channel that the view needs.
     """
     header = record.header
+    stretches = list_record_stretches(record, trace_record(record))
     return build_replay_html(
         header.name or f"Run {header.run_id}",
         header.period_s,
-        name_lanes(record),
+        name_lanes(stretches),
         list(header.channel_names),
         record.samples,
         compute_hung_mass(record),
@@ -38,7 +41,17 @@ def build_replay(record: Record) -> str:
             "commands": list_marks(*read_origin(record)),
         },
         first_tick=record.first_tick,
+        stretches=[[_place(record, one) for one in lane] for lane in stretches],
     )
+
+
+def _place(record: Record, stretch: StretchState) -> LaneStretch:
+    """A stretch in the record's own ticks."""
+    first = max(0, stretch.start_tick - record.first_tick)
+    end = record.tick_count
+    if stretch.end_tick is not None:
+        end = min(end, stretch.end_tick - record.first_tick)
+    return LaneStretch(stretch.name, stretch.ink, stretch.number, first, end)
 
 
 def compute_hung_mass(record: Record) -> np.ndarray:

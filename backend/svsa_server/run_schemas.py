@@ -17,6 +17,7 @@ from svsa.runtime.recording.header import (
 )
 from svsa.runtime.recording.settings import RunSettings
 from svsa.signals import Channel
+from svsa_server.lane_schemas import StretchState, WindowState
 
 ExportName = Literal["csv", "parquet", "mat", "mcap"]
 
@@ -103,6 +104,10 @@ class RunDetails(RunSummary):
     """A run with everything that decided its samples."""
 
     lane_names: list[str] = Field(description="What to call the lanes: by their laws")
+    stretches: list[list[StretchState]] = Field(description="Of every lane, who controlled it when")
+    windows: list[WindowState] = Field(
+        description="Between the changes of the run; the newest 1000"
+    )
     seed: int
     configuration: dict[str, Any] = Field(description="At tick 0")
     channels: list[Channel]

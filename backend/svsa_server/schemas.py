@@ -15,10 +15,10 @@ from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.configuration import MOST_LANES, Configuration, Design, Lane, Law
-from svsa.runtime.metrics import Metrics
 from svsa.runtime.session import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
+from svsa_server.lane_schemas import LaneMetrics, LaneState, WindowState
 
 LONGEST_PARAMETER_FILE = 100_000
 _Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_PER_S)]
@@ -26,9 +26,15 @@ Pole = _Part | tuple[_Part, _Part]
 
 
 class LawRequest(Checked):
-    """Which law controls."""
+    """Which law controls, and which the lanes beside; every plant stays where it is."""
 
     law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)")
+    rival_laws: tuple[Law, ...] = quantity(
+        "",
+        "Laws of the lanes beside, from the first on; those left out keep theirs",
+        max_length=MOST_LANES - 1,
+        default=(),
+    )
 
 
 class GainsRequest(Checked):
@@ -242,21 +248,6 @@ class LoadState(BaseModel):
     load: Load
 
 
-class SessionMetrics(BaseModel):
-    """Metrics since the start of the run, and since the last load came on till it was taken off."""
-
-    since_start: Metrics | None
-    since_load: Metrics | None
-
-
-class LaneMetrics(SessionMetrics):
-    """The metrics of one lane; lane 1 is the session's own controller."""
-
-    lane: int
-    law: Law
-    name: str = Field(description="What to call it: by its law")
-
-
 class RecordingState(BaseModel):
     """How a recording stands; failed says why, and control goes on."""
 
@@ -302,8 +293,12 @@ class SessionProgress(BaseModel):
     real_time_factor: float = Field(description="Session seconds a wall second, as measured")
     stretched_s: float = Field(description="Wall time given up because ticks came too late")
     fault: Fault | None
-    metrics: SessionMetrics = Field(description="Of lane 1")
-    lanes: list[LaneMetrics]
+    window: WindowState = Field(description="Since the last change of anything, or the last load")
+    load_window: WindowState | None = Field(
+        description="From the newest load's onset to the next change; null where none came"
+    )
+    metrics: LaneMetrics = Field(description="Of lane 1")
+    lanes: list[LaneState]
     recording: RecordingState | None
     excitation: ExcitationState | None = Field(
         description="The identification excitation, while it is being played"

@@ -7,7 +7,6 @@ import numpy as np
 
 from svsa.control.gains import Gains
 from svsa.plant.disturbances import ScheduledLoad
-from svsa.runtime.configuration import Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.realtime.session import BenchSession
 from svsa.runtime.recording.header import BranchPoint
@@ -17,16 +16,15 @@ from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
 from svsa_server.control import build_control
 from svsa_server.excitation import build_excitation
-from svsa_server.lane_names import name_laws
+from svsa_server.lane_schemas import LaneMetrics, LaneState
+from svsa_server.lanes import build_window, list_session_stretches
 from svsa_server.schemas import (
     BranchState,
     ConfigurationState,
     GainsState,
-    LaneMetrics,
     LoadState,
     RecordingState,
     Root,
-    SessionMetrics,
     SessionProgress,
     SessionState,
 )
@@ -35,8 +33,9 @@ from svsa_server.schemas import (
 def build_progress(session: Session) -> SessionProgress:
     """What of the session moves by itself, at this instant."""
     run, clock = session.run, session.clock
-    laws: list[Law] = [lane.law for lane in run.configuration.lanes]
-    names = name_laws(laws, session.plant)
+    stretches = list_session_stretches(session)
+    timeline = session.timeline
+    load_window = timeline.load_window
     return SessionProgress(
         status=session.status,
         run_number=session.run_number,
@@ -46,10 +45,18 @@ def build_progress(session: Session) -> SessionProgress:
         real_time_factor=clock.real_time_factor,
         stretched_s=clock.stretched_s,
         fault=session.fault,
-        metrics=SessionMetrics(**_summarize(session, 0)),
+        window=build_window(timeline.window, run.period_s),
+        load_window=load_window and build_window(load_window, run.period_s),
+        metrics=LaneMetrics(**_summarize(session, 0)),
         lanes=[
-            LaneMetrics(lane=number + 1, law=law, name=name, **_summarize(session, number))
-            for number, (law, name) in enumerate(zip(laws, names, strict=True))
+            LaneState(
+                lane=number + 1,
+                law=lane.law,
+                name=stretches[number][-1].name,
+                stretches=stretches[number],
+                **_summarize(session, number),
+            )
+            for number, lane in enumerate(run.configuration.lanes)
         ],
         recording=_build_recording(session.recorder),
         excitation=build_excitation(session),
@@ -86,11 +93,14 @@ def _build_recording(recorder: Recorder | None) -> RecordingState | None:
 
 
 def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
-    since_load = session.since_load
-    return {
-        "since_start": session.since_start[lane].summarize(),
-        "since_load": since_load[lane].summarize() if since_load else None,
+    metrics = session.metrics
+    kinds = {
+        "since_start": metrics.since_start,
+        "in_window": metrics.in_window,
+        "since_load": metrics.since_load,
     }
+    running = {kind: lanes and lanes[lane] for kind, lanes in kinds.items()}
+    return {kind: one and one.summarize() for kind, one in running.items()}
 
 
 def _build_configuration(session: Session) -> ConfigurationState:

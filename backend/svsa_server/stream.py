@@ -1,6 +1,7 @@
 """Samples to a client: a greeting, then binary batches; a slow client gets the newest.
 
 Messages and the batch's header are described in `stream_schemas`, and from there in `/docs`.
+A change is told before the samples that it made, which have the lanes that it told of.
 
 Every message of the client holds the dead-man's switch of a bench for 0.1 s, as long as the
 client may command: it is in control, or nobody is.
@@ -149,15 +150,16 @@ async def _send(
         slow = False
         while not session.closed:
             now = time.monotonic()
+            news = None
+            if session.version != version:
+                version, told_at, news = session.version, now, build_state(session)
+            elif now - told_at > PROGRESS_PERIOD_S:
+                told_at, news = now, build_progress(session)
             batch = cursor.take_batch(slow)
+            if news is not None:
+                await _tell(websocket, news)
             if batch is not None:
                 await websocket.send_bytes(batch)
-            if session.version != version:
-                version, told_at = session.version, now
-                await _tell(websocket, build_state(session))
-            elif now - told_at > PROGRESS_PERIOD_S:
-                told_at = now
-                await _tell(websocket, build_progress(session))
             spent = time.monotonic() - now
             slow = spent > SLOW_AFTER_S
             await asyncio.sleep(max(0.0, BATCH_PERIOD_S - spent))

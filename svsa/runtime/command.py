@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 
 from svsa.checked import Whole
 from svsa.control.gains import Gains
@@ -37,6 +37,11 @@ KINDS: dict[str, CommandKind] = {
         Run.set_stiffness, TypeAdapter(StiffnessReference), "Stiffness changed"
     ),
     "law": CommandKind(Run.set_law, TypeAdapter(Law), "Law changed"),
+    "laws": CommandKind(
+        Run.set_laws,
+        TypeAdapter(Annotated[tuple[Law, ...], Field(min_length=1)]),
+        "Laws changed",
+    ),
     "gains": CommandKind(Run.set_gains, TypeAdapter(Gains), "Gains changed"),
     "observer": CommandKind(Run.set_observer, TypeAdapter(ObserverBandwidth), "Observer changed"),
     "actuator": CommandKind(Run.set_actuator, TypeAdapter(ActuatorParameters), "Plant changed"),

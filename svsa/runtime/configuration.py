@@ -1,9 +1,10 @@
 """A run as a value: parameters, design, references and loads; TOML files in and out."""
 
 import tomllib
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, Literal, Self, get_args
 
 import tomli_w
 from pydantic import model_validator
@@ -18,6 +19,9 @@ from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference, get_range
 
 Law = Literal["ndobc", "fl"]
+LAWS: tuple[Law, ...] = get_args(Law)
+OBSERVING: frozenset[Law] = frozenset({"ndobc"})
+"""The laws that act on what the observer believes."""
 MOST_LOADS = 16
 MOST_LANES = 4
 
@@ -76,6 +80,17 @@ class Configuration(Design):
     def lanes(self) -> tuple[Lane, ...]:
         """The run's own controller and its rivals."""
         return (Lane(law=self.law), *self.rivals)
+
+    def controlled_by(self, laws: Sequence[Law]) -> Self:
+        """The first lanes with these laws, in this order; gains and observers stay theirs.
+
+        Raises `ParameterError` where there are fewer lanes.
+        """
+        if not 1 <= len(laws) <= len(self.lanes):
+            bound = f"1 to {len(self.lanes)} laws, one a lane from the first on"
+            raise ParameterError(Violation("laws", list(laws), "", bound))
+        changed = [lane.changed(law=law) for lane, law in zip(self.rivals, laws[1:], strict=False)]
+        return self.changed(law=laws[0], rivals=(*changed, *self.rivals[len(changed) :]))
 
 
 def read_design(path: Path | str) -> Design:

@@ -1,5 +1,7 @@
 """The newest samples of a run, in a ring that never grows."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from svsa.signals import CHANNELS
@@ -43,9 +45,12 @@ class History:
             return None
         return self._rows[lane, (self.end_tick - 1) % self._capacity]
 
-    def rearrange(self, origins: list[int]) -> None:
-        """Give lane i the past of lane origins[i]: lanes went, moved, or began at another."""
-        self._rows[: len(origins)] = self._rows[origins]
+    def rearrange(self, origins: Sequence[int | None]) -> None:
+        """Give lane i the past of lane origins[i]; a new lane, None, has none: NaN."""
+        self._rows[: len(origins)] = self._rows[[origin or 0 for origin in origins]]
+        for lane, origin in enumerate(origins):
+            if origin is None:
+                self._rows[lane] = np.nan
 
     def clear(self) -> None:
         """Forget everything; the next sample is that of tick 0."""

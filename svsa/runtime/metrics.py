@@ -1,5 +1,6 @@
 """How good a run is: errors, peaks, recovery and torque, whole or while it goes on."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,8 +25,8 @@ class Metrics:
     """Metrics of a stretch of samples; SI units as named, over `duration_s`.
 
     integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
-    recovery_time_s: from the start of the stretch until the position error stays within
-    2 % of its peak (for 0.5 s at least); None while it has not.
+    recovery_time_s: from the start of the stretch until the position error has stayed within
+    2 % of its peak for 0.5 s; None while it has not. What comes later does not change it.
     """
 
     duration_s: float
@@ -50,6 +51,8 @@ class RunningMetrics:
         self._error_sum = 0.0
         self._peaks = np.zeros(len(_COLUMNS))
         self._last_outside = 0
+        self._recovered: int | None = None
+        self._settled = math.ceil(SETTLED_S / period_s - 1e-9)
 
     def update(self, samples: np.ndarray) -> None:
         """Take in more rows of samples (ticks, channels), in the order of time."""
@@ -61,20 +64,27 @@ class RunningMetrics:
             return
         sizes = np.abs(values)
         peaks = np.maximum(np.maximum.accumulate(sizes[:, 0]), self._peaks[0])
-        outside = np.flatnonzero(sizes[:, 0] > RECOVERY_SHARE * peaks)
-        if len(outside):
-            self._last_outside = self._count + int(outside[-1]) + 1
+        if self._recovered is None:
+            self._find_recovery(np.flatnonzero(sizes[:, 0] > RECOVERY_SHARE * peaks), len(values))
         self._squares += np.sum(sizes**2, axis=0)
         self._error_sum += float(np.sum(sizes[:, 0]))
         self._peaks = np.maximum(self._peaks, sizes.max(axis=0))
         self._count += len(values)
+
+    def _find_recovery(self, outside: np.ndarray, count: int) -> None:
+        """Look for the first time inside that is long enough; outside: rows of the next `count`."""
+        entries = np.concatenate([[self._last_outside], self._count + outside + 1])
+        ends = np.concatenate([self._count + outside, [self._count + count]])
+        settled = np.flatnonzero(ends - entries >= self._settled)
+        self._last_outside = int(entries[-1])
+        if len(settled):
+            self._recovered = int(entries[settled[0]])
 
     def summarize(self) -> Metrics | None:
         """The metrics so far; None before the first sample."""
         if not self._count:
             return None
         rms = np.sqrt(self._squares / self._count)
-        settled = (self._count - self._last_outside) * self._period >= SETTLED_S
         return Metrics(
             duration_s=self._count * self._period,
             rms_position_error_rad=float(rms[0]),
@@ -85,7 +95,7 @@ class RunningMetrics:
             peak_torque2_nm=float(self._peaks[3]),
             integral_position_error_rad_s=self._error_sum * self._period,
             effort_n2m2_s=float(self._squares[2] + self._squares[3]) * self._period,
-            recovery_time_s=self._last_outside * self._period if settled else None,
+            recovery_time_s=None if self._recovered is None else self._recovered * self._period,
         )
 
 

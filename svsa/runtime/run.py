@@ -1,5 +1,6 @@
 """One run: a configuration, the state it has reached, and the changes made on the way."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -148,8 +149,16 @@ class Run:
         self._configure(stiffness=reference)
 
     def set_law(self, law: Law) -> None:
-        """Control with this law from now on."""
-        self._configure(law=law)
+        """Control the first lane with this law from now on."""
+        self.set_laws((law,))
+
+    def set_laws(self, laws: tuple[Law, ...]) -> None:
+        """Control the first lanes with these laws from now on; their plants stay as they are.
+
+        Raises `ParameterError` where there are fewer lanes than laws.
+        """
+        self.configuration = self.configuration.controlled_by(laws)
+        self._connect()
 
     def set_gains(self, gains: Gains) -> None:
         """Use these gains from now on."""
@@ -171,24 +180,16 @@ class Run:
         """Switch effects on and off."""
         self._configure(effects=effects)
 
-    def set_rivals(self, rivals: tuple[Lane, ...]) -> list[int]:
+    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
         """Run these controllers beside the first, in this order.
 
-        A rival that ran before goes on; a new one begins where the first lane is. Returns
-        for each lane the number of the lane that it continues, 0 being the first.
+        A rival that ran before goes on; a new one begins where the first lane is.
         """
         configuration = self.configuration.changed(rivals=rivals)
-        before: list[Lane | None] = [None, *self.configuration.rivals]
-        origins = [0]
-        for rival in rivals:
-            origin = before.index(rival) if rival in before else 0
-            if origin:
-                before[origin] = None
-            origins.append(origin)
-        self.lanes = [self.lanes[origin] for origin in origins]
+        origins = find_origins(self.configuration.rivals, rivals)
+        self.lanes = [self.lanes[origin or 0] for origin in origins]
         self.configuration = configuration
         self._connect()
-        return origins
 
     def add_load(self, load: Load) -> ScheduledLoad:
         """Apply a load now or at its `start_s`; raises `StateError` when there are too many.
@@ -230,6 +231,21 @@ class Run:
         c = self.configuration
         self.blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
         self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
+
+
+def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | None]:
+    """For each lane the number of the lane that it continues, 0 being the first; None is new.
+
+    before, after: the rivals of a run.
+    """
+    left: list[Lane | None] = [None, *before]
+    origins: list[int | None] = [0]
+    for rival in after:
+        origin = left.index(rival) if rival in left else None
+        if origin is not None:
+            left[origin] = None
+        origins.append(origin)
+    return origins
 
 
 def _build_stacks(configuration: Configuration, start: Start) -> tuple[Stack, Stack]:

@@ -8,17 +8,19 @@ from typing import Any, Literal, Self
 
 from svsa.errors import Fault, StateError
 from svsa.fault_labels import label_fault
-from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad, ScheduledLoad
+from svsa.plant.disturbances import Load, ScheduledLoad
 from svsa.runtime.clock import SimulationClock
-from svsa.runtime.command import KINDS, Command, build_command
+from svsa.runtime.command import Command, build_command
 from svsa.runtime.configuration import MOST_LANES, Configuration
 from svsa.runtime.history import History
-from svsa.runtime.metrics import RunningMetrics
 from svsa.runtime.recording.header import BranchPoint, PlantKind
 from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.run import Run
+from svsa.runtime.timeline import Timeline, describe_change, describe_load
+from svsa.runtime.window_metrics import WindowMetrics
 
 HISTORY_TICKS = 32_768
+KEPT_S = 60.0
 BURST_TICKS = 2_000
 MOST_EVENTS = 200
 MOST_COMMANDS = 100_000
@@ -40,11 +42,10 @@ class Session:
     """A simulated run with a clock, a history and metrics. Not safe across threads.
 
     `initial` and `commands` say everything that decides the run's samples. `version` grows
-    with every change, not with time. `since_load` are the metrics of each lane from the last
-    load's onset on, until a load is taken off (one that ends by itself goes on counting: a push
-    shows after it). `on_recorded` is told of every recording that ends.
-    `watchers` is how many streams of it are open. `branch_of` is the recorded run that its run
-    goes on from, until a new one begins.
+    with every change, not with time. `timeline` says who controlled which lane from when on, and
+    which window this is, `metrics` how well the lanes do. `on_recorded` is told of every recording
+    that ends. `watchers` is how many streams of it are open. `branch_of` is the
+    recorded run that its run goes on from, until a new one begins.
     """
 
     def __init__(self, name: str, configuration: Configuration) -> None:
@@ -96,9 +97,9 @@ class Session:
         self.run_number += 1
         self.history.clear()
         self.events: deque[Event] = deque(maxlen=MOST_EVENTS)
-        self.since_start = self._begin_metrics()
-        self.since_load: list[RunningMetrics] | None = None
-        self._under_load = False
+        kept_ticks = KEPT_S / run.period_s
+        self.timeline = Timeline(run.configuration, self.plant != "simulated", kept_ticks)
+        self.metrics = WindowMetrics(len(run.lanes), run.period_s)
         self.version += 1
 
     @classmethod
@@ -217,10 +218,12 @@ class Session:
             raise StateError("A recording has the same lanes throughout: stop it first.")
         command = self._take(build_command(self.run.tick, kind, argument))
         loads = {load.number: load for load in self.run.loads}
+        before = self.run.configuration
         answer = command.apply(self.run)
         self.commands.append(command)
         if self.recorder is not None:
             self.recorder.write_command(command.tick, command.to_json())
+        self._follow(command)
         match kind:
             case "load":
                 if isinstance(answer, ScheduledLoad) and answer.start_tick < self.run.tick:
@@ -230,14 +233,11 @@ class Session:
                 taken = loads[argument]
                 if taken.start_tick < self.run.tick <= taken.end_tick:
                     self._end_load(taken.load)
-                    self._under_load = False
+                    self.timeline.take_off(taken.load, self.run.tick)
+                    self.metrics.begin_window()
                 self.version += 1
-            case "law":
-                self._log(kind, f"{argument.upper()} on")
             case _:
-                self._log(kind, KINDS[kind].label)
-        if isinstance(answer, list):
-            self._rearrange_lanes(answer)
+                self._log(kind, describe_change(command, before))
 
     def _take(self, command: Command) -> Command:
         """The command with the tick at which it holds: here, at once."""
@@ -248,14 +248,15 @@ class Session:
         for load in self.run.loads:
             self.change("unload", load.number)
 
-    def _rearrange_lanes(self, origins: list[int]) -> None:
-        """Each lane has the past of the lane it continues; metrics of all begin together."""
-        self.history.rearrange(origins)
-        self.since_start = self._begin_metrics()
-        self.since_load = self._begin_metrics() if self._under_load else None
-
-    def _begin_metrics(self) -> list[RunningMetrics]:
-        return [RunningMetrics(self.run.period_s) for _ in self.run.lanes]
+    def _follow(self, command: Command) -> None:
+        """Lanes have the past of those that they continue; in a new window metrics begin anew."""
+        window = self.timeline.window
+        origins = self.timeline.take(command)
+        if origins is not None:
+            self.history.rearrange(origins)
+            self.metrics.rearrange(origins, is_fresh=self.run.tick == 0)
+        if self.timeline.window is not window:
+            self.metrics.begin_window()
 
     def _log(self, kind: str, label: str) -> None:
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
@@ -272,10 +273,7 @@ class Session:
             self.history.commit(done)
             if self.recorder is not None:
                 self.recorder.write_samples(first, samples[:, :done].transpose(1, 0, 2))
-            under_load = self.since_load if self._under_load else None
-            for metrics in (self.since_start, under_load or []):
-                for lane, running in enumerate(metrics):
-                    running.update(samples[lane, :done])
+            self.metrics.update(samples[:, :done])
             if self.run.fault is not None:
                 self.clock.stop()
                 self._log("fault", label_fault(self.run.fault.code))
@@ -289,7 +287,8 @@ class Session:
 
     def _begin_load(self, load: Load) -> None:
         self._log("load_on", f"{describe_load(load)} on")
-        self.since_load, self._under_load = self._begin_metrics(), True
+        self.timeline.begin_load(load, self.run.tick)
+        self.metrics.begin_load()
 
     def _end_load(self, load: Load) -> None:
         self._log("load_off", f"{describe_load(load)} off")
@@ -301,16 +300,3 @@ class Session:
         edges = [edge for load in self.run.loads for edge in (load.start_tick, load.end_tick)]
         later = [int(edge) for edge in edges if self.run.tick < edge < math.inf]
         return min(later, default=self.run.tick + HISTORY_TICKS)
-
-
-def describe_load(load: Load) -> str:
-    """A load in a few words, for events."""
-    match load:
-        case PaperLoad():
-            return "3 kg load"
-        case MassLoad():
-            return f"{load.mass_kg:g} kg mass"
-        case PushLoad():
-            return "Push"
-        case _:
-            return f"{load.kind.capitalize()} torque"

@@ -105,8 +105,8 @@ def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(
     assert done.returncode == 0, done.stdout + done.stderr
 
     told = [
-        f"lane {lane['lane']}, {lane['law']}: rms position error"
-        f" {lane['since_load']['rms_position_error_rad']:.3e} rad"
+        f"{lane['name']}: rms position error {lane['in_window']['rms_position_error_rad']:.3e} rad"
+        f" since {before['window']['start_s']:.3f} s"
         for lane in before["lanes"]
     ]
     assert done.stdout.splitlines() == [*told, f"reached {before['time_s']:.3f} s"]

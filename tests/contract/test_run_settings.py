@@ -168,3 +168,9 @@ def test_a_change_that_cannot_be_read_is_a_question_mark() -> None:
     unread = [(5, {"kind": "stiffness", "argument": {"kind": "of tomorrow"}})]
     settings = describe_settings(header, unread, 0, 10)
     assert (settings.stiffness, settings.figure_held) == ("15 → ?", False)
+
+
+def test_laws_that_changed_places_are_told_of_every_lane() -> None:
+    settings = describe((3000, "laws", ("fl", "ndobc")), rivals=(Lane(law="fl"),))
+    assert settings.name.split(" · ")[1] == "NDOBC → FL vs FL → NDOBC"
+    assert settings.law_kinds == ("ndobc", "fl")

@@ -76,6 +76,7 @@ ARGUMENTS = {
     "position": positions,
     "stiffness": stiffnesses,
     "law": laws,
+    "laws": st.lists(laws, min_size=1, max_size=4).map(tuple),
     "gains": gains,
     "observer": observers,
     "actuator": actuators,
@@ -131,8 +132,10 @@ def summarize(session):
         list(session.commands),
         list(session.events),
         session.version,
-        len(session.since_start),
-        session.since_load is None,
+        session.timeline.window,
+        session.timeline.list_stretches(),
+        len(session.metrics.since_start),
+        session.metrics.since_load is None,
     )
 
 

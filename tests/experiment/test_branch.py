@@ -108,7 +108,8 @@ def test_the_metrics_and_events_of_a_branch_are_those_of_the_recorded_session():
     original = play_busy_session()
     end = original.run.tick
     session = Session.branch("branch", original.initial, original.commands, end)
-    for mine, theirs in zip(session.since_start, original.since_start, strict=True):
+    all_of = ([*m.since_start[:1], *m.in_window] for m in (session.metrics, original.metrics))
+    for mine, theirs in zip(*all_of, strict=True):
         found, expected = asdict(mine.summarize()), asdict(theirs.summarize())
         assert found.pop("recovery_time_s") == expected.pop("recovery_time_s")
         assert found == pytest.approx(expected, rel=1e-12)

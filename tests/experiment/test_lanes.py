@@ -156,23 +156,49 @@ def test_every_lane_has_its_metrics_since_the_start_and_since_the_load():
     session.step(130)
     for lane in range(3):
         samples = read_samples(session, lane)
-        for running, first in ((session.since_start, 0), (session.since_load, 30)):
+        for running, first in ((session.metrics.since_start, 0), (session.metrics.since_load, 30)):
             expected = vars(compute_metrics(samples[first:], 0.001))
             assert vars(running[lane].summarize()) == pytest.approx(expected)
-    peaks = [m.summarize().peak_position_error_rad for m in session.since_load]
+    peaks = [m.summarize().peak_position_error_rad for m in session.metrics.since_load]
     assert len(set(peaks)) == 3
 
 
-def test_a_new_lane_has_the_past_of_the_first_and_all_metrics_begin_together():
+def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
+    """What the first lane did before is not what the new one did."""
     session = build_session(PULSE)
     session.step(60)
     session.change("rivals", (FL,))
     session.step(40)
     first, second = read_samples(session, 0), read_samples(session, 1)
-    np.testing.assert_array_equal(first[:60], second[:60])
-    assert np.any(first[60:] != second[60:])
-    for running in (session.since_start, session.since_load):
-        assert [m.summarize().duration_s for m in running] == pytest.approx([0.04, 0.04])
+    assert np.all(np.isnan(second[:60]))
+    assert np.all(np.isfinite(second[60:]) == np.isfinite(first[60:]))
+    metrics = session.metrics
+    assert [m.summarize().duration_s for m in metrics.in_window] == pytest.approx([0.04, 0.04])
+    for running, duration in ((metrics.since_start, 0.1), (metrics.since_load, 0.03)):
+        assert running[0].summarize().duration_s == pytest.approx(duration)
+        assert running[1] is None
+
+
+def test_laws_change_places_and_no_plant_moves():
+    """Lane 1 goes on with the law of lane 2 from where it is, and the other way round."""
+    run = Run(build_configuration(PULSE, rivals=(FL, SLOW), **NOISY))
+    advance(run, 60)
+    before = list(run.lanes)
+    run.set_laws(("fl", "ndobc"))
+    assert run.lanes == before
+    assert [lane.law for lane in run.configuration.lanes] == ["fl", "ndobc", "ndobc"]
+    assert run.configuration.rivals[1] == SLOW
+    changed = Run(build_configuration(PULSE, **NOISY))
+    advance(changed, 60)
+    changed.set_law("fl")
+    np.testing.assert_array_equal(advance(run, 40)[0], advance(changed, 40)[0])
+
+
+@pytest.mark.parametrize("laws", [(), ("fl", "fl", "fl")])
+def test_as_many_laws_as_lanes_at_most(laws):
+    run = Run(build_configuration(rivals=(FL,)))
+    with pytest.raises(svsa.ParameterError, match=r"1 to 2 laws"):
+        run.set_laws(laws)
 
 
 def test_a_session_with_rivals_can_be_reset_and_starts_them_from_rest():

@@ -128,8 +128,8 @@ def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
     assert session.run.configuration.law == "fl"
     assert [scheduled.load for scheduled in session.run.loads] == [PULSE]
     assert list_events(session) == []
-    assert [metrics.summarize() for metrics in session.since_start] == [None]
-    assert session.since_load is None
+    assert [metrics.summarize() for metrics in session.metrics.since_start] == [None]
+    assert session.metrics.since_load is None
 
 
 def test_a_running_session_owes_nothing_after_a_reset():

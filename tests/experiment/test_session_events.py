@@ -24,10 +24,10 @@ def test_loads_are_logged_when_they_act():
 def test_the_metrics_since_the_load_begin_at_its_onset():
     session = build_session(PULSE)
     session.step(30)
-    assert session.since_load is None
+    assert session.metrics.since_load is None
     session.step(40)
-    (since,) = [metrics.summarize() for metrics in session.since_load]
-    (whole,) = [metrics.summarize() for metrics in session.since_start]
+    (since,) = [metrics.summarize() for metrics in session.metrics.since_load]
+    (whole,) = [metrics.summarize() for metrics in session.metrics.since_start]
     assert since.duration_s == pytest.approx(0.04)
     assert whole.duration_s == pytest.approx(0.07)
     error = read_samples(session)[30:, CHANNEL_INDEX["position_error_rad"]]
@@ -40,17 +40,19 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     session.step(10)
     session.change("load", svsa.PaperLoad())
     session.step(30)
-    (loaded,) = [metrics.summarize() for metrics in session.since_load]
+    (loaded,) = [metrics.summarize() for metrics in session.metrics.since_load]
     session.change("unload", 1)
     session.step(50)
-    assert [metrics.summarize() for metrics in session.since_load] == [loaded]
+    assert [metrics.summarize() for metrics in session.metrics.since_load] == [loaded]
     session.change("load", svsa.PaperLoad())
     session.step(5)
-    (anew,) = [metrics.summarize() for metrics in session.since_load]
+    (anew,) = [metrics.summarize() for metrics in session.metrics.since_load]
     assert anew.duration_s == pytest.approx(0.005)
     session.change("unload", 2)
     session.change("rivals", (svsa.Lane(law="fl"),))
-    assert session.since_load is None, "the lanes are other ones, and no load is on"
+    first, rival = session.metrics.since_load
+    assert first.summarize() == anew
+    assert rival is None, "the load was on before this lane began"
 
 
 def test_taking_a_load_off_is_logged_and_ends_it():
@@ -132,6 +134,7 @@ def test_every_command_is_logged_with_its_tick():
     session.change("position", svsa.ConstantPosition(position_rad=0.1))
     session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0))
     session.change("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
+    session.change("laws", ("ndobc",))
     session.change("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0, 30.0, 30.0)))
     session.change("actuator", design.actuator)
     session.change("nominal", design.nominal)
@@ -142,7 +145,7 @@ def test_every_command_is_logged_with_its_tick():
     assert sorted(events) == sorted(changed)
     assert list_events(session) == [(5, kind) for kind in events]
     assert [(command.tick, command.kind) for command in session.commands] == list_events(session)
-    assert session.run.configuration.law == "fl"
+    assert session.run.configuration.law == "ndobc"
 
 
 def test_a_refused_command_changes_nothing_and_is_not_logged():

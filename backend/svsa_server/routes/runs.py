@@ -14,7 +14,7 @@ from svsa.runtime.catalogue.entry import (
 )
 from svsa.runtime.catalogue.entry import Query as RunQuery
 from svsa.runtime.catalogue.runs import Catalogue
-from svsa_server.lane_names import name_lanes
+from svsa_server.lanes import build_window, list_record_stretches, name_lanes, trace_record
 from svsa_server.routes import run_difference, run_files, run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
@@ -90,9 +90,14 @@ def list_runs(
 def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     """A run with its configuration, its channels and the commands given while it went on."""
     entry, record = runs.get(run_id), runs.open(run_id)
+    timeline = trace_record(record)
+    stretches = list_record_stretches(record, timeline)
+    windows = [] if timeline is None else timeline.windows
     return RunDetails(
         **_tell(runs, entry),
-        lane_names=name_lanes(record),
+        lane_names=name_lanes(stretches),
+        stretches=stretches,
+        windows=[build_window(window, record.header.period_s) for window in windows],
         seed=record.header.seed,
         configuration=record.header.configuration,
         channels=list(record.header.channels),

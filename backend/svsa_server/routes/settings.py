@@ -75,10 +75,16 @@ def set_stiffness(
 
 @router.put("/law")
 def set_law(
-    session: NamedSession, request: Annotated[LawRequest, Body(examples=[{"law": "fl"}])]
+    session: NamedSession,
+    request: Annotated[
+        LawRequest, Body(examples=[{"law": "fl"}, {"law": "fl", "rival_laws": ["ndobc"]}])
+    ],
 ) -> SessionState:
-    """Control with FL or NDOBC."""
-    session.change("law", request.law)
+    """Control with another law, and the lanes beside too, each from where its plant is."""
+    if request.rival_laws:
+        session.change("laws", (request.law, *request.rival_laws))
+    else:
+        session.change("law", request.law)
     return build_state(session)
 
 

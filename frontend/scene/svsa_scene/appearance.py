@@ -33,11 +33,15 @@ GHOST = Finish((24, 168, 156), 0.0, 0.8, 0.32)
 DEFLECTION: Rgb = (214, 62, 14)
 LIMIT = Finish((205, 52, 58), 0.1, 0.6)
 DISTURBANCE: Rgb = (226, 88, 12)
-RIVALS = (
-    Finish((214, 140, 10), 0.0, 0.7, 0.75),
-    Finish((0, 138, 102), 0.0, 0.7, 0.75),
-    Finish((179, 85, 143), 0.0, 0.7, 0.75),
+INKS: tuple[Rgb, ...] = (
+    (0, 114, 178),
+    (213, 94, 0),
+    (0, 158, 115),
+    (184, 84, 148),
+    (214, 140, 10),
 )
+"""The colours of curves, in the order of the page's inks: `frontend/web/src/plots/inks.ts`."""
+MOST_RIVALS = 3
 
 _STIFFNESS_RANGE = (1.7, 150.56)
 _STIFFNESS_STEPS = 32
@@ -60,6 +64,11 @@ def get_stiffness_color(step: int) -> Rgb:
     knots = np.arange(len(_STIFFNESS_SCALE))
     red, green, blue = (int(np.interp(where, knots, c)) for c in _STIFFNESS_SCALE.T)
     return red, green, blue
+
+
+def get_ink_color(ink: int) -> Rgb:
+    """Colour of the curves of this ink."""
+    return INKS[ink % len(INKS)]
 
 
 def make_material(finish: Finish) -> PBRMaterial:

@@ -2,14 +2,32 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 
 @dataclass(frozen=True)
 class RivalPose:
-    """Where the link of another lane is. name: its law, as it is read; position_rad: its q."""
+    """Where the link of another lane is.
+
+    name: of who controls it, as it is read. position_rad: its q. ink: colour of its curves.
+    """
 
     name: str
     position_rad: float
+    ink: int = 0
+
+
+class LaneStretch(NamedTuple):
+    """Who controlled a lane of a recorded run. name: as it is read. ink: of its curves.
+
+    number: which controller. first, end: ticks from the first sample, end not included.
+    """
+
+    name: str
+    ink: int
+    number: int
+    first: int
+    end: int
 
 
 @dataclass(frozen=True)

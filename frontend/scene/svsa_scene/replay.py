@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from svsa.errors import ParameterError, SvsaError, Violation
+from svsa_scene.pose import LaneStretch
 from svsa_scene.replay_curves import compute_metrics, list_events, pack_curves
 from svsa_scene.replay_motion import POSE_CHANNELS, record_motion
 from svsa_scene.replay_packing import ArrayPack
@@ -46,16 +47,19 @@ def build_replay_html(
     details: dict[str, Any],
     *,
     first_tick: int = 0,
+    stretches: Sequence[Sequence[LaneStretch]] | None = None,
 ) -> str:
     """The run as a page of HTML.
 
     title: heading, any text. period_s: s. lanes: 1–4 names; the first is drawn as the actuator,
-    the others as outlines of their links. channels: names as in `svsa.signals.CHANNELS`, at least
-    those of a pose; more are left out. samples: float64 (ticks, lanes, channels), SI.
-    load_mass_kg: mass hung on the link at every tick, (ticks,), kg; None is no mass. details:
-    what the page says about the run (JSON); `version` and other plain values stand in its
-    header, `commands` ({"tick", "label" or "kind", …} or (tick, {…})) are marked on the plots.
-    first_tick: tick of the first sample, as the commands count; the page's time begins there at 0.
+    the others as outlines of their links. stretches: of every lane who controlled it when, in
+    order; left out, each lane is one under its name. channels: names as in
+    `svsa.signals.CHANNELS`, at least those of a pose; more are left out. samples: float64 (ticks,
+    lanes, channels), SI. load_mass_kg: mass hung on the link at every tick, (ticks,), kg; None is
+    no mass. details: what the page says about the run (JSON); `version` and other plain values
+    stand in its header, `commands` ({"tick", "label" or "kind", …} or (tick, {…})) are marked on
+    the plots. first_tick: tick of the first sample, as the commands count; the page's time begins
+    there at 0.
 
     Takes some seconds and starts viser on a loopback port meanwhile: call it in a thread. Raises
     `ParameterError` for arrays that do not fit, `ReplayError` where the page was not built.
@@ -67,13 +71,17 @@ def build_replay_html(
     template = _read_template()
     pack = ArrayPack()
     curves = pack_curves(samples, channels, period_s, pack)
-    motion = record_motion(samples, channels, lanes, period_s, mass, pack)
+    if stretches is None:
+        whole = len(samples)
+        stretches = [[LaneStretch(name, i, i + 1, 0, whole)] for i, name in enumerate(lanes)]
+    motion = record_motion(samples, channels, stretches, period_s, mass, pack)
     events = list_events(mass, details, first_tick)
     run = {
         "title": title,
         "period_s": period_s,
         "ticks": len(samples),
         "lanes": lanes,
+        "stretches": [[_write_stretch(one, period_s) for one in lane] for lane in stretches],
         "details": details,
         "events": [{"time_s": tick * period_s, "label": label} for tick, label in events],
         "metrics": compute_metrics(samples, channels),
@@ -83,6 +91,16 @@ def build_replay_html(
         "scene": motion.html,
     }
     return _fill(template, title, _write_json(run))
+
+
+def _write_stretch(stretch: LaneStretch, period_s: float) -> dict[str, Any]:
+    return {
+        "number": stretch.number,
+        "name": stretch.name,
+        "ink": stretch.ink,
+        "start_s": stretch.first * period_s,
+        "end_s": stretch.end * period_s,
+    }
 
 
 def _check(

@@ -20,14 +20,12 @@ import zstandard
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.geometry import turn
-from svsa_scene.pose import ActuatorPose
+from svsa_scene.pose import ActuatorPose, LaneStretch
 from svsa_scene.replay_packing import ArrayPack
 from svsa_scene.scene import ActuatorScene
 
 RATE_HZ = 30.0
 MOST_FRAMES = 5400
-# The page names these colours in replay.css.
-LANE_COLORS: tuple[look.Rgb, ...] = ((0, 114, 178), (213, 94, 0), (0, 158, 115), (184, 84, 148))
 POSE_CHANNELS = (
     "position_rad",
     "position_reference_rad",
@@ -66,12 +64,13 @@ class _Key(NamedTuple):
 def record_motion(
     samples: npt.NDArray[np.float64],
     channels: Sequence[str],
-    lanes: Sequence[str],
+    lanes: Sequence[Sequence[LaneStretch]],
     period_s: float,
     load_mass_kg: npt.NDArray[np.float64],
     pack: ArrayPack,
 ) -> Motion:
-    """The first lane as the actuator, every other lane as the outline of its link.
+    """The first lane as the actuator, every other lane as the outline of its link, one for
+    each of its controllers that is seen while that one controls.
 
     30 frames a second of the run, fewer where that would be more than `MOST_FRAMES`.
     """
@@ -80,10 +79,8 @@ def record_motion(
     position = channels.index("position_rad")
     with _start_viser() as server:
         scene = ActuatorScene(server)
-        named = len(lanes) == _MOST_NAMED and len(lanes[1]) <= _LONGEST_NAME
-        ghosts = [
-            _add_ghost(server, lane, lanes[lane] if named else "") for lane in range(1, len(lanes))
-        ]
+        named = len(lanes) == _MOST_NAMED
+        ghosts = [_Ghosts(server, lane, lanes[lane], named) for lane in range(1, len(lanes))]
         html = _hide_viser_controls(server.get_scene_serializer().as_html())
         recording = server.get_scene_serializer()
         for tick in range(0, len(samples), stride):
@@ -93,7 +90,7 @@ def record_motion(
             for lane, ghost in enumerate(ghosts, start=1):
                 angle = float(samples[tick, lane, position])
                 if math.isfinite(angle):
-                    ghost.wxyz = turn(angle)
+                    ghost.show(tick, angle)
         recording.insert_sleep(1.0)
         scene.set_theme(dark=True)
         messages = _decode(recording.serialize())
@@ -119,10 +116,41 @@ def _start_viser() -> Iterator[viser.ViserServer]:
             server.stop()
 
 
-def _add_ghost(server: viser.ViserServer, lane: int, name: str) -> viser.SceneNodeHandle:
-    node = f"/a/lane{lane}"
-    finish = look.Finish(LANE_COLORS[lane % len(LANE_COLORS)], 0.0, 0.8, 0.45)
-    frame = server.scene.add_frame(node, show_axes=False, position=(0.0, 0.0, _GHOST_STEP * lane))
+class _Ghosts:
+    """The outlines of a lane, one a controller; that of the present one is seen."""
+
+    def __init__(
+        self, server: viser.ViserServer, lane: int, stretches: Sequence[LaneStretch], named: bool
+    ) -> None:
+        self._stretches = stretches
+        self._frames: dict[int, viser.SceneNodeHandle] = {}
+        for stretch in stretches:
+            if stretch.number not in self._frames:
+                name = stretch.name if named and len(stretch.name) <= _LONGEST_NAME else ""
+                self._frames[stretch.number] = _add_ghost(server, lane, stretch, name)
+
+    def show(self, tick: int, angle: float) -> None:
+        """The lane's link at a tick, counted from the first sample."""
+        present = next((one for one in self._stretches if one.first <= tick < one.end), None)
+        for number, frame in self._frames.items():
+            is_seen = present is not None and number == present.number
+            if frame.visible != is_seen:
+                frame.visible = is_seen
+            if is_seen:
+                frame.wxyz = turn(angle)
+
+
+def _add_ghost(
+    server: viser.ViserServer, lane: int, stretch: LaneStretch, name: str
+) -> viser.SceneNodeHandle:
+    node = f"/a/lane{lane}c{stretch.number}"
+    finish = look.Finish(look.get_ink_color(stretch.ink), 0.0, 0.8, 0.45)
+    frame = server.scene.add_frame(
+        node,
+        show_axes=False,
+        position=(0.0, 0.0, _GHOST_STEP * lane),
+        visible=stretch.first <= 0,
+    )
     group = [look.paint(mesh, finish) for mesh in mechanism.build_ghost()]
     server.scene.add_glb(f"{node}/solid", mechanism.export(group))
     if name:

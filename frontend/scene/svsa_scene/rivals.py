@@ -1,4 +1,4 @@
-"""The other lanes, live: where each of their links is, as an outline with the law's name."""
+"""The other lanes, live: their links as outlines, with ink and name of who controls them."""
 
 import viser
 
@@ -14,17 +14,16 @@ class Rivals:
 
     def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
         self._moved = moved
-        self._names = [""] * len(look.RIVALS)
-        scene = server.scene
+        self._scene = scene = server.scene
+        self._names = [""] * look.MOST_RIVALS
+        self._inks = [number + 1 for number in range(look.MOST_RIVALS)]
         self._frames = [
             scene.add_frame(f"/a/r{number}", show_axes=False, visible=False)
-            for number in range(len(look.RIVALS))
+            for number in range(look.MOST_RIVALS)
         ]
         self._labels = []
-        for number, finish in enumerate(look.RIVALS):
-            scene.add_glb(
-                f"/a/r{number}/solid", mechanism.export(mechanism.build_rival(finish, number))
-            )
+        for number in range(look.MOST_RIVALS):
+            self._paint(number)
             self._labels.append(
                 scene.add_label(
                     f"/a/r{number}/t",
@@ -40,6 +39,9 @@ class Rivals:
         for number, frame in enumerate(self._frames):
             rival = rivals[number] if number < len(rivals) else None
             name = rival.name if rival else ""
+            if rival and rival.ink != self._inks[number]:
+                self._inks[number] = rival.ink
+                self._paint(number)
             if name != self._names[number]:
                 self._names[number] = name
                 frame.visible = bool(name)
@@ -47,3 +49,9 @@ class Rivals:
                     self._labels[number].text = name
             if rival and self._moved.is_due(f"rival{number}", (rival.position_rad,)):
                 frame.wxyz = turn(rival.position_rad)
+
+    def _paint(self, number: int) -> None:
+        """The outline in its ink, in place of the one before."""
+        finish = look.Finish(look.get_ink_color(self._inks[number]), 0.0, 0.7, 0.75)
+        solid = mechanism.export(mechanism.build_rival(finish, number))
+        self._scene.add_glb(f"/a/r{number}/solid", solid)

@@ -1,9 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { writeCsv } from "../src/plots/csv";
+import { columnsOf, writeCsv } from "../src/plots/csv";
 import { decimate, emptyPoints, extentOf, samplesPerBucket } from "../src/plots/decimation";
 import { piecesOf } from "../src/plots/roll";
 import { measureBetween, measureStep } from "../src/plots/statistics";
 import { SampleRing, type Stretch } from "../src/stream/ring";
+
+const ALONE = [[{ number: 1, name: "NDOBC", ink: 0, from: 0, to: Number.POSITIVE_INFINITY }]];
 
 function ringOf(values: readonly number[], channel = "position_error_rad"): SampleRing {
   const ring = new SampleRing(1000, [channel]);
@@ -135,8 +137,7 @@ describe("a gap of 2 s", () => {
     const csv = writeCsv(
       ringWithGap(),
       { from: 0.05, to: 2.06 },
-      [{ channel: "position_error_rad", lane: 1 }],
-      ["NDOBC"],
+      columnsOf(["position_error_rad"], ALONE, { from: 0, to: 3 }),
     );
     expect(csv.split("\r\n").slice(1, -1)).toEqual(["0.05,1", "0.06,", "2.05,", "2.06,2"]);
   });
@@ -155,6 +156,12 @@ describe("a step", () => {
     expect(metrics?.recoveryS).toBeCloseTo(0.2, 6);
   });
 
+  it("keeps the time at which the error was small, whatever comes later", () => {
+    const again = [...values, ...values];
+    const metrics = measureStep(ringOf(again), "position_error_rad", 1, 1, 6);
+    expect(metrics?.recoveryS).toBeCloseTo(0.2, 6);
+  });
+
   it("has not recovered before it was small for half a second", () => {
     expect(step(1, 1.5)?.recoveryS).toBeNull();
   });
@@ -166,12 +173,35 @@ describe("a step", () => {
 });
 
 describe("CSV", () => {
+  it("has a column a controller, without values where another one was in control", () => {
+    const [ndobc] = ALONE[0] as [(typeof ALONE)[0][0]];
+    const switched = [
+      [
+        { ...ndobc, to: 0.02 },
+        { ...ndobc, number: 2, name: "FL", from: 0.02 },
+      ],
+    ];
+    const span = { from: 0, to: 1 };
+    const columns = columnsOf(["position_error_rad"], switched, span);
+    expect(
+      writeCsv(ringOf([1, 2, 3, 4]), span, columns)
+        .split("\r\n")
+        .slice(0, -1),
+    ).toEqual([
+      '"time_s [s]","NDOBC.position_error_rad [rad]","FL.position_error_rad [rad]"',
+      "0,1,",
+      "0.01,2,",
+      "0.02,,3",
+      "0.03,,4",
+    ]);
+    expect(columnsOf(["position_error_rad"], switched, { from: 0.05, to: 1 })).toHaveLength(1);
+  });
+
   it("has the window only, names with units, and nothing where there is no number", () => {
     const csv = writeCsv(
       ringOf([0.5, Number.NaN, 0.1, 7]),
       { from: 0, to: 0.02 },
-      [{ channel: "position_error_rad", lane: 1 }],
-      ["NDOBC"],
+      columnsOf(["position_error_rad"], ALONE, { from: 0, to: 3 }),
     );
     expect(csv.split("\r\n")).toEqual([
       '"time_s [s]","NDOBC.position_error_rad [rad]"',

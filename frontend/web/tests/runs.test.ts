@@ -1,5 +1,6 @@
 import { beforeAll, describe, expect, it, vi } from "vitest";
 import type { RunDetails } from "../src/api/types";
+import { inkOf } from "../src/plots/inks";
 import type { readPlace as ReadPlace, writePlace as WritePlace } from "../src/runs/place";
 
 const details = (change: object) =>
@@ -13,15 +14,9 @@ const details = (change: object) =>
     ticks: 10_000,
     ...change,
   }) as unknown as RunDetails;
-const given = (tick: number, kind: string, argument: unknown) => ({
-  tick,
-  command: { tick, kind, argument },
-});
-
 let readPlace: typeof ReadPlace;
 let writePlace: typeof WritePlace;
-let findOnset: (run: RunDetails) => number | null;
-let overlayInk: (index: number) => { colour: string; dash: readonly number[] };
+let findLoad: (run: RunDetails) => { start_s: number } | null;
 let drawSpark: typeof import("../src/runs/spark").drawSpark;
 let findWords: typeof import("../src/runs/found").findWords;
 let excerpt: typeof import("../src/runs/found").excerpt;
@@ -43,8 +38,7 @@ beforeAll(async () => {
     addEventListener: () => undefined,
   });
   ({ readPlace, writePlace } = await import("../src/runs/place"));
-  ({ findOnset } = await import("../src/runs/onset"));
-  ({ overlayInk } = await import("../src/runs/overlaid"));
+  ({ findLoad } = await import("../src/runs/onset"));
   ({ drawSpark } = await import("../src/runs/spark"));
   ({ findWords, excerpt } = await import("../src/runs/found"));
   ({ formatSetting } = await import("../src/runs/difference"));
@@ -72,34 +66,50 @@ describe("a place in the address", () => {
   });
 });
 
-describe("the onset of the load", () => {
-  it("is that of the first load, planned or given", () => {
-    const planned = { configuration: { loads: [{ kind: "paper", start_s: 5 }] } };
-    expect(findOnset(details(planned))).toBe(5);
-    const early = given(2000, "load", { kind: "paper", start_s: null });
-    expect(findOnset(details({ ...planned, commands: [early] }))).toBe(2);
-    const later = given(2000, "load", { kind: "paper", start_s: 3 });
-    expect(findOnset(details({ commands: [later] }))).toBe(3);
+describe("the window of the load", () => {
+  const window = (kind: string, start: number, end: number | null) => ({
+    kind,
+    label: "",
+    start_tick: start,
+    start_s: start / 1000,
+    end_tick: end,
+    end_s: end === null ? null : end / 1000,
+  });
+
+  it("is that of the first load while it was recorded, up to the next change", () => {
+    const windows = [
+      window("start", 0, 2000),
+      window("load", 2000, 5000),
+      window("change", 5000, 7000),
+      window("load", 7000, null),
+    ];
+    expect(findLoad(details({ windows }))).toMatchObject({ start_s: 2, end_s: 5 });
+    expect(findLoad(details({ windows, first_tick: 4000 }))).toMatchObject({ start_s: 7 });
   });
 
   it("is none where the record holds none", () => {
-    expect(findOnset(details({}))).toBeNull();
-    const before = given(2000, "load", { kind: "paper", start_s: null });
-    expect(findOnset(details({ first_tick: 4000, commands: [before] }))).toBeNull();
+    expect(findLoad(details({ windows: [window("start", 0, null)] }))).toBeNull();
+    const windows = [window("load", 2000, null)];
+    expect(findLoad(details({ windows, first_tick: 4000 }))).toBeNull();
   });
 });
 
 describe("curves", () => {
   it("of an overlay share colour and dash with no other", () => {
-    const inks = Array.from({ length: 20 }, (_, index) => overlayInk(index));
+    const inks = Array.from({ length: 20 }, (_, index) => inkOf(index));
     expect(new Set(inks.map((ink) => `${ink.colour} ${ink.dash.join()}`)).size).toBe(20);
   });
 
   it("of a small plot are interrupted where a value is missing", () => {
     const lanes = { lane1: { position_error_rad: [0, null, -0.1, 0.05] } };
-    const spark = drawSpark({ time_s: [0, 1, 2, 3], lanes });
+    const ndobc = { number: 1, name: "NDOBC", ink: 0, start_tick: 0, start_s: 0, end_tick: null };
+    const spark = drawSpark({ time_s: [0, 1, 2, 3], lanes }, [[{ ...ndobc, end_s: null }]]);
     expect(spark.peak).toBe(0.1);
-    expect(spark.paths[0]?.match(/M/g)).toHaveLength(2);
+    expect(spark.paths[0]?.path.match(/M/g)).toHaveLength(2);
+    const fl = { ...ndobc, number: 2, name: "FL", ink: 1, start_s: 2, end_s: null };
+    const switched = drawSpark({ time_s: [0, 1, 2, 3], lanes }, [[{ ...ndobc, end_s: 2 }, fl]]);
+    expect(switched.paths.map(({ ink }) => ink)).toEqual([0, 1]);
+    expect(switched.paths[1]?.path).toMatch(/^M200\.0 /);
   });
 });
 

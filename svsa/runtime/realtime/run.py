@@ -6,8 +6,9 @@ import numpy as np
 
 from svsa.model.domain import INSIDE
 from svsa.runtime.configuration import Configuration, Lane, Law
+from svsa.runtime.controllers import complete_laws
 from svsa.runtime.realtime.memory import LoopMemory
-from svsa.runtime.run import Run, Start
+from svsa.runtime.run import Run, Start, find_origins
 from svsa.signals import CHANNEL_INDEX
 
 if TYPE_CHECKING:
@@ -66,15 +67,13 @@ class BenchRun(Run):
         rows[ticks:] = np.nan
         rows[ticks:, 0] = (self.tick + np.arange(ticks, len(rows))) * self.period_s
 
-    def set_law(self, law: Law) -> None:
-        """Control with this law from now on, the twin too."""
-        twin, *others = self.configuration.rivals or (None,)
-        rivals = (twin.changed(law=law), *others) if twin else ()
-        self._configure(law=law, rivals=rivals)
+    def set_laws(self, laws: tuple[Law, ...]) -> None:
+        """As `Run.set_laws`; the twin has the law of the bench."""
+        super().set_laws(complete_laws(laws, is_bench=True))
 
-    def set_rivals(self, rivals: tuple[Lane, ...]) -> list[int]:
+    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
         """As `Run.set_rivals`; a new rival begins where the twin is."""
+        origins = find_origins(self.configuration.rivals, rivals)
         self.lanes[0] = self.lanes[min(TWIN, len(self.lanes) - 1)]
-        origins = super().set_rivals(rivals)
+        super().set_rivals(rivals)
         self._ended = {lane for lane, origin in enumerate(origins) if origin in self._ended}
-        return origins

@@ -56,10 +56,30 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
     A command at a sample's tick acts on that sample: one given after the last acted on none.
     """
     end = first_tick + max(ticks, 1)
+    commands = _split_laws(header.configuration.get("rivals"), commands)
     return Acting(
         {name: _follow(name, header.configuration, commands, first_tick, end) for name in SETTINGS},
         _find_loads(header, commands, first_tick, end),
     )
+
+
+def _split_laws(rivals: Any, commands: Commands) -> Commands:
+    """Laws given to several lanes at once, as a law of the first and lanes beside it."""
+    split: Commands = []
+    for tick, command in commands:
+        kind, argument = command.get("kind"), command.get("argument")
+        if kind == "rivals":
+            rivals = argument
+        laws = _read(KINDS["laws"].argument, argument) if kind == "laws" else None
+        lanes = _read(KINDS["rivals"].argument, rivals) if laws else None
+        if laws and lanes is not None:
+            given = [lane.changed(law=law) for lane, law in zip(lanes, laws[1:], strict=False)]
+            rivals = (*given, *lanes[len(given) :])
+            split += [(tick, {"kind": "law", "argument": laws[0]})]
+            split += [(tick, {"kind": "rivals", "argument": rivals})]
+        else:
+            split.append((tick, command))
+    return split
 
 
 def _follow(

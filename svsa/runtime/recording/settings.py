@@ -130,15 +130,14 @@ def _find_figure(acting: Acting, on_bench: bool) -> tuple[str, bool]:
 
 
 def _describe_laws(acting: Acting, header: RecordHeader) -> str:
-    """Lane by lane, the first with every law it had; a bench's second lane is its twin."""
-    rivals = acting.get_values("rivals")[0] or ()
-    if 1 + len(rivals) != len(header.lanes):
-        rivals = ()
+    """Lane by lane, with every law that it had; a bench's second lane is its twin."""
+    every = [lanes or () for lanes in acting.get_values("rivals")]
+    if any(1 + len(lanes) != len(header.lanes) for lanes in every):
+        every = [()]
     first = follow(UNKNOWN if law is None else law.upper() for law in acting.get_values("law"))
-    if header.plant != "simulated" and rivals:
-        others = ["twin", describe_lanes(rivals[1:])]
-    else:
-        others = [describe_lanes(rivals)]
+    is_twin = header.plant != "simulated" and bool(every[0])
+    beside = follow(describe_lanes(lanes[1:] if is_twin else lanes) for lanes in every)
+    others = ["twin", beside] if is_twin else [beside]
     return VERSUS.join(part for part in (first, *others) if part)
 
 

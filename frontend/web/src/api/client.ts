@@ -47,7 +47,9 @@ export const putPosition = (reference: Sent<PositionReference>) =>
   call("put", "/position", reference);
 export const putStiffness = (reference: Sent<StiffnessReference>) =>
   call("put", "/stiffness", reference);
-export const putLaw = (law: Law) => call("put", "/law", { law });
+/** rivals: laws of the lanes beside, from the first on; those left out keep theirs. */
+export const putLaw = (law: Law, rivals: readonly Law[]) =>
+  call("put", "/law", { law, rival_laws: [...rivals] });
 export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });

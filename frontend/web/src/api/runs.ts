@@ -61,8 +61,9 @@ export function readSamples(
   return request("get", pathOf(run, `/samples?${query}`)) as Promise<RunSamples>;
 }
 
-export function readMetrics(run: string, startS: number): Promise<RunMetrics> {
+export function readMetrics(run: string, startS: number, endS: number | null): Promise<RunMetrics> {
   const query = new URLSearchParams({ start_s: String(startS) });
+  if (endS !== null) query.set("end_s", String(endS));
   return request("get", pathOf(run, `/metrics?${query}`)) as Promise<RunMetrics>;
 }
 

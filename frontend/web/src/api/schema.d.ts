@@ -519,7 +519,7 @@ export interface paths {
         get?: never;
         /**
          * Set Law
-         * @description Control with FL or NDOBC.
+         * @description Control with another law, and the lanes beside too, each from where its plant is.
          */
         put: operations["set_law_api_v1_sessions__session__law_put"];
         post?: never;
@@ -2034,10 +2034,26 @@ export interface components {
         };
         /**
          * LaneMetrics
-         * @description The metrics of one lane; lane 1 is the session's own controller.
+         * @description How well a lane does; null where it was not there at the beginning of what is measured.
          */
         LaneMetrics: {
+            /** @description Of the whole run, whatever was changed */
             since_start: components["schemas"]["Metrics"] | null;
+            /** @description Since the last change: of `window` */
+            in_window: components["schemas"]["Metrics"] | null;
+            /** @description Of `load_window`, with which it ends; its recovery time is the load's */
+            since_load: components["schemas"]["Metrics"] | null;
+        };
+        /**
+         * LaneState
+         * @description A lane; lane 1 is the session's own controller.
+         */
+        LaneState: {
+            /** @description Of the whole run, whatever was changed */
+            since_start: components["schemas"]["Metrics"] | null;
+            /** @description Since the last change: of `window` */
+            in_window: components["schemas"]["Metrics"] | null;
+            /** @description Of `load_window`, with which it ends; its recovery time is the load's */
             since_load: components["schemas"]["Metrics"] | null;
             /** Lane */
             lane: number;
@@ -2048,9 +2064,14 @@ export interface components {
             law: "ndobc" | "fl";
             /**
              * Name
-             * @description What to call it: by its law
+             * @description Of who controls it now
              */
             name: string;
+            /**
+             * Stretches
+             * @description Who controlled it in the last 60 s, the present one last
+             */
+            stretches: components["schemas"]["StretchState"][];
         };
         /**
          * LanesRequest
@@ -2065,7 +2086,7 @@ export interface components {
         };
         /**
          * LawRequest
-         * @description Which law controls.
+         * @description Which law controls, and which the lanes beside; every plant stays where it is.
          */
         LawRequest: {
             /**
@@ -2074,6 +2095,12 @@ export interface components {
              * @enum {string}
              */
             law: "ndobc" | "fl";
+            /**
+             * Rival Laws
+             * @description Laws of the lanes beside, from the first on; those left out keep theirs
+             * @default []
+             */
+            rival_laws: ("ndobc" | "fl")[];
         };
         /**
          * Limits
@@ -2277,8 +2304,8 @@ export interface components {
          * @description Metrics of a stretch of samples; SI units as named, over `duration_s`.
          *
          *     integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
-         *     recovery_time_s: from the start of the stretch until the position error stays within
-         *     2 % of its peak (for 0.5 s at least); None while it has not.
+         *     recovery_time_s: from the start of the stretch until the position error has stayed within
+         *     2 % of its peak for 0.5 s; None while it has not. What comes later does not change it.
          */
         Metrics: {
             /** Duration S */
@@ -2778,6 +2805,16 @@ export interface components {
              * @description What to call the lanes: by their laws
              */
             lane_names: string[];
+            /**
+             * Stretches
+             * @description Of every lane, who controlled it when
+             */
+            stretches: components["schemas"]["StretchState"][][];
+            /**
+             * Windows
+             * @description Between the changes of the run; the newest 1000
+             */
+            windows: components["schemas"]["WindowState"][];
             /** Seed */
             seed: number;
             /**
@@ -3159,14 +3196,6 @@ export interface components {
             stiffness_nm_per_rad: number[];
         };
         /**
-         * SessionMetrics
-         * @description Metrics since the start of the run, and since the last load came on till it was taken off.
-         */
-        SessionMetrics: {
-            since_start: components["schemas"]["Metrics"] | null;
-            since_load: components["schemas"]["Metrics"] | null;
-        };
-        /**
          * SessionProgress
          * @description What of a session moves by itself: where it is and how well it does.
          */
@@ -3198,10 +3227,14 @@ export interface components {
              */
             stretched_s: number;
             fault: components["schemas"]["Fault"] | null;
+            /** @description Since the last change of anything, or the last load */
+            window: components["schemas"]["WindowState"];
+            /** @description From the newest load's onset to the next change; null where none came */
+            load_window: components["schemas"]["WindowState"] | null;
             /** @description Of lane 1 */
-            metrics: components["schemas"]["SessionMetrics"];
+            metrics: components["schemas"]["LaneMetrics"];
             /** Lanes */
-            lanes: components["schemas"]["LaneMetrics"][];
+            lanes: components["schemas"]["LaneState"][];
             recording: components["schemas"]["RecordingState"] | null;
             /** @description The identification excitation, while it is being played */
             excitation: components["schemas"]["ExcitationState"] | null;
@@ -3286,10 +3319,14 @@ export interface components {
              */
             stretched_s: number;
             fault: components["schemas"]["Fault"] | null;
+            /** @description Since the last change of anything, or the last load */
+            window: components["schemas"]["WindowState"];
+            /** @description From the newest load's onset to the next change; null where none came */
+            load_window: components["schemas"]["WindowState"] | null;
             /** @description Of lane 1 */
-            metrics: components["schemas"]["SessionMetrics"];
+            metrics: components["schemas"]["LaneMetrics"];
             /** Lanes */
-            lanes: components["schemas"]["LaneMetrics"][];
+            lanes: components["schemas"]["LaneState"][];
             recording: components["schemas"]["RecordingState"] | null;
             /** @description The identification excitation, while it is being played */
             excitation: components["schemas"]["ExcitationState"] | null;
@@ -3614,6 +3651,38 @@ export interface components {
             message: string;
         };
         /**
+         * StretchState
+         * @description A controller (a law with its gains and observer) on a lane, from start to before end.
+         */
+        StretchState: {
+            /**
+             * Number
+             * @description Which controller, counted in the order in which they came in the run
+             */
+            number: number;
+            /**
+             * Name
+             * @description Its law, and what tells it from others of the same law
+             */
+            name: string;
+            /**
+             * Ink
+             * @description Which look its curves have, from 0; shared by no other on screen
+             */
+            ink: number;
+            /** Start Tick */
+            start_tick: number;
+            /** Start S */
+            start_s: number;
+            /**
+             * End Tick
+             * @description Null: until now
+             */
+            end_tick: number | null;
+            /** End S */
+            end_s: number | null;
+        };
+        /**
          * TorqueDemandState
          * @description What the load asks of the motors, from a simulation of the session's motion.
          */
@@ -3688,6 +3757,34 @@ export interface components {
              * @example frequency_hz is 9.0 Hz: it must be at most 5 Hz.
              */
             message: string;
+        };
+        /**
+         * WindowState
+         * @description A part of the run in which nothing was changed, from start to before end.
+         */
+        WindowState: {
+            /**
+             * Kind
+             * @description What began it
+             * @enum {string}
+             */
+            kind: "start" | "load" | "unload" | "change";
+            /**
+             * Label
+             * @description What began it, in words; empty for the start of the run
+             */
+            label: string;
+            /** Start Tick */
+            start_tick: number;
+            /** Start S */
+            start_s: number;
+            /**
+             * End Tick
+             * @description Null: until now
+             */
+            end_tick: number | null;
+            /** End S */
+            end_s: number | null;
         };
     };
     responses: never;

@@ -20,6 +20,7 @@ export type Speed = SessionState["speed"];
 export type LoadRow = Schemas["LoadState"];
 export type LaneRow = SessionState["lanes"][number];
 export type Metrics = NonNullable<LaneRow["since_start"]>;
+export type WindowState = SessionState["window"];
 export type SessionEvent = Schemas["Event"];
 export type BenchState = NonNullable<SessionState["bench"]>;
 export type BenchStatus = BenchState["status"];

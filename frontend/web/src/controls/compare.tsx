@@ -15,6 +15,7 @@ export function Compare({ state }: { state: SessionState }) {
   const isOn = rivals.length > 0;
   const isRecording = state.recording !== null;
   const rival = rivals[0]?.law ?? otherLaw(law);
+  const present = state.lanes.at(-rivals.length || state.lanes.length)?.stretches.at(-1);
   return (
     <>
       <button
@@ -30,7 +31,7 @@ export function Compare({ state }: { state: SessionState }) {
       >
         <span class="compare-track" aria-hidden="true" />
         <span class="compare-words">{text.compare.with(text.controller[rival])}</span>
-        <Swatch look={inkOf(2)} />
+        {present && <Swatch look={inkOf(present.ink)} />}
       </button>
       <span class="visually-hidden" id={id}>
         {isRecording ? text.compare.whileRecording : text.compare.does}

@@ -1,8 +1,8 @@
 import { useId } from "preact/hooks";
-import { putLanes, putLaw } from "../api/client";
-import type { Law, SessionState } from "../api/types";
+import { putLaw } from "../api/client";
+import type { SessionState } from "../api/types";
 import { perform } from "../state/actions";
-import { otherLaw, rivalsOf } from "../state/lanes";
+import { lawsBeside } from "../state/lanes";
 import { text } from "../text/en";
 import { Choice } from "./choice";
 import { Compare } from "./compare";
@@ -14,14 +14,6 @@ const LAWS = [
   { value: "fl", label: text.controller.fl },
   { value: "ndobc", label: text.controller.ndobc },
 ] as const;
-
-/** Takes a law; one that ran beside as a rival changes places with it. */
-async function chooseLaw(law: Law, state: SessionState): Promise<SessionState> {
-  const rivals = rivalsOf(state);
-  const answer = await putLaw(law);
-  const isDouble = rivals.length === 1 && rivals[0]?.law === law && state.recording === null;
-  return isDouble ? putLanes([otherLaw(law)]) : answer;
-}
 
 export function Controller({ state }: { state: SessionState }) {
   const { law, gains } = state.configuration;
@@ -36,7 +28,9 @@ export function Controller({ state }: { state: SessionState }) {
           options={LAWS}
           value={law}
           describedBy={id}
-          onChoose={(next) => perform("controller.law", () => chooseLaw(next, state))}
+          onChoose={(next) =>
+            perform("controller.law", () => putLaw(next, lawsBeside(next, state)))
+          }
         />
       }
     >

@@ -44,7 +44,7 @@ export function App() {
       ) : (
         <main class="lab">
           <View />
-          {state.lanes.length > 1 ? <Comparison lanes={state.lanes} /> : <Readout state={state} />}
+          {state.lanes.length > 1 ? <Comparison state={state} /> : <Readout state={state} />}
           <LoadButton state={state} />
           <Plots />
           <Controls state={state} />

@@ -1,13 +1,13 @@
 import { useCallback } from "preact/hooks";
-import type { LaneRow, Metrics } from "../api/types";
+import type { LaneRow, SessionState } from "../api/types";
 import { inkOf } from "../plots/inks";
 import { Swatch } from "../plots/legend";
-import { laneNames } from "../state/lanes";
 import { samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { bestOf } from "./best";
 import { useLiveText } from "./live";
+import { recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;
 
@@ -22,12 +22,13 @@ function CurrentError({ lane }: { lane: number }) {
 
 interface CellProps {
   isBest: boolean;
+  hint?: string | undefined;
   children: string;
 }
 
-function Cell({ isBest, children }: CellProps) {
+function Cell({ isBest, hint, children }: CellProps) {
   return (
-    <td class={isBest ? "is-best" : ""}>
+    <td class={isBest ? "is-best" : ""} title={hint}>
       {isBest && (
         <>
           <span aria-hidden="true">{compare.bestSign}</span>
@@ -39,19 +40,16 @@ function Cell({ isBest, children }: CellProps) {
   );
 }
 
-function recovery(metrics: Metrics | null): string {
-  if (metrics === null) return formatNumber(null);
-  if (metrics.recovery_time_s === null) return text.readout.notYet;
-  return formatNumber(metrics.recovery_time_s, 3, 2);
-}
+const lookOf = ({ stretches }: LaneRow) => inkOf(stretches.at(-1)?.ink ?? 0);
 
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);
 
-/** The lanes in numbers since the last load, or since the start, the best of each column marked. */
-export function Comparison({ lanes }: { lanes: readonly LaneRow[] }) {
-  const isSinceLoad = lanes.every((lane) => lane.since_load !== null);
-  const metrics = lanes.map((lane) => (isSinceLoad ? lane.since_load : lane.since_start));
+/** The lanes in numbers since the last change, the best of each column marked. */
+export function Comparison({ state }: { state: SessionState }) {
+  const { lanes, window, load_window: load } = state;
+  const metrics = lanes.map((lane) => lane.in_window);
+  const recoveries = lanes.map((lane) => recoveryOf(lane.since_load, load));
   const bestRms = bestOf(metrics.map((row) => row?.rms_position_error_rad));
   const bestPeak = bestOf(metrics.map((row) => row?.peak_position_error_rad));
   const bestRecovery = bestOf(
@@ -60,9 +58,10 @@ export function Comparison({ lanes }: { lanes: readonly LaneRow[] }) {
   const deg = <span class="unit">{compare.degrees}</span>;
   return (
     <table class="comparison" aria-label={compare.heading}>
+      <caption>{sinceOf(window)}</caption>
       <thead>
         <tr>
-          <th scope="col">{isSinceLoad ? compare.since.load : compare.since.start}</th>
+          <th scope="col">{compare.lane}</th>
           <th scope="col">
             {compare.now} {deg}
           </th>
@@ -72,8 +71,9 @@ export function Comparison({ lanes }: { lanes: readonly LaneRow[] }) {
           <th scope="col">
             {compare.peak} {deg}
           </th>
-          <th scope="col" title={text.readout.recoveryHint}>
-            {compare.recovery} <span class="unit">{compare.seconds}</span>
+          <th scope="col" title={text.windows.recovery}>
+            {compare.recovery}{" "}
+            <span class="unit">{compare.recoveredFrom(load?.start_s ?? null)}</span>
           </th>
         </tr>
       </thead>
@@ -81,8 +81,8 @@ export function Comparison({ lanes }: { lanes: readonly LaneRow[] }) {
         {lanes.map((lane, index) => (
           <tr key={lane.lane}>
             <th scope="row">
-              <Swatch look={inkOf(lane.lane)} />
-              {laneNames.value[index]}
+              <Swatch look={lookOf(lane)} />
+              {lane.name}
             </th>
             <td>
               <CurrentError lane={lane.lane} />
@@ -93,7 +93,9 @@ export function Comparison({ lanes }: { lanes: readonly LaneRow[] }) {
             <Cell isBest={index === bestPeak}>
               {degrees(metrics[index]?.peak_position_error_rad)}
             </Cell>
-            <Cell isBest={index === bestRecovery}>{recovery(lane.since_load)}</Cell>
+            <Cell isBest={index === bestRecovery} hint={recoveries[index]?.hint}>
+              {recoveries[index]?.words ?? ""}
+            </Cell>
           </tr>
         ))}
       </tbody>

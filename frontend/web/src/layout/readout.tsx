@@ -3,6 +3,7 @@ import { isLive, samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { useLiveText } from "./live";
+import { type Recovery, recoveryOf, sinceOf } from "./window";
 
 const degrees = (rad: number | null | undefined) =>
   formatNumber(rad === null || rad === undefined ? null : toDegrees(rad), 3, 4);
@@ -13,24 +14,21 @@ function CurrentError() {
   return <span ref={element} />;
 }
 
-/** Null: a load came and the error is not small again; undefined: no load came. */
-function Recovery({ seconds }: { seconds: number | null | undefined }) {
-  if (typeof seconds !== "number") {
-    const word = seconds === null ? text.readout.notYet : text.readout.noLoad;
-    return <span class="waiting">{word}</span>;
-  }
+function Recovered({ recovery: { seconds, words } }: { recovery: Recovery }) {
+  if (seconds === null) return <span class="waiting">{words}</span>;
   return (
     <>
-      {formatNumber(seconds, 3, 2)} <span class="unit">s</span>
+      {words} <span class="unit">s</span>
     </>
   );
 }
 
 /** The numbers that tell how well the controller does. */
 export function Readout({ state }: { state: SessionState }) {
-  const { since_load: sinceLoad, since_start: sinceStart } = state.metrics;
-  const metrics = sinceLoad ?? sinceStart;
-  const labels = sinceLoad ? text.readout.sinceLoad : text.readout.sinceStart;
+  const { window, load_window: load, metrics: lane } = state;
+  const metrics = lane.in_window;
+  const since = <span class="since">{text.readout.since[window.kind]}</span>;
+  const recovery = recoveryOf(lane.since_load, load);
   return (
     <dl class="readout" aria-label={text.readout.heading}>
       <div class="is-main">
@@ -39,22 +37,26 @@ export function Readout({ state }: { state: SessionState }) {
           <CurrentError /> <span class="unit">deg</span>
         </dd>
       </div>
-      <div>
-        <dt>{labels.rms}</dt>
+      <div title={sinceOf(window)}>
+        <dt>
+          {text.readout.rms} {since}
+        </dt>
         <dd>
           {degrees(metrics?.rms_position_error_rad)} <span class="unit">deg</span>
         </dd>
       </div>
-      <div>
-        <dt>{labels.peak}</dt>
+      <div title={sinceOf(window)}>
+        <dt>
+          {text.readout.peak} {since}
+        </dt>
         <dd>
           {degrees(metrics?.peak_position_error_rad)} <span class="unit">deg</span>
         </dd>
       </div>
-      <div title={text.readout.recoveryHint}>
+      <div title={recovery.hint}>
         <dt>{text.readout.recovery}</dt>
         <dd>
-          <Recovery seconds={sinceLoad?.recovery_time_s} />
+          <Recovered recovery={recovery} />
         </dd>
       </div>
     </dl>

@@ -1,14 +1,42 @@
 /**
- * The window as CSV, as the server writes runs: "<lane>.<channel> [unit]", in SI, every sample. A
+ * The window as CSV, as the server writes runs: "<name>.<channel> [unit]", in SI, every sample. A
+ * column has the values of one controller, and none where it was not in control. A
  * gap is two rows without values, at its first and at its last sample.
  */
+import type { Cast } from "../state/lanes";
 import type { SampleRing } from "../stream/ring";
+import { text } from "../text/en";
 import { CHANNELS, type ChannelName } from "./channels";
+import type { Trace } from "./definitions";
+import { isWithin } from "./pieces";
 import type { Span } from "./spans";
 
 export interface CsvColumn {
   channel: ChannelName;
-  lane: number;
+  name: string;
+  pieces: readonly Pick<Trace, "lane" | "from" | "to">[];
+}
+
+/** Of every controller whose samples are in the span, and once what all lanes have in common. */
+export function columnsOf(
+  channels: readonly ChannelName[],
+  cast: Cast,
+  { from, to }: Span,
+): CsvColumn[] {
+  const byController = new Map<number, Omit<CsvColumn, "channel">>();
+  for (const [index, lane] of cast.entries()) {
+    for (const { number, name, ...piece } of lane) {
+      if (piece.to <= from || piece.from > to) continue;
+      const known = byController.get(number)?.pieces ?? [];
+      byController.set(number, { name, pieces: [...known, { lane: index + 1, ...piece }] });
+    }
+  }
+  const controllers = [...byController.values()];
+  const always = { lane: 1, from: Number.NEGATIVE_INFINITY, to: Number.POSITIVE_INFINITY };
+  const common = { name: text.plots.common, pieces: [always] };
+  return channels.flatMap((channel) =>
+    (CHANNELS[channel].isReference ? [common] : controllers).map((one) => ({ ...one, channel })),
+  );
 }
 
 /** A name ends in its unit; this is how the unit is written. */
@@ -23,18 +51,21 @@ export function siUnit(channel: ChannelName): string {
 const written = (value: number): string =>
   Number.isFinite(value) ? String(Number(value.toPrecision(9))) : "";
 
+function valueAt(ring: SampleRing, { channel, pieces }: CsvColumn, index: number): number {
+  const timeS = ring.timeAt(index);
+  const piece = pieces.find((one) => isWithin(one, timeS));
+  return piece === undefined ? Number.NaN : ring.valueAt(channel, index, piece.lane);
+}
+
 export function writeCsv(
   ring: SampleRing,
   { from, to }: Span,
   columns: readonly CsvColumn[],
-  laneNames: readonly string[],
 ): string {
-  const header = columns.map(
-    ({ channel, lane }) => `"${laneNames[lane - 1]}.${channel} [${siUnit(channel)}]"`,
-  );
+  const header = columns.map(({ channel, name }) => `"${name}.${channel} [${siUnit(channel)}]"`);
   const rows = [`"time_s [s]",${header.join(",")}`];
   for (let index = ring.firstAt(from); index < ring.length && ring.timeAt(index) <= to; index++) {
-    const values = columns.map(({ channel, lane }) => written(ring.valueAt(channel, index, lane)));
+    const values = columns.map((column) => written(valueAt(ring, column, index)));
     rows.push(`${Number(ring.timeAt(index).toFixed(6))},${values.join(",")}`);
   }
   return `${rows.join("\r\n")}\r\n`;

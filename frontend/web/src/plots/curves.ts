@@ -4,6 +4,7 @@ import type { SampleRing } from "../stream/ring";
 import { decimate, emptyPoints, type Points, samplesPerBucket } from "./decimation";
 import type { PlotSign, Trace } from "./definitions";
 import { palette } from "./palette";
+import { samplesOf } from "./pieces";
 import type { Span } from "./spans";
 
 /** From time and value to the pixels of a canvas. */
@@ -25,8 +26,13 @@ export class Curve {
   /** Takes the samples in the span, and one beyond each end; returns how many share a bucket. */
   fill(ring: SampleRing, { from, to }: Span, pixels: number): number {
     const { channel, lane, factor } = this.trace;
-    const first = ring.firstAt(from) - 1;
-    const stretch = ring.stretch(channel, lane, first, ring.firstAt(to) + 2);
+    const { first, end } = samplesOf(
+      ring,
+      this.trace,
+      ring.firstAt(from) - 1,
+      ring.firstAt(to) + 2,
+    );
+    const stretch = ring.stretch(channel, lane, first, end);
     this.points.count = 0;
     if (stretch === null) return 1;
     const perBucket = samplesPerBucket(stretch.count, pixels);

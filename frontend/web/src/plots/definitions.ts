@@ -22,8 +22,13 @@ export interface Trace extends Ink {
   /** From the channel's SI unit to the one on screen; negative for the lower of two limits. */
   factor: number;
   sign: PlotSign;
+  /** The curve is there from this time on up to before the other, s. */
+  from: number;
+  to: number;
   /** Drawn and hidden together with the trace of this key, and covered by its legend. */
   follows?: string;
+  /** It is another piece of the curve that it follows. */
+  continues?: true;
 }
 
 /** Lines at ±value. */

@@ -1,19 +1,22 @@
-/** Stable inks: a lane's place in the session is its colour and dash; alone, a channel has its own. */
+/**
+ * Stable inks: who controls a lane has a colour and a dash of its own, numbered by the server, in
+ * every picture; several channels of one lane have a colour each.
+ */
 import type { Ink, PlotColour } from "./definitions";
 
 export const PLAIN: readonly number[] = [];
 export const DASHED: readonly number[] = [6, 5];
 export const DOTTED: readonly number[] = [2, 4];
 
-export const LANE_INKS: readonly Ink[] = [
-  { colour: "blue", dash: PLAIN, width: 2.5 },
-  { colour: "vermilion", dash: [9, 4], width: 2 },
-  { colour: "green", dash: [3, 3], width: 2 },
-  { colour: "purple", dash: [10, 3, 2, 3], width: 2 },
-];
+const LANE_COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "purple", "orange"];
+const LANE_DASHES = [PLAIN, [9, 4], [3, 3], [10, 3, 2, 3]] as const;
 
-/** The ink of lane 1, 2, … */
-export const inkOf = (lane: number): Ink => LANE_INKS[(lane - 1) % LANE_INKS.length] as Ink;
+/** Ink 0, 1, …: twenty, of which no two share both colour and dash, and neighbours share neither. */
+export const inkOf = (ink: number): Ink => ({
+  colour: LANE_COLOURS[ink % LANE_COLOURS.length] as PlotColour,
+  dash: LANE_DASHES[ink % LANE_DASHES.length] as readonly number[],
+  width: ink === 0 ? 2.5 : 2,
+});
 
 const COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "orange", "purple"];
 

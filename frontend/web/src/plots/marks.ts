@@ -8,6 +8,7 @@ import { cursorSamples } from "./cursors";
 import { addSign, type Curve, placeOn } from "./curves";
 import type { Bound } from "./definitions";
 import { palette } from "./palette";
+import { readPiece } from "./pieces";
 import { shownRing } from "./span";
 
 const LABEL_PX = 11;
@@ -90,7 +91,7 @@ export function drawCursorSamples(plot: uPlot, curves: readonly Curve[]): void {
   for (const { trace } of curves) {
     context.fillStyle = palette.peek()[trace.colour];
     indices.forEach((index, which) => {
-      const value = ring.valueAt(trace.channel, index, trace.lane) * trace.factor;
+      const value = readPiece(ring, trace, index);
       const x = to.x(ring.timeAt(index));
       const isOutside = x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width;
       if (Number.isNaN(value) || isOutside) return;

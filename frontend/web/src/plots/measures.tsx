@@ -1,13 +1,14 @@
-import { laneNames } from "../state/lanes";
+import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { unitOf } from "./channels";
 import { cursorSamples } from "./cursors";
 import type { Trace } from "./definitions";
 import { Swatch } from "./legend";
+import { readPiece, samplesOf } from "./pieces";
 import { titleOf } from "./plot";
 import { type PlotSetup, setups } from "./setups";
-import { held } from "./span";
+import { held, shownCast } from "./span";
 import { type Measures, measureBetween } from "./statistics";
 import { composeContent, tracesOf } from "./traces";
 
@@ -23,10 +24,20 @@ const HEADS: Readonly<Record<(typeof COLUMNS)[number], string>> = {
 
 /** Every curve of a plot but the other side of its limits. */
 function curvesOf({ channels }: PlotSetup): Trace[] {
-  const lanes = laneNames.value;
+  const lanes = shownCast.value;
   const content = composeContent(channels, lanes);
   const everything = new Set(content.groups.map((group) => group.key));
   return tracesOf(content, everything, lanes.length).filter(({ factor }) => factor > 0);
+}
+
+/** Between the cursors, as far as the piece reaches; null where it does not. */
+function measurePiece(ring: SampleRing, trace: Trace, [a, b]: RowsProps["indices"]) {
+  const { first, end } = samplesOf(ring, trace, Math.min(a, b), Math.max(a, b) + 1);
+  if (end <= first) return null;
+  const within = [first, end - 1] as const;
+  const measures = measureBetween(ring, trace.channel, trace.lane, within, trace.factor);
+  const [atA, atB] = [readPiece(ring, trace, a), readPiece(ring, trace, b)];
+  return { ...measures, a: atA, b: atB, delta: atB - atA };
 }
 
 interface RowsProps {
@@ -45,7 +56,8 @@ function Rows({ setup, indices }: RowsProps) {
         </th>
       </tr>
       {curvesOf(setup).map((trace) => {
-        const measures = measureBetween(ring, trace.channel, trace.lane, indices, trace.factor);
+        const measures = measurePiece(ring, trace, indices);
+        if (measures === null) return null;
         return (
           <tr key={trace.key}>
             <th scope="row">

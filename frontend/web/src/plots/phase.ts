@@ -7,6 +7,7 @@ import { addSign, Curve, pathOf, placeOn } from "./curves";
 import { makeRoom } from "./decimation";
 import type { Trace } from "./definitions";
 import { palette } from "./palette";
+import { isWithin, samplesOf } from "./pieces";
 import { niceRange } from "./range";
 import { shownRing, shownSpan } from "./span";
 
@@ -84,7 +85,7 @@ export class PhaseChart {
   }
 
   hide(hidden: ReadonlySet<string>): void {
-    this.#shown = this.#curves.filter(({ trace }) => !hidden.has(trace.key));
+    this.#shown = this.#curves.filter(({ trace }) => !hidden.has(trace.follows ?? trace.key));
   }
 
   resize(width: number, height: number): void {
@@ -99,7 +100,8 @@ export class PhaseChart {
     const reach = (axis: PhaseAxes["x"]): [number, number] => {
       let extent: [number, number] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
       for (const { trace } of this.#shown) {
-        const stretch = ring.stretch(axis.channel, trace.lane, first, end);
+        const own = samplesOf(ring, trace, first, end);
+        const stretch = ring.stretch(axis.channel, trace.lane, own.first, own.end);
         if (stretch !== null) extent = extend(extent, stretch, axis.factor);
       }
       const [low, high] = extent;
@@ -110,8 +112,9 @@ export class PhaseChart {
 
   /** Samples that a reader can tell from the one before. */
   #fill({ trace, points }: Curve, ring: SampleRing, first: number, end: number, limits: Limits) {
-    const across = ring.stretch(this.axes.x.channel, trace.lane, first, end);
-    const up = ring.stretch(this.axes.y.channel, trace.lane, first, end);
+    const own = samplesOf(ring, trace, first, end);
+    const across = ring.stretch(this.axes.x.channel, trace.lane, own.first, own.end);
+    const up = ring.stretch(this.axes.y.channel, trace.lane, own.first, own.end);
     points.count = 0;
     if (across === null || up === null) return;
     makeRoom(points, across.count);
@@ -155,6 +158,7 @@ export class PhaseChart {
     for (const { trace } of this.#shown) {
       plot.ctx.fillStyle = palette.peek()[trace.colour];
       indices.forEach((index, which) => {
+        if (!isWithin(trace, ring.timeAt(index))) return;
         const x = ring.valueAt(this.axes.x.channel, index, trace.lane) * this.axes.x.factor;
         const y = ring.valueAt(this.axes.y.channel, index, trace.lane) * this.axes.y.factor;
         const path = new Path2D();

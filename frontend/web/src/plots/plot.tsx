@@ -1,6 +1,5 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { EquationButton } from "../learning/equation";
-import { laneNames } from "../state/lanes";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";
@@ -13,8 +12,9 @@ import { hoverShare, sampleRead } from "./hover";
 import { Legend } from "./legend";
 import { PlotMenu } from "./menu";
 import { PhaseChart } from "./phase";
+import { readPiece } from "./pieces";
 import type { PlotSetup } from "./setups";
-import { PLOTS_VIEW, shownRing } from "./span";
+import { PLOTS_VIEW, shownCast, shownRing } from "./span";
 import { composeContent, tracesOf } from "./traces";
 
 const READING_MS = 120;
@@ -37,7 +37,7 @@ const makeZoom = (host: HTMLElement, { channels }: PlotSetup, traces: readonly T
 
 /** The curves of a plot as its reader wants them. */
 function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>) {
-  const lanes = laneNames.value;
+  const lanes = shownCast.value;
   const drawn = preset === "phase" ? channels.slice(1) : channels;
   const key = drawn.join();
   const content = useMemo(() => composeContent(drawn, lanes), [key, lanes]);
@@ -49,6 +49,9 @@ function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>)
   return { content, shown, traces, isSideBySide: lanes.length > 1 };
 }
 
+/** The legend's entry that a piece of a curve stands under. */
+const ownerOf = ({ key, follows, continues }: Trace) => (continues ? follows : key);
+
 /** Writes the values under the pointer, or the newest, into the legend. */
 function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HTMLElement>) {
   let readAt = 0;
@@ -56,10 +59,14 @@ function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HT
     readAt = performance.now();
     const ring = shownRing();
     const index = sampleRead();
-    for (const { key, channel, lane, factor } of traces) {
-      const element = readings.get(key);
-      const next = formatNumber(ring.valueAt(channel, index, lane) * factor, 3, 3);
-      if (element && element.textContent !== next) element.textContent = next;
+    for (const [key, element] of readings) {
+      const values = traces.filter((one) => ownerOf(one) === key);
+      const next = formatNumber(
+        values.map((one) => readPiece(ring, one, index)).find(Number.isFinite),
+        3,
+        3,
+      );
+      if (element.textContent !== next) element.textContent = next;
     }
   };
   const stopFrames = onFrame(() => {
@@ -107,7 +114,7 @@ export function Plot({ setup }: { setup: PlotSetup }) {
   const title = titleOf(setup);
   const isPhase = setup.preset === "phase";
   const hasTruth = content.groups.some(({ traces: [leader, ...rest] }) =>
-    rest.some((one) => one.follows === leader?.key && one.factor > 0),
+    rest.some((one) => one.follows === leader?.key && !one.continues && one.factor > 0),
   );
 
   const toggle = (key: string) => {

@@ -1,17 +1,17 @@
 /** What the plots show, as files. */
-import { laneNames } from "../state/lanes";
-import { samples, session } from "../state/session";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { boundsOf } from "./bounds";
 import { CHANNELS, type ChannelName, spanOf, unitOf } from "./channels";
-import { type CsvColumn, writeCsv } from "./csv";
+import { columnsOf, writeCsv } from "./csv";
 import { Curve } from "./curves";
 import { emptyPoints, extentOf, makeRoom } from "./decimation";
 import type { Trace } from "./definitions";
 import { palette } from "./palette";
+import { samplesOf } from "./pieces";
 import { includeBounds, niceRange } from "./range";
 import { type PlotSetup, setups } from "./setups";
-import { shownRing, shownSpan } from "./span";
+import { shownCast, shownRing, shownSpan } from "./span";
 import { type Drawing, drawSvg, HEIGHT, WIDTH } from "./svg";
 
 const SHARPNESS = 2;
@@ -63,7 +63,8 @@ function drawPhasePlane(title: string, { channels }: PlotSetup, traces: readonly
   const curves = traces.map((trace) => {
     const points = emptyPoints();
     makeRoom(points, end - first);
-    for (let index = first; index < end; index++) {
+    const own = samplesOf(ring, trace, first, end);
+    for (let index = own.first; index < own.end; index++) {
       points.x[points.count] = ring.valueAt(across, index, trace.lane) * CHANNELS[across].factor;
       points.y[points.count++] = ring.valueAt(up, index, trace.lane) * CHANNELS[up].factor;
     }
@@ -113,15 +114,10 @@ export async function savePng(
   canvas.toBlob((content) => content && download(content, name), "image/png");
 }
 
-/** Every lane of the channels, at the stream's full rate. */
+/** Every controller of the channels, at the stream's full rate. */
 function saveCsv(what: string, channels: readonly ChannelName[]): void {
-  const lanes = Math.max(1, samples.ring.lanes);
-  const columns = channels.flatMap((channel): CsvColumn[] => {
-    const isCommon = CHANNELS[channel].isReference === true;
-    const numbers = Array.from({ length: isCommon ? 1 : lanes }, (_, index) => index + 1);
-    return numbers.map((lane) => ({ channel, lane }));
-  });
-  const csv = writeCsv(shownRing(), shownSpan(), columns, laneNames.peek());
+  const span = shownSpan();
+  const csv = writeCsv(shownRing(), span, columnsOf(channels, shownCast.peek(), span));
   download(new Blob([csv], { type: "text/csv" }), fileName(what, "csv"));
 }
 

@@ -1,5 +1,6 @@
 /** The span of time that all plots show: it follows the newest sample, or it is held. */
 import { computed, effect, signal } from "@preact/signals";
+import { type Cast, cast } from "../state/lanes";
 import { windowS } from "../state/preferences";
 import { received, samples, selectionCount, session } from "../state/session";
 import type { SampleRing } from "../stream/ring";
@@ -8,6 +9,7 @@ import { keepInside, liveSpan, type Span, zoomSpan } from "./spans";
 /** What the plots stand still on: samples of their own, for those of the session go on. */
 interface Held extends Span {
   ring: SampleRing;
+  cast: Cast;
 }
 
 export const held = signal<Held | null>(null);
@@ -15,6 +17,9 @@ export const isHeld = computed(() => held.value !== null);
 
 /** The samples that the plots show. */
 export const shownRing = (): SampleRing => held.peek()?.ring ?? samples.ring;
+
+/** Who controlled the lanes whose samples the plots show. */
+export const shownCast = computed<Cast>(() => held.value?.cast ?? cast.value);
 
 export const shownSpan = (): Span => held.peek() ?? liveSpan(samples.ring, windowS.peek());
 
@@ -32,7 +37,8 @@ export const PLOTS_VIEW: ChartView = { ring: shownRing, span: shownSpan, hasCurs
 export function hold(): void {
   if (held.peek() !== null) return;
   const span = shownSpan();
-  held.value = { ring: samples.ring.copy(), from: span.from, to: span.to };
+  const ring = samples.ring.copy();
+  held.value = { ring, cast: cast.peek(), from: span.from, to: span.to };
 }
 
 export function goLive(): void {
@@ -41,8 +47,8 @@ export function goLive(): void {
 
 export function showSpan(span: Span): void {
   hold();
-  const { ring } = held.peek() as Held;
-  held.value = { ring, ...keepInside(span, ring.oldestTime, ring.newestTime) };
+  const { ring, cast } = held.peek() as Held;
+  held.value = { ring, cast, ...keepInside(span, ring.oldestTime, ring.newestTime) };
 }
 
 export function zoom(factor: number, around?: number): void {

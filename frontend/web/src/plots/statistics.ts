@@ -68,7 +68,7 @@ export interface StepMetrics {
   missingS: number;
 }
 
-/** As the server has it: within 2 % of the peak so far, and for half a second at least. */
+/** As the server has it: within 2 % of the peak so far for half a second; it stays what it was. */
 const RECOVERY_SHARE = 0.02;
 const SETTLED_S = 0.5;
 
@@ -91,6 +91,7 @@ export function measureStep(
   let squares = 0;
   let count = 0;
   let lastOutside = fromS;
+  let recoveryS: number | null = null;
   for (let index = first; index < end; index++) {
     const size = Math.abs(ring.valueAt(channel, index, lane));
     if (Number.isNaN(size)) continue;
@@ -98,11 +99,12 @@ export function measureStep(
     squares += size * size;
     count++;
     if (size > RECOVERY_SHARE * peak) lastOutside = ring.timeAt(Math.min(index + 1, end - 1));
+    if (recoveryS === null && ring.timeAt(index) - lastOutside >= SETTLED_S) {
+      recoveryS = lastOutside - fromS;
+    }
   }
   if (count === 0) return null;
   const missingS = measureMissing(ring, channel, lane, first, end - 1);
-  const isSettled = ring.timeAt(end - 1) - lastOutside >= SETTLED_S;
-  const recoveryS = isSettled ? lastOutside - fromS : null;
   return {
     peak,
     rms: Math.sqrt(squares / count),

@@ -1,11 +1,11 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
-import { laneNames } from "../state/lanes";
+import { controllerAt } from "../state/lanes";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { inkOf } from "./inks";
 import { Swatch } from "./legend";
-import { shownRing } from "./span";
+import { shownCast, shownRing } from "./span";
 import { measureStep } from "./statistics";
 
 const AGAIN_MS = 500;
@@ -37,13 +37,13 @@ export function StepNumbers({ event, untilS }: StepNumbersProps) {
     element.style.marginLeft = `${shift}px`;
   });
   const ring = shownRing();
-  const rows = laneNames.value.map((name, index) => ({
-    name,
-    lane: index + 1,
-    metrics: measureStep(ring, ERROR, index + 1, event.time_s, untilS),
-  }));
+  const rows = shownCast.value.flatMap((stretches, index) => {
+    const controller = controllerAt(stretches, event.time_s);
+    const metrics = measureStep(ring, ERROR, index + 1, event.time_s, untilS);
+    return controller === undefined ? [] : [{ ...controller, lane: index + 1, metrics }];
+  });
   const isHeld = rows.some(({ metrics }) => metrics !== null);
-  const missingS = Math.max(...rows.map(({ metrics }) => metrics?.missingS ?? 0));
+  const missingS = Math.max(0, ...rows.map(({ metrics }) => metrics?.missingS ?? 0));
   return (
     <div class="step-numbers" ref={panel} role="status">
       <strong>{text.steps.heading(event.label, event.time_s.toFixed(2))}</strong>
@@ -67,10 +67,10 @@ export function StepNumbers({ event, untilS }: StepNumbersProps) {
             </tr>
           </thead>
           <tbody>
-            {rows.map(({ name, lane, metrics }) => (
+            {rows.map(({ name, ink, lane, metrics }) => (
               <tr key={lane}>
                 <th scope="row">
-                  <Swatch look={inkOf(lane)} />
+                  <Swatch look={inkOf(ink)} />
                   {name}
                 </th>
                 <td>{degrees(metrics?.peak ?? Number.NaN)}</td>

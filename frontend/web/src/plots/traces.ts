@@ -1,4 +1,5 @@
 /** From the channels of a plot and the lanes of the session to the curves that are drawn. */
+import type { Cast, Stretch } from "../state/lanes";
 import { text } from "../text/en";
 import { CHANNELS, type ChannelName } from "./channels";
 import type { Ink, PlotContent, PlotSign, Trace, TraceGroup } from "./definitions";
@@ -7,8 +8,11 @@ import { DASHED, DOTTED, inkOf, shareColours } from "./inks";
 const SIGNS: readonly PlotSign[] = ["none", "circle", "square", "triangle"];
 const WIDTHS = [3, 2, 1.25] as const;
 
+const REFERENCE: Ink = { colour: "reference", dash: DOTTED, width: 1.5 };
+
 const label = (channel: ChannelName): string => text.channelLabels[channel];
 
+/** A channel of a lane for as long as there are samples of it. */
 function trace(channel: ChannelName, lane: number, ink: Ink, name: string): Trace {
   return {
     key: `${channel}.${lane}`,
@@ -17,9 +21,50 @@ function trace(channel: ChannelName, lane: number, ink: Ink, name: string): Trac
     label: name,
     factor: CHANNELS[channel].factor,
     sign: "none",
+    from: Number.NEGATIVE_INFINITY,
+    to: Number.POSITIVE_INFINITY,
     ...ink,
   };
 }
+
+interface Placed extends Stretch {
+  lane: number;
+}
+
+/** Who controls a lane now comes first, in the order of the lanes, then who did before. */
+function listStretches(cast: Cast): Placed[] {
+  const lanes = cast.map((lane, index) => lane.map((one) => ({ ...one, lane: index + 1 })));
+  const present = lanes.flatMap((lane) => lane.slice(-1));
+  const past = lanes.flatMap((lane) => lane.slice(0, -1));
+  return [...present, ...past.sort((one, other) => one.number - other.number)];
+}
+
+/** A channel piece by piece; the pieces of one owner are one curve, of which the first is the key. */
+function pieces(
+  channel: ChannelName,
+  cast: Cast,
+  ownerOf: (stretch: Placed) => string,
+  look: (stretch: Placed) => { ink: Ink; label: string },
+): Trace[] {
+  const owners = new Set<string>();
+  return listStretches(cast).map((stretch) => {
+    const { lane, from, to } = stretch;
+    const { ink, label: name } = look(stretch);
+    const owner = ownerOf(stretch);
+    const piece: Trace = { ...trace(channel, lane, ink, name), from, to, key: owner };
+    if (!owners.has(owner)) {
+      owners.add(owner);
+      return piece;
+    }
+    return { ...piece, key: `${owner}.${lane}.${from}`, follows: owner, continues: true };
+  });
+}
+
+const keyOf = (channel: ChannelName, { number }: Placed): string => `${channel}.${number}`;
+
+/** How many controllers have curves. */
+const countControllers = (cast: Cast): number =>
+  new Set(cast.flat().map(({ number }) => number)).size;
 
 /** The other side of a limit. */
 const mirror = (limit: Trace): Trace => ({
@@ -54,69 +99,85 @@ function sort(channels: readonly ChannelName[]): Sorted {
 const withMirror = (one: Trace): Trace[] =>
   CHANNELS[one.channel as ChannelName].limitOf === undefined ? [one] : [one, mirror(one)];
 
-/** One lane: a colour a channel, truths and limits dashed beside what they belong to. */
-function contentAlone({ references, leaders }: Sorted): PlotContent {
+/**
+ * One lane: the ink of who controls it where there is one channel, a colour a channel where there are
+ * several; truths and limits beside what they belong to.
+ */
+function contentAlone({ references, leaders }: Sorted, cast: Cast): PlotContent {
   const looks = shareColours(leaders.map(({ channel }) => CHANNELS[channel].colour));
+  const isOne = leaders.length === 1;
+  const isOneController = countControllers(cast) === 1;
   const groups = leaders.map(({ channel, companions }, index): TraceGroup => {
     const width = WIDTHS[Math.min(leaders.length > 2 ? index : 0, WIDTHS.length - 1)] as number;
     const look = looks[index] as (typeof looks)[number];
-    const leader = trace(
-      channel,
-      1,
-      { ...look, width: leaders.length > 1 ? width : 2.5 },
-      label(channel),
-    );
+    const own = isOne
+      ? pieces(
+          channel,
+          cast,
+          (one) => keyOf(channel, one),
+          (one) => ({
+            ink: inkOf(one.ink),
+            label: isOneController ? label(channel) : one.name,
+          }),
+        )
+      : pieces(
+          channel,
+          cast,
+          () => channel,
+          () => ({ ink: { ...look, width }, label: label(channel) }),
+        );
+    const [leader] = own;
     const beside = companions.map((name): Trace => {
       const isTruth = CHANNELS[name].truthOf !== undefined;
       const ink: Ink = isTruth
-        ? { colour: look.colour, dash: DASHED, width: 1.5 }
+        ? { colour: leader?.colour ?? look.colour, dash: DASHED, width: 1.5 }
         : { colour: "reference", dash: DOTTED, width: 1.5 };
       const one = trace(name, 1, ink, label(name));
-      return isTruth ? { ...one, follows: leader.key } : one;
+      return isTruth && leader ? { ...one, follows: leader.key } : one;
     });
-    return { key: channel, label: leader.label, traces: [leader, ...beside.flatMap(withMirror)] };
+    return { key: channel, label: label(channel), traces: [...own, ...beside.flatMap(withMirror)] };
   });
-  const common = references.map((name) =>
-    trace(name, 1, { colour: "reference", dash: DASHED, width: 1.5 }, label(name)),
-  );
+  const common = references.map((name) => trace(name, 1, REFERENCE, label(name)));
   return { groups, common };
 }
 
-/** Several lanes: an ink a lane, a sign a channel where there are several. */
-function contentSideBySide({ references, leaders }: Sorted, lanes: readonly string[]): PlotContent {
+/** Several lanes: the ink of who controls each, a sign a channel where there are several. */
+function contentSideBySide({ references, leaders }: Sorted, cast: Cast): PlotContent {
   const groups = leaders.map(({ channel, companions }, index): TraceGroup => {
     const sign = SIGNS[index % SIGNS.length] as PlotSign;
-    const own = lanes.map((name, lane) => ({
-      ...trace(channel, lane + 1, inkOf(lane + 1), name),
-      sign,
-    }));
-    const beside = companions.flatMap((name) =>
-      lanes.flatMap((_, lane): Trace[] => {
-        const isTruth = CHANNELS[name].truthOf !== undefined;
-        if (!isTruth) {
-          const ink: Ink = { ...inkOf(lane + 1), dash: DOTTED, width: 1.25 };
-          const limit = trace(name, lane + 1, ink, label(name));
-          return withMirror({ ...limit, follows: (own[lane] as Trace).key });
-        }
-        const ink: Ink = { colour: "reference", dash: DOTTED, width: 1.5 };
-        const truth = trace(name, lane + 1, ink, text.plots.true);
-        return [lane === 0 ? truth : { ...truth, follows: `${name}.1` }];
-      }),
-    );
+    const own = pieces(
+      channel,
+      cast,
+      (one) => keyOf(channel, one),
+      (one) => ({ ink: inkOf(one.ink), label: one.name }),
+    ).map((one): Trace => ({ ...one, sign }));
+    const beside = companions.flatMap((name): Trace[] => {
+      if (CHANNELS[name].truthOf !== undefined) {
+        return cast.map((_, lane) => {
+          const truth = trace(name, lane + 1, REFERENCE, text.plots.true);
+          return lane === 0 ? truth : { ...truth, follows: `${name}.1` };
+        });
+      }
+      const limits = pieces(
+        name,
+        cast,
+        (one) => keyOf(name, one),
+        (one) => ({ ink: { ...inkOf(one.ink), dash: DOTTED, width: 1.25 }, label: label(name) }),
+      );
+      return limits.flatMap((limit, at) => {
+        const leader = own[at] as Trace;
+        return withMirror({ ...limit, follows: leader.follows ?? leader.key });
+      });
+    });
     return { key: channel, label: label(channel), traces: [...own, ...beside] };
   });
-  const common = references.map((name) =>
-    trace(name, 1, { colour: "reference", dash: DOTTED, width: 1.5 }, label(name)),
-  );
+  const common = references.map((name) => trace(name, 1, REFERENCE, label(name)));
   return { groups, common };
 }
 
-export function composeContent(
-  channels: readonly ChannelName[],
-  lanes: readonly string[],
-): PlotContent {
+export function composeContent(channels: readonly ChannelName[], cast: Cast): PlotContent {
   const sorted = sort(channels);
-  return lanes.length > 1 ? contentSideBySide(sorted, lanes) : contentAlone(sorted);
+  return cast.length > 1 ? contentSideBySide(sorted, cast) : contentAlone(sorted, cast);
 }
 
 /** The curves of the groups chosen; where several lanes show several groups, with both names. */

@@ -3,7 +3,7 @@ import type { PlotColour } from "../plots/definitions";
 import { inkOf } from "../plots/inks";
 import { text } from "../text/replay";
 import { DEGREES_PER_RADIAN } from "../units";
-import type { Recording } from "./data";
+import type { LaneStretch, Recording } from "./data";
 
 export interface Curve {
   key: string;
@@ -41,6 +41,19 @@ const REFERENCE_DASHES = [
 
 const { plots } = text;
 
+/** Copies what a controller did; where it was not in control there is no number. */
+function copyStretch(
+  values: Float32Array,
+  { start_s: from, end_s: to }: LaneStretch,
+  stepS: number,
+  into: Float32Array,
+): Float32Array {
+  const first = Math.ceil(from / stepS - 1e-6);
+  const end = Math.ceil(to / stepS - 1e-6);
+  into.set(values.subarray(first, end), first);
+  return into;
+}
+
 export function definePlots(recording: Recording): ReplayPlot[] {
   const { run, arrays } = recording;
 
@@ -53,13 +66,26 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     }
     return numbers.map((number) => scaled.get(number) as Float32Array);
   };
-  const lanes = (channel: string, factor: number): Curve[] =>
-    read(channel, factor).map((values, lane) => ({
-      key: `${channel}.${lane}`,
-      label: run.lanes[lane] as string,
-      ...inkOf(lane + 1),
-      values,
-    }));
+  const lanes = (channel: string, factor: number): Curve[] => {
+    const curves = new Map<number, Curve>();
+    for (const [lane, values] of read(channel, factor).entries()) {
+      const stretches = run.stretches[lane] ?? [];
+      for (const stretch of stretches) {
+        const { number, name, ink } = stretch;
+        const known = curves.get(number);
+        const isWhole = stretches.length === 1 && known === undefined;
+        const into = known?.values ?? new Float32Array(values.length).fill(Number.NaN);
+        const own = isWhole ? values : copyStretch(values, stretch, run.curves.step_s, into);
+        curves.set(number, {
+          key: `${channel}.${number}`,
+          label: name,
+          ...inkOf(ink),
+          values: own,
+        });
+      }
+    }
+    return [...curves.values()];
+  };
   const reference = (channel: string, factor: number): Curve[] =>
     read(channel, factor)
       .slice(0, 1)

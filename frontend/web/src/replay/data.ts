@@ -29,11 +29,22 @@ export interface RunEvent {
   label: string;
 }
 
+/** Who controlled a lane, from a time of the page on up to before another. */
+export interface LaneStretch {
+  number: number;
+  name: string;
+  ink: number;
+  start_s: number;
+  end_s: number;
+}
+
 export interface Run {
   title: string;
   period_s: number;
   ticks: number;
   lanes: string[];
+  /** Of every lane, in the order of time. */
+  stretches: LaneStretch[][];
   details: Record<string, unknown>;
   events: RunEvent[];
   metrics: Record<string, number | null>[];

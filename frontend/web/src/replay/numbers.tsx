@@ -11,6 +11,11 @@ function degrees(rad: number | null | undefined): string {
   return formatNumber(rad == null ? rad : toDegrees(rad), 3, 4);
 }
 
+/** Of all who controlled the lane. */
+const inksOf = ({ stretches }: Run, lane: number): number[] => [
+  ...new Set(stretches[lane]?.map(({ ink }) => ink)),
+];
+
 function Metrics({ run }: { run: Run }) {
   return (
     <table class="metrics">
@@ -44,7 +49,9 @@ function Metrics({ run }: { run: Run }) {
           return (
             <tr key={`${index}.${lane}`}>
               <th scope="row">
-                <Swatch curve={inkOf(index + 1)} />
+                {inksOf(run, index).map((ink) => (
+                  <Swatch key={ink} curve={inkOf(ink)} />
+                ))}
                 <span class="legend-name">{lane}</span>
               </th>
               <td>{degrees(row.position_error_rad_rms)}</td>

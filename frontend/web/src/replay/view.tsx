@@ -1,10 +1,11 @@
 import { effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { PlantMark } from "../layout/plantmark";
+import { inkOf } from "../plots/inks";
 import { theme } from "../state/preferences";
 import { text } from "../text/replay";
 import { timeS } from "./clock";
-import { findMark, type Recording } from "./data";
+import { findMark, type Recording, type Run } from "./data";
 import { answerKey } from "./keys";
 import { Scene } from "./scene";
 
@@ -30,6 +31,11 @@ function followClock(scene: Scene): () => void {
     stop();
   };
 }
+
+/** The outlines of a lane have the colours of its curves. */
+const coloursOf = ({ stretches }: Run, lane: number) => [
+  ...new Set(stretches[lane]?.map(({ ink }) => inkOf(ink).colour)),
+];
 
 export function View({ recording: { run, arrays } }: { recording: Recording }) {
   const frame = useRef<HTMLIFrameElement>(null);
@@ -60,7 +66,11 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
       <ul class="view-legend">
         {run.lanes.map((lane, index) => (
           <li key={`${index}.${lane}`}>
-            <i class={`is-lane${index}`} />
+            {index === 0 ? (
+              <i class="is-actuator" />
+            ) : (
+              coloursOf(run, index).map((colour) => <i key={colour} class={`is-${colour}`} />)
+            )}
             <span class="legend-name">{lane}</span>
             <small>{index === 0 ? text.drawn.lane : text.drawn.ghost}</small>
           </li>

@@ -1,10 +1,11 @@
 /** Several runs on one axis of time, on which 0 is the load's onset. */
 import { readMetrics, readRun, readSamples } from "../api/runs";
 import type { Metrics, RunSamples } from "../api/types";
-import type { Ink, PlotColour } from "../plots/definitions";
+import type { Ink } from "../plots/definitions";
+import { inkOf } from "../plots/inks";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
-import { findOnset } from "./onset";
+import { findLoad } from "./onset";
 
 export const CHANNELS = ["position_error_rad", "stiffness_error_nm_per_rad"] as const;
 export type OverlayChannel = (typeof CHANNELS)[number];
@@ -22,26 +23,18 @@ export interface Overlaid {
   lane: string;
   isAlone: boolean;
   hasOnset: boolean;
+  /** When something was changed after the load, s after it: the numbers are of before. */
+  changedS: number | null;
   ink: Ink;
   /** s after the onset. */
   time: Float64Array;
   values: Record<OverlayChannel, (number | null)[]>;
-  /** From the onset to the end; null where samples are no numbers. */
+  /** From the onset to the next change or the end; null where samples are no numbers. */
   metrics: Metrics | null;
 }
 
 export const nameCurve = ({ isAlone, runName, lane }: Overlaid): string =>
   isAlone ? runName : text.overlay.curve(runName, lane);
-
-const COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "purple", "orange"];
-const DASHES = [[], [9, 4], [3, 3], [10, 3, 2, 3]] as const;
-
-/** Twenty inks, of which no two share both colour and dash, and neighbours share neither. */
-export const overlayInk = (index: number): Ink => ({
-  colour: COLOURS[index % COLOURS.length] as PlotColour,
-  dash: DASHES[index % DASHES.length] as readonly number[],
-  width: 2,
-});
 
 function readLane(samples: RunSamples, lane: string): Overlaid["values"] {
   const read = (channel: OverlayChannel) =>
@@ -56,11 +49,11 @@ function readLane(samples: RunSamples, lane: string): Overlaid["values"] {
 
 async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
   const run = await readRun(id);
-  const onset = findOnset(run);
-  const zero = onset ?? run.first_tick * run.period_s;
+  const load = findLoad(run);
+  const zero = load?.start_s ?? run.first_tick * run.period_s;
   const [samples, metrics] = await Promise.all([
     readSamples(id, CHANNELS, POINTS),
-    readMetrics(id, zero),
+    readMetrics(id, zero, load?.end_s ?? null),
   ]);
   const time = Float64Array.from(samples.time_s, (seconds) => seconds - zero);
   return run.lanes.map((lane, index) => ({
@@ -69,7 +62,8 @@ async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
     runName: run.title,
     lane: run.lane_names[index] ?? lane,
     isAlone: run.lanes.length === 1,
-    hasOnset: onset !== null,
+    hasOnset: load !== null,
+    changedS: load?.end_s == null ? null : load.end_s - zero,
     time,
     values: readLane(samples, lane),
     metrics: metrics.lanes[lane] ?? null,
@@ -79,5 +73,5 @@ async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
 /** Every lane of these runs, each in an ink of its own. */
 export async function readOverlaid(runs: readonly string[]): Promise<Overlaid[]> {
   const lanes = (await Promise.all(runs.map(readLanes))).flat();
-  return lanes.map((lane, index) => ({ ...lane, ink: overlayInk(index) }));
+  return lanes.map((lane, index) => ({ ...lane, ink: inkOf(index) }));
 }

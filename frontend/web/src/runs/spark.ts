@@ -1,6 +1,6 @@
 /** The position error of a run, small: one path a lane, on one scale. */
 import { readRun, readSamples } from "../api/runs";
-import type { RunSamples } from "../api/types";
+import type { RunDetails, RunSamples } from "../api/types";
 
 export const WIDTH = 300;
 export const HEIGHT = 44;
@@ -11,19 +11,27 @@ const CHANNEL = "position_error_rad";
 const SMALLEST = 1e-4;
 
 export interface Spark {
-  paths: string[];
+  /** One a stretch of a lane, in the ink of who controlled it. */
+  paths: { ink: number; path: string }[];
   /** Height of zero error. */
   zero: number;
   /** Largest error of any lane, rad. */
   peak: number;
 }
 
-/** A run at a glance: its curves, and the names of its lanes. */
+/** A run at a glance: its curves, and who controlled its lanes. */
 export interface Glance extends Spark {
   lanes: string[];
+  stretches: Stretches;
 }
 
-export function drawSpark({ time_s: time, lanes }: Pick<RunSamples, "time_s" | "lanes">): Spark {
+type Stretches = RunDetails["stretches"];
+type Stretch = Stretches[number][number];
+
+export function drawSpark(
+  { time_s: time, lanes }: Pick<RunSamples, "time_s" | "lanes">,
+  stretches: Stretches,
+): Spark {
   const curves = Object.values(lanes).map((channels) => channels[CHANNEL] ?? []);
   const values = curves.flat().filter((value) => value !== null);
   const peak = values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
@@ -33,20 +41,24 @@ export function drawSpark({ time_s: time, lanes }: Pick<RunSamples, "time_s" | "
   const span = Math.max((time.at(-1) ?? 1) - first, 1e-9);
   const across = (seconds: number) => ((seconds - first) / span) * WIDTH;
   const down = (value: number) => MARGIN + ((high - value) / (high - low)) * (HEIGHT - 2 * MARGIN);
-  const paths = curves.map((curve) => {
+  const draw = (curve: readonly (number | null)[], { start_s: from, end_s: to }: Stretch) => {
     let isDown = false;
     return curve
       .map((value, index) => {
-        if (value === null) {
+        const at = time[index] ?? 0;
+        if (value === null || at < from || (to !== null && at >= to)) {
           isDown = false;
           return "";
         }
         const command = isDown ? "L" : "M";
         isDown = true;
-        return `${command}${across(time[index] ?? 0).toFixed(1)} ${down(value).toFixed(1)}`;
+        return `${command}${across(at).toFixed(1)} ${down(value).toFixed(1)}`;
       })
       .join("");
-  });
+  };
+  const paths = curves.flatMap((curve, lane) =>
+    (stretches[lane] ?? []).map((stretch) => ({ ink: stretch.ink, path: draw(curve, stretch) })),
+  );
   return { paths, zero: down(0), peak };
 }
 
@@ -55,7 +67,8 @@ const kept = new Map<string, Promise<Glance>>();
 
 async function readGlance(run: string): Promise<Glance> {
   const [details, samples] = await Promise.all([readRun(run), readSamples(run, [CHANNEL], POINTS)]);
-  return { ...drawSpark(samples), lanes: details.lane_names };
+  const { lane_names: lanes, stretches } = details;
+  return { ...drawSpark(samples, stretches), lanes, stretches };
 }
 
 /** Read once a run and length; a run that is still recorded grows. */

@@ -18,11 +18,11 @@ export function Sparkline({ glance }: { glance: Glance | null }) {
     >
       {glance && <path class="spark-zero" d={`M0 ${glance.zero}H${WIDTH}`} />}
       {glance?.paths
-        .map((path, index) => {
-          const ink = inkOf(index + 1);
+        .map(({ ink: number, path }, index) => {
+          const ink = inkOf(number);
           return (
             <path
-              key={ink.colour}
+              key={index}
               class={`ink-${ink.colour}`}
               d={path}
               stroke-dasharray={ink.dash.join(" ") || undefined}

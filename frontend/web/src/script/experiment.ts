@@ -30,6 +30,10 @@ export function stepOf(kind: string, argument: unknown): Step {
   switch (kind) {
     case "law":
       return { method: "PUT", path: "/law", body: { law: argument } };
+    case "laws": {
+      const [law, ...rivals] = argument as unknown[];
+      return { method: "PUT", path: "/law", body: { law, rival_laws: rivals } };
+    }
     case "rivals":
       return { method: "PUT", path: "/lanes", body: { rivals: prune(argument) } };
     case "actuator":
@@ -140,10 +144,11 @@ try:
     call("POST", "/pause")
 ${[...writeSettings(origin), `${IN_TRY}call("POST", "/reset")`, ...writeChanges(origin)].join("\n")}
     state = run_until(${end})
+    since = state["window"]["start_s"]
     for lane in state["lanes"]:
-        metrics = lane["since_load"] or lane["since_start"]
+        metrics = lane["in_window"]
         error = metrics["rms_position_error_rad"] if metrics else 0.0
-        print(f"lane {lane['lane']}, {lane['law']}: rms position error {error:.3e} rad")
+        print(f"{lane['name']}: rms position error {error:.3e} rad since {since:.3f} s")
     print(f"reached {state['time_s']:.3f} s")
 finally:
     lab.delete(session)

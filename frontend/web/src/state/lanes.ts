@@ -1,6 +1,6 @@
 /** The lanes of the session: what runs side by side, and under which names. */
 import { computed } from "@preact/signals";
-import type { Law, SessionState } from "../api/types";
+import type { LaneRow, Law, SessionState } from "../api/types";
 import { session } from "./session";
 
 export const otherLaw = (law: Law): Law => (law === "fl" ? "ndobc" : "fl");
@@ -9,13 +9,54 @@ export const otherLaw = (law: Law): Law => (law === "fl" ? "ndobc" : "fl");
 export const rivalsOf = ({ configuration: { rivals }, bench }: SessionState) =>
   bench === null ? rivals : rivals.slice(1);
 
-const SEPARATOR = "\n";
-/** A string, so that what depends on it is made anew only when a name changes. */
-const namesKey = computed(() =>
-  (session.value?.lanes ?? []).map(({ name }) => name).join(SEPARATOR),
+/**
+ * The laws of the lanes beside when the session takes a law: the lane that has it takes the
+ * session's in exchange, each from where its actuator is. None where no lane has it.
+ */
+export function lawsBeside(law: Law, state: SessionState): Law[] {
+  const { law: before, rivals } = state.configuration;
+  const twins = rivals.length - rivalsOf(state).length;
+  const other = rivals.findIndex((rival, index) => index >= twins && rival.law === law);
+  if (other < 0) return [];
+  return rivals.map((rival, index) => {
+    if (index < twins) return law;
+    return index === other ? before : rival.law;
+  });
+}
+
+/** A controller on a lane, from a time on up to before another, s. */
+export interface Stretch {
+  /** Which controller. */
+  number: number;
+  name: string;
+  ink: number;
+  from: number;
+  to: number;
+}
+
+/** Of lane 1, 2, … who controlled it when, the present one last. */
+export type Cast = readonly (readonly Stretch[])[];
+
+/** A string, so that what depends on it is made anew only when a lane changes. */
+const castKey = computed(() =>
+  JSON.stringify((session.value?.lanes ?? []).map(({ stretches }) => stretches)),
 );
 
-/** Names of lane 1, 2, …; the same array until one changes. */
-export const laneNames = computed(() =>
-  namesKey.value === "" ? [] : namesKey.value.split(SEPARATOR),
+/** The same array until a lane changes. */
+export const cast = computed<Cast>(() =>
+  (JSON.parse(castKey.value) as LaneRow["stretches"][]).map((stretches) =>
+    stretches.map(({ number, name, ink, start_s: from, end_s: to }) => {
+      return { number, name, ink, from, to: to ?? Number.POSITIVE_INFINITY };
+    }),
+  ),
 );
+
+/** Who controls a lane now. */
+export const presentOf = (lane: readonly Stretch[]): Stretch | undefined => lane.at(-1);
+
+/** Who controlled a lane at a time. */
+export const controllerAt = (lane: readonly Stretch[], timeS: number): Stretch | undefined =>
+  lane.find(({ from, to }) => timeS >= from && timeS < to);
+
+/** Names of lane 1, 2, … as they are now. */
+export const laneNames = computed(() => cast.value.map((lane) => presentOf(lane)?.name ?? ""));

@@ -1,0 +1,53 @@
+"""What goes over the wire about lanes: who controlled them when, and how well they did."""
+
+from pydantic import BaseModel, Field
+
+from svsa.runtime.configuration import Law
+from svsa.runtime.metrics import Metrics
+from svsa.runtime.timeline import WindowKind
+
+
+class StretchState(BaseModel):
+    """A controller (a law with its gains and observer) on a lane, from start to before end."""
+
+    number: int = Field(
+        description="Which controller, counted in the order in which they came in the run"
+    )
+    name: str = Field(description="Its law, and what tells it from others of the same law")
+    ink: int = Field(description="Which look its curves have, from 0; shared by no other on screen")
+    start_tick: int
+    start_s: float
+    end_tick: int | None = Field(description="Null: until now")
+    end_s: float | None
+
+
+class WindowState(BaseModel):
+    """A part of the run in which nothing was changed, from start to before end."""
+
+    kind: WindowKind = Field(description="What began it")
+    label: str = Field(description="What began it, in words; empty for the start of the run")
+    start_tick: int
+    start_s: float
+    end_tick: int | None = Field(description="Null: until now")
+    end_s: float | None
+
+
+class LaneMetrics(BaseModel):
+    """How well a lane does; null where it was not there at the beginning of what is measured."""
+
+    since_start: Metrics | None = Field(description="Of the whole run, whatever was changed")
+    in_window: Metrics | None = Field(description="Since the last change: of `window`")
+    since_load: Metrics | None = Field(
+        description="Of `load_window`, with which it ends; its recovery time is the load's"
+    )
+
+
+class LaneState(LaneMetrics):
+    """A lane; lane 1 is the session's own controller."""
+
+    lane: int
+    law: Law
+    name: str = Field(description="Of who controls it now")
+    stretches: list[StretchState] = Field(
+        description="Who controlled it in the last 60 s, the present one last"
+    )

@@ -1,0 +1,84 @@
+"""The lanes of a session or a recorded run on every page, in 3D and in a replay: who controlled
+them, from when on, under which name and in which ink.
+"""
+
+from collections.abc import Sequence
+
+from svsa.errors import SvsaError
+from svsa.runtime.controllers import name_controllers
+from svsa.runtime.recording.reader import Record
+from svsa.runtime.resimulation import read_origin
+from svsa.runtime.session import KEPT_S, Session
+from svsa.runtime.timeline import Stretch, Timeline, Window, read_timeline
+from svsa_server.lane_schemas import StretchState, WindowState
+
+MOST_STRETCHES = 200
+
+
+def list_session_stretches(session: Session) -> list[list[StretchState]]:
+    """Of every lane the stretches of the last `KEPT_S`; the last one is the present."""
+    period_s = session.run.period_s
+    first_tick = session.run.tick - KEPT_S / period_s
+    return _build(session.timeline.list_stretches(first_tick, MOST_STRETCHES), period_s)
+
+
+def trace_record(record: Record) -> Timeline | None:
+    """The timeline of a recorded run; None where its commands do not tell its lanes."""
+    try:
+        configuration, commands = read_origin(record)
+        ticks = record.first_tick, record.first_tick + record.tick_count
+        is_bench = record.header.plant != "simulated"
+        timeline = read_timeline(configuration, commands, ticks, is_bench)
+    except SvsaError:
+        return None
+    return timeline if len(timeline.lanes) == len(record.header.lanes) else None
+
+
+def list_record_stretches(record: Record, timeline: Timeline | None) -> list[list[StretchState]]:
+    """Of every lane its stretches in the record; without a timeline, the lane by its own name."""
+    period_s = record.header.period_s
+    if timeline is not None:
+        return _build(timeline.list_stretches(), period_s)
+    whole = {"start_tick": 0, "start_s": 0.0, "end_tick": None, "end_s": None}
+    return [
+        [StretchState(number=lane + 1, name=name, ink=lane, **whole)]
+        for lane, name in enumerate(record.header.lanes)
+    ]
+
+
+def name_lanes(stretches: Sequence[Sequence[StretchState]]) -> list[str]:
+    """A name for each lane as a whole: NDOBC → FL where its controller changed."""
+    return [" → ".join(dict.fromkeys(one.name for one in lane)) for lane in stretches]
+
+
+def build_window(window: Window, period_s: float) -> WindowState:
+    """A window with its times."""
+    end = window.end_tick
+    return WindowState(
+        kind=window.kind,
+        label=window.label,
+        start_tick=window.first_tick,
+        start_s=window.first_tick * period_s,
+        end_tick=end,
+        end_s=None if end is None else end * period_s,
+    )
+
+
+def _build(lanes: Sequence[Sequence[Stretch]], period_s: float) -> list[list[StretchState]]:
+    every = sorted((one for lane in lanes for one in lane), key=lambda one: one.number)
+    names = name_controllers(one.controller for one in every)
+    return [
+        [
+            StretchState(
+                number=one.number,
+                name=names[one.controller],
+                ink=one.ink,
+                start_tick=one.first_tick,
+                start_s=one.first_tick * period_s,
+                end_tick=one.end_tick,
+                end_s=None if one.end_tick is None else one.end_tick * period_s,
+            )
+            for one in lane
+        ]
+        for lane in lanes
+    ]

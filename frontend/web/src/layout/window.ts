@@ -1,0 +1,32 @@
+/** Since when numbers are measured, in words, and what became of the load. */
+import type { Metrics, WindowState } from "../api/types";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
+
+const { windows } = text;
+
+const at = ({ label, start_s: startS }: WindowState): string =>
+  windows.at(label, startS.toFixed(2));
+
+/** What began the window, and when. */
+export const sinceOf = (window: WindowState): string =>
+  window.kind === "start" ? windows.sinceStart : windows.since(at(window));
+
+/** How soon the error was small again after the load; what is no time is said in words. */
+export interface Recovery {
+  seconds: number | null;
+  words: string;
+  hint: string;
+}
+
+/** metrics: of the load's window; null for a lane that was not there when the load came. */
+export function recoveryOf(metrics: Metrics | null, load: WindowState | null): Recovery {
+  if (load === null) return { seconds: null, words: windows.noLoad, hint: windows.recovery };
+  const hint = windows.recoveryFrom(at(load));
+  if (metrics === null) return { seconds: null, words: formatNumber(null), hint: windows.notThere };
+  const { recovery_time_s: seconds } = metrics;
+  if (seconds !== null) return { seconds, words: formatNumber(seconds, 3, 2), hint };
+  if (load.end_s === null) return { seconds, words: windows.notYet, hint };
+  const end = load.end_s.toFixed(2);
+  return { seconds, words: windows.notBefore(end), hint: windows.endedBefore(at(load), end) };
+}

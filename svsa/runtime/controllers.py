@@ -1,0 +1,107 @@
+"""Who controls a lane: a law with its gains and its observer, told apart and named."""
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from svsa.control.gains import Gains
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.runtime.configuration import OBSERVING, Configuration, Lane, Law
+
+BENCH_LANES = ("Bench", "Twin")
+
+
+class Controller(NamedTuple):
+    """What a curve is drawn of and named by.
+
+    place: "Bench" or "Twin" on a bench, else "". observer: None where the law does not act on
+    it. copy: 1, and more for a lane beside another one with all of this the same.
+    """
+
+    place: str
+    law: Law
+    gains: Gains
+    observer: ObserverBandwidth | None
+    copy: int
+
+
+def list_controllers(
+    configuration: Configuration, is_bench: bool, before: Sequence[Controller | None] = ()
+) -> list[Controller]:
+    """Of every lane. before: who controlled it until now, which keeps the number of its copy."""
+    places = (*BENCH_LANES, *[""] * len(configuration.lanes)) if is_bench else None
+    alone = [
+        _build(configuration, lane, places[number] if places else "")
+        for number, lane in enumerate(configuration.lanes)
+    ]
+    counts, taken, found = Counter(alone), set[Controller](), dict[int, Controller]()
+    kept = dict(enumerate(before))
+    for number in sorted(range(len(alone)), key=lambda n: not _is_copy_of(kept.get(n), alone[n])):
+        controller, held = alone[number], kept.get(number)
+        if counts[controller] > 1 and held is not None and _is_copy_of(held, controller):
+            controller = held
+        while controller in taken:
+            controller = controller._replace(copy=controller.copy + 1)
+        taken.add(controller)
+        found[number] = controller
+    return [found[number] for number in range(len(alone))]
+
+
+def complete_laws(laws: tuple[Law, ...], is_bench: bool) -> tuple[Law, ...]:
+    """The laws of the first lanes: a bench's twin has the law of the bench."""
+    return (laws[0], laws[0], *laws[2:]) if is_bench else laws
+
+
+def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]:
+    """A name for each: place and law, and where one law is there twice what tells them apart."""
+    every = list(dict.fromkeys(controllers))
+    names: dict[Controller, str] = {}
+    for one in every:
+        alike = [other for other in every if (other.place, other.law) == (one.place, one.law)]
+        words = [one.place, one.law.upper(), *_tell_apart(one, alike)]
+        names[one] = " ".join(filter(None, words))
+    return _number_doubles(names)
+
+
+def _build(configuration: Configuration, lane: Lane, place: str) -> Controller:
+    observer = (lane.observer or configuration.observer) if lane.law in OBSERVING else None
+    return Controller(place, lane.law, lane.gains or configuration.gains, observer, 1)
+
+
+def _is_copy_of(held: Controller | None, controller: Controller) -> bool:
+    return held is not None and held._replace(copy=1) == controller
+
+
+def _tell_apart(one: Controller, alike: Sequence[Controller]) -> list[str]:
+    """Each of β, ωq and ωσ in which these differ, rad/s; ω is that of all poles together."""
+    described = [_describe(controller) for controller in alike]
+    own = _describe(one)
+    return [
+        f"{symbol} {value}"
+        for symbol, value in own.items()
+        if any(other[symbol] != value for other in described)
+    ]
+
+
+def _describe(controller: Controller) -> dict[str, str]:
+    betas = controller.observer.bandwidth_rad_per_s if controller.observer else ()
+    shown = betas[:1] if len(set(betas)) == 1 else betas
+    (c0, *_), (s0, _) = (
+        controller.gains.position_coefficients,
+        controller.gains.stiffness_coefficients,
+    )
+    return {
+        "β": "/".join(f"{beta:.3g}" for beta in shown),
+        "ωq": f"{c0**0.25:.3g}",
+        "ωσ": f"{s0**0.5:.3g}",
+    }
+
+
+def _number_doubles(names: dict[Controller, str]) -> dict[Controller, str]:
+    """Names that are still the same are numbered in the order in which they came."""
+    seen = Counter[str]()
+    numbered: dict[Controller, str] = {}
+    for controller, name in names.items():
+        seen[name] += 1
+        numbered[controller] = name if seen[name] == 1 else f"{name} ({seen[name]})"
+    return numbered

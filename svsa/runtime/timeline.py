@@ -1,0 +1,235 @@
+"""What a run was from when on: who controlled its lanes, and between which changes.
+
+A session follows its run with it; of a recorded run the same is read from its configuration and
+its commands.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
+
+from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
+from svsa.runtime.command import KINDS, Command
+from svsa.runtime.configuration import LAWS, Configuration
+from svsa.runtime.controllers import Controller, complete_laws, list_controllers
+from svsa.runtime.run import Run, find_origins
+
+MOST_WINDOWS = 1000
+MOST_STRETCHES = 1000
+
+WindowKind = Literal["start", "load", "unload", "change"]
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of a run in which nothing was changed; ticks first … end − 1, end None: until now.
+
+    kind: what began it: the run, a load that came on, one that was taken off, or a change of
+    reference, law, gains, observer, effects, plant, model or lanes. label: that in words.
+    """
+
+    kind: WindowKind
+    label: str
+    first_tick: int
+    end_tick: int | None = None
+
+
+class Stretch(NamedTuple):
+    """A controller on a lane, ticks first … end − 1; end None: until now.
+
+    number: of the controller, in the order in which they came, from 1. ink: which look its
+    curves have, from 0; no two controllers that are kept share one.
+    """
+
+    controller: Controller
+    number: int
+    ink: int
+    first_tick: int
+    end_tick: int | None = None
+
+
+class Timeline:
+    """The stretches of every lane and the windows of a run, command by command.
+
+    kept_ticks: how long a stretch that has ended is kept. `load_window`: of the newest load;
+    it ends with the next change, when a load is taken off, or with another one; a load that ends
+    by itself ends no window, so that a push shows after it.
+    """
+
+    def __init__(
+        self, configuration: Configuration, is_bench: bool = False, kept_ticks: float = math.inf
+    ) -> None:
+        self._configuration, self._is_bench = configuration, is_bench
+        self.kept_ticks = kept_ticks
+        self._numbers: dict[Controller, int] = {}
+        self.lanes: list[list[Stretch]] = [[] for _ in configuration.lanes]
+        self.windows: list[Window] = [Window("start", "", 0)]
+        self.load_window: Window | None = None
+        self._follow_controllers(0)
+
+    @property
+    def window(self) -> Window:
+        """The present one."""
+        return self.windows[-1]
+
+    def take(self, command: Command) -> list[int | None] | None:
+        """A command was given; for one that changed lanes, what each continues (None: new)."""
+        before, origins = self._configuration, None
+        self._configuration = _configure(before, command, self._is_bench)
+        if command.kind == "rivals":
+            origins = find_origins(before.rivals, self._configuration.rivals)
+            self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
+        self._follow_controllers(command.tick)
+        if command.kind not in ("load", "unload") and (origins is None or None in origins):
+            self._begin("change", describe_change(command, before), command.tick)
+        return origins
+
+    def begin_load(self, load: Load, tick: int) -> None:
+        """A load acts from this tick on."""
+        self._begin("load", describe_load(load), tick)
+        self.load_window = self.window
+
+    def take_off(self, load: Load, tick: int) -> None:
+        """A load that acted was taken off by hand."""
+        self._begin("unload", f"{describe_load(load)} off", tick)
+
+    def list_stretches(
+        self, first_tick: float = 0, most: int = MOST_STRETCHES
+    ) -> list[list[Stretch]]:
+        """Of every lane those that reach beyond a tick, the newest ones where there are more."""
+        return [
+            [one for one in lane if one.end_tick is None or one.end_tick > first_tick][-most:]
+            for lane in self.lanes
+        ]
+
+    def _begin(self, kind: Literal["load", "unload", "change"], label: str, tick: int) -> None:
+        last = self.window
+        if last.kind == "start" and tick == 0 and kind == "change":
+            return
+        if last.first_tick == tick and last.kind != "start":
+            self.windows.pop()
+            if last.kind == kind:
+                label = _join(last.label, label)
+        else:
+            self.windows[-1] = replace(last, end_tick=tick)
+            if last.kind == "load":
+                self.load_window = self.windows[-1]
+        self.windows.append(Window(kind, label, tick))
+        del self.windows[:-MOST_WINDOWS]
+
+    def _follow_controllers(self, tick: int) -> None:
+        held = [lane[-1].controller if lane else None for lane in self.lanes]
+        present = list_controllers(self._configuration, self._is_bench, held)
+        for lane, controller in zip(self.lanes, present, strict=True):
+            if lane and lane[-1].controller != controller:
+                _end(lane, tick)
+            if lane and lane[-1].controller == controller:
+                lane[-1] = lane[-1]._replace(end_tick=None)
+        self.lanes = [
+            [s for s in lane if s.end_tick is None or s.end_tick > tick - self.kept_ticks]
+            for lane in self.lanes
+        ]
+        for lane, controller in zip(self.lanes, present, strict=True):
+            if not lane or lane[-1].end_tick is not None:
+                number = self._numbers.setdefault(controller, len(self._numbers) + 1)
+                lane.append(Stretch(controller, number, self._find_ink(controller), tick))
+
+    def _find_ink(self, controller: Controller) -> int:
+        """The one that it has, its law's own where that is free, else the first free one."""
+        used = {one.controller: one.ink for lane in self.lanes for one in lane}
+        if controller in used:
+            return used[controller]
+        taken = set(used.values())
+        customary = LAWS.index(controller.law)
+        if customary not in taken:
+            return customary
+        free = (ink for ink in range(len(LAWS), len(LAWS) + len(taken) + 1) if ink not in taken)
+        return next(free)
+
+
+def read_timeline(
+    configuration: Configuration,
+    commands: Iterable[Command],
+    ticks: tuple[int, int],
+    is_bench: bool = False,
+) -> Timeline:
+    """The timeline of a run that was given these commands.
+
+    ticks: from which tick on stretches are kept, and how far the run went. Raises
+    `ParameterError` or `StateError` for commands that this run cannot have had.
+    """
+    first_tick, end_tick = ticks
+    timeline, run = Timeline(configuration, is_bench, kept_ticks=0), Run(configuration)
+    for command in commands:
+        if command.tick > first_tick:
+            timeline.kept_ticks = math.inf
+        _pass_loads(timeline, run, command.tick)
+        acting = {load.number: load for load in run.loads}
+        timeline.take(command)
+        if command.kind in ("load", "unload"):
+            command.apply(run)
+        if command.kind == "unload":
+            taken = acting[command.argument]
+            if taken.start_tick < command.tick <= taken.end_tick:
+                timeline.take_off(taken.load, command.tick)
+    _pass_loads(timeline, run, end_tick)
+    return timeline
+
+
+def _join(before: str, label: str) -> str:
+    """What happened at one tick in one label, each once."""
+    if label in before:
+        return before
+    return f"{before}, {label}"
+
+
+def _end(lane: list[Stretch], tick: int) -> None:
+    """The present stretch ends; one that has only begun was none."""
+    if lane[-1].first_tick == tick:
+        lane.pop()
+    elif lane[-1].end_tick is None:
+        lane[-1] = lane[-1]._replace(end_tick=tick)
+
+
+def _pass_loads(timeline: Timeline, run: Run, end_tick: int) -> None:
+    """Bring the run to a tick, past the onsets of its loads before it."""
+    for _, load, start, _ in sorted(run.loads, key=lambda scheduled: scheduled.start_tick):
+        if run.tick <= start < end_tick:
+            timeline.begin_load(load, int(start))
+    run.tick = end_tick
+
+
+def _configure(configuration: Configuration, command: Command, is_bench: bool) -> Configuration:
+    """What a command changes of who controls the lanes."""
+    match command.kind:
+        case "law":
+            return configuration.controlled_by(complete_laws((command.argument,), is_bench))
+        case "laws":
+            return configuration.controlled_by(complete_laws(command.argument, is_bench))
+        case "gains" | "observer" | "rivals":
+            return configuration.changed(**{command.kind: command.argument})
+        case _:
+            return configuration
+
+
+def describe_change(command: Command, before: Configuration) -> str:
+    """A change in a few words."""
+    if command.kind in ("law", "laws"):
+        law = command.argument if command.kind == "law" else command.argument[0]
+        if law != before.law:
+            return f"{before.law.upper()} → {law.upper()}"
+    return KINDS[command.kind].label
+
+
+def describe_load(load: Load) -> str:
+    """A load in a few words."""
+    match load:
+        case PaperLoad():
+            return "3 kg load"
+        case MassLoad():
+            return f"{load.mass_kg:g} kg mass"
+        case PushLoad():
+            return "Push"
+        case _:
+            return f"{load.kind.capitalize()} torque"

@@ -1,0 +1,74 @@
+"""The lanes of a recorded run: their names, and who controlled them when."""
+
+from typing import Any
+
+import pytest
+
+from svsa.experiment.paper import get_figure
+from svsa.runtime.command import build_command
+from svsa.runtime.recording.reader import Record, build_record
+from svsa_server.lanes import list_record_stretches, name_lanes, trace_record
+
+from ..contract.records import build_header, build_samples
+
+FIRST_TICK = 200
+FL, NDOBC = {"law": "fl"}, {"law": "ndobc"}
+FASTER = {"bandwidth_rad_per_s": (120.0, 120.0, 120.0)}
+
+
+def record_lanes(
+    lanes: int, rivals: list[Any], commands: list[tuple[int, str, Any]], plant: str = "simulated"
+) -> Record:
+    names = tuple(f"lane{number + 1}" for number in range(lanes))
+    configuration = get_figure("4a").build_configuration().model_dump(mode="json")
+    configuration["rivals"] = rivals
+    header = build_header(lanes=names, configuration=configuration, plant=plant)
+    given = [(tick, {"tick": tick, "kind": k, "argument": a}) for tick, k, a in commands]
+    return build_record(header, given, FIRST_TICK, build_samples(10, lanes, FIRST_TICK))
+
+
+def list_stretches(record: Record) -> list[list[tuple[str, int, int, int | None]]]:
+    stretches = list_record_stretches(record, trace_record(record))
+    return [[(s.name, s.ink, s.start_tick, s.end_tick) for s in lane] for lane in stretches]
+
+
+@pytest.mark.parametrize(
+    ("lanes", "rivals", "commands", "names"),
+    [
+        (1, [], [], ["NDOBC"]),
+        (2, [], [(100, "rivals", [FL])], ["NDOBC", "FL"]),
+        (1, [], [(100, "law", "fl")], ["FL"]),
+        (2, [FL], [(205, "law", "fl")], ["NDOBC → FL (2)", "FL"]),
+        (2, [FL], [(205, "laws", ["fl", "ndobc"])], ["NDOBC → FL", "FL → NDOBC"]),
+        (1, [], [(205, "observer", FASTER)], ["NDOBC β 60 → NDOBC β 120"]),
+        (3, [FL, FL], [], ["NDOBC", "FL", "FL (2)"]),
+        (2, [], [], ["lane1", "lane2"]),
+        (2, [None], [(0, "rivals", [7])], ["lane1", "lane2"]),
+    ],
+)
+def test_lanes_are_called_by_the_laws_while_the_recording_went_on(
+    lanes: int, rivals: list[Any], commands: list[tuple[int, str, Any]], names: list[str]
+) -> None:
+    record = record_lanes(lanes, rivals, commands)
+    assert name_lanes(list_record_stretches(record, trace_record(record))) == names
+
+
+def test_a_bench_and_its_twin_are_told_apart() -> None:
+    record = record_lanes(3, [NDOBC, FL], [(205, "law", "fl")], plant="emulated")
+    assert list_stretches(record) == [
+        [("Bench NDOBC", 0, 0, 205), ("Bench FL", 3, 205, None)],
+        [("Twin NDOBC", 2, 0, 205), ("Twin FL", 4, 205, None)],
+        [("FL", 1, 0, None)],
+    ]
+
+
+def test_what_was_tried_before_the_recording_takes_no_ink_from_what_is_in_it() -> None:
+    record = record_lanes(1, [], [(100, "observer", FASTER), (150, "law", "fl")])
+    assert list_stretches(record) == [[("FL", 1, 150, None)]]
+    again = record_lanes(1, [], [(100, "observer", FASTER), (205, "law", "fl")])
+    assert list_stretches(again) == [[("NDOBC", 0, 100, 205), ("FL", 1, 205, None)]]
+
+
+def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lanes() -> None:
+    assert build_command(0, "unload", 7).kind == "unload"
+    assert trace_record(record_lanes(1, [], [(205, "unload", 7)])) is None
