@@ -14,8 +14,9 @@ from svsa.runtime.catalogue.entry import SORTS
 from svsa.runtime.catalogue.runs import Catalogue
 from svsa.runtime.configuration import Lane
 from svsa.runtime.recording.header import BranchPoint, read_header, write_header
+from svsa_server.recording import open_catalogue
 
-from .records import Command, add, list_ids
+from .records import Command, add, list_ids, wait_until
 
 OLDER = """
 DROP TABLE runs; DROP TABLE facets;
@@ -195,7 +196,7 @@ def test_a_catalogue_of_the_older_format_is_opened_and_filled_in(varied: Catalog
     undescribed = again.list(sort="name").runs
     assert {run.settings for run in undescribed} == {None}
     assert [run.title for run in undescribed] == ["Mine", "run-1", "run-2"]
-    again.recover()
+    again.describe_older()
     assert [again.list(sort="name").runs, again.list(trash=True).runs] == before
     assert list_ids(again, law="ndobc", figure="4b") == ["run-1"]
     assert again.list_tags() == {"class": 1}
@@ -205,7 +206,7 @@ def test_a_run_that_cannot_be_read_stays_while_the_others_are_filled_in(varied: 
     make_older(varied.folder)
     (varied.folder / "runs" / "run-1" / "header.json").write_text("{")
     again = Catalogue(varied.folder)
-    again.recover()
+    again.describe_older()
     described = {run.id: run.settings is not None for run in again.list().runs}
     assert described == {"run-1": False, "run-2": True, "run-3": True, "run-4": True}
 
@@ -218,3 +219,12 @@ def test_a_header_of_the_older_format_is_read(varied: Catalogue) -> None:
     (folder / "header.json").write_text(written)
     assert read_header(folder) == header
     write_header(folder, header)
+
+
+def test_a_server_fills_in_what_an_older_one_has_entered(
+    varied: Catalogue, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_older(varied.folder)
+    monkeypatch.setenv("SVSA_DATA", str(varied.folder))
+    opened = open_catalogue()
+    wait_until(lambda: opened.list(figure="4b").total == 1)

@@ -22,7 +22,13 @@ from svsa.runtime.catalogue.entry import (
     RunPage,
     UnknownRunError,
 )
-from svsa.runtime.catalogue.recovery import Recovery, build_entry, describe, recover_runs
+from svsa.runtime.catalogue.recovery import (
+    Recovery,
+    build_entry,
+    describe,
+    describe_older,
+    recover_runs,
+)
 from svsa.runtime.recording.header import (
     RecordError,
     RecordHeader,
@@ -174,6 +180,13 @@ class Catalogue:
     def recover(self) -> Recovery:
         """Finish what a crash cut off and put back what the database lost; for every start."""
         return recover_runs(self._database, self._runs, self._trash)
+
+    def describe_older(self) -> None:
+        """Read the settings of runs that a version without them has entered; once for each.
+
+        It takes some milliseconds a run, and is harmless beside everything else.
+        """
+        describe_older(self._database, (self._runs, self._trash))
 
     def find_folder(self, run_id: str) -> Path:
         """The folder that a run is in, in the trash or not."""

@@ -1,7 +1,7 @@
 """The tables of the catalogue: columns to sort and filter by, and the entries as they are.
 
 Format 2. A catalogue of format 1, which knew no settings, is written anew from its entries;
-`recover` then reads the settings from the folders of the runs.
+`describe_older` then reads the settings from the folders of the runs.
 """
 
 import re
