@@ -83,7 +83,7 @@ def test_a_push_is_one_mark_however_often_it_is_told():
     labels = [(event.tick, event.label) for event in session.events]
     assert labels == [(0, "Push on"), (300, "Push off")]
     assert [row["kind"] for row in map(Command.to_json, session.commands)].count("load") == 15
-    (since,) = [metrics.summarize() for metrics in session.since_load]
+    (since,) = [metrics.summarize() for metrics in session.metrics.since_load]
     assert since.duration_s == pytest.approx(0.3)
 
 
