@@ -38,7 +38,8 @@ class LaneMetrics(BaseModel):
     since_start: Metrics | None = Field(description="Of the whole run, whatever was changed")
     in_window: Metrics | None = Field(description="Since the last change: of `window`")
     since_load: Metrics | None = Field(
-        description="Of `load_window`, with which it ends; its recovery time is the load's"
+        description="Of `load_window`, with which it ends: of who controls the lane now, on the"
+        " lane that it had when the load came; its recovery time is the load's"
     )
 
 

@@ -99,8 +99,20 @@ def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
         "in_window": metrics.in_window,
         "since_load": metrics.since_load,
     }
-    running = {kind: lanes and lanes[lane] for kind, lanes in kinds.items()}
+    then = _find_lane_at_load(session, lane)
+    places = {"since_start": lane, "in_window": lane, "since_load": then}
+    running = {
+        kind: None if lanes is None or (place := places[kind]) is None else lanes[place]
+        for kind, lanes in kinds.items()
+    }
     return {kind: one and one.summarize() for kind, one in running.items()}
+
+
+def _find_lane_at_load(session: Session, lane: int) -> int | None:
+    """The lane that who controls this one now had when the load came; None where it had none."""
+    timeline = session.timeline
+    number = timeline.lanes[lane][-1].number
+    return timeline.load_numbers.index(number) if number in timeline.load_numbers else None
 
 
 def _build_configuration(session: Session) -> ConfigurationState:

@@ -54,7 +54,8 @@ class Timeline:
 
     kept_ticks: how long a stretch that has ended is kept. `load_window`: of the newest load;
     it ends with the next change, when a load is taken off, or with another one; a load that ends
-    by itself ends no window, so that a push shows after it.
+    by itself ends no window, so that a push shows after it. `load_numbers`: which controller each
+    lane had when that load came, None for a lane that began later.
     """
 
     def __init__(
@@ -66,6 +67,7 @@ class Timeline:
         self.lanes: list[list[Stretch]] = [[] for _ in configuration.lanes]
         self.windows: list[Window] = [Window("start", "", 0)]
         self.load_window: Window | None = None
+        self.load_numbers: list[int | None] = []
         self._follow_controllers(0)
 
     @property
@@ -80,6 +82,9 @@ class Timeline:
         if command.kind == "rivals":
             origins = find_origins(before.rivals, self._configuration.rivals)
             self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
+            if self.load_numbers:
+                kept = self.load_numbers
+                self.load_numbers = [None if lane is None else kept[lane] for lane in origins]
         self._follow_controllers(command.tick)
         if command.kind not in ("load", "unload") and (origins is None or None in origins):
             self._begin("change", describe_change(command, before), command.tick)
@@ -89,6 +94,7 @@ class Timeline:
         """A load acts from this tick on."""
         self._begin("load", describe_load(load), tick)
         self.load_window = self.window
+        self.load_numbers = [lane[-1].number for lane in self.lanes]
 
     def take_off(self, load: Load, tick: int) -> None:
         """A load that acted was taken off by hand."""

@@ -5,9 +5,14 @@ from typing import Any
 import pytest
 
 from svsa.experiment.paper import get_figure
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.plant.disturbances import PaperLoad
 from svsa.runtime.command import build_command
+from svsa.runtime.configuration import Lane
 from svsa.runtime.recording.reader import Record, build_record
+from svsa.runtime.session import Session
 from svsa_server.lanes import list_record_stretches, name_lanes, trace_record
+from svsa_server.state import build_state
 
 from ..contract.records import build_header, build_samples
 
@@ -72,3 +77,24 @@ def test_what_was_tried_before_the_recording_takes_no_ink_from_what_is_in_it() -
 def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lanes() -> None:
     assert build_command(0, "unload", 7).kind == "unload"
     assert trace_record(record_lanes(1, [], [(205, "unload", 7)])) is None
+
+
+def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
+    """NDOBC recovered, FL did not; that they change places afterwards makes neither the other."""
+    fl_beside = (Lane(law="fl"),)
+    figure = get_figure("4a").build_configuration(load=False).changed(rivals=fl_beside)
+    session = Session("test", figure)
+    session.step(100)
+    session.change("load", PaperLoad())
+    session.step(1500)
+    before = {lane.name: lane.since_load for lane in build_state(session).lanes}
+    session.change("laws", ("fl", "ndobc"))
+    session.step(1500)
+    after = build_state(session)
+    assert [lane.name for lane in after.lanes] == ["FL", "NDOBC"]
+    assert {lane.name: lane.since_load for lane in after.lanes} == before
+    assert before["NDOBC"].recovery_time_s < 0.5
+    assert before["FL"].recovery_time_s is None
+    session.change("observer", ObserverBandwidth(**FASTER))
+    faster = build_state(session).lanes[1]
+    assert (faster.name, faster.since_load) == ("NDOBC β 120", None), "it was not there then"

@@ -2041,7 +2041,7 @@ export interface components {
             since_start: components["schemas"]["Metrics"] | null;
             /** @description Since the last change: of `window` */
             in_window: components["schemas"]["Metrics"] | null;
-            /** @description Of `load_window`, with which it ends; its recovery time is the load's */
+            /** @description Of `load_window`, with which it ends: of who controls the lane now, on the lane that it had when the load came; its recovery time is the load's */
             since_load: components["schemas"]["Metrics"] | null;
         };
         /**
@@ -2053,7 +2053,7 @@ export interface components {
             since_start: components["schemas"]["Metrics"] | null;
             /** @description Since the last change: of `window` */
             in_window: components["schemas"]["Metrics"] | null;
-            /** @description Of `load_window`, with which it ends; its recovery time is the load's */
+            /** @description Of `load_window`, with which it ends: of who controls the lane now, on the lane that it had when the load came; its recovery time is the load's */
             since_load: components["schemas"]["Metrics"] | null;
             /** Lane */
             lane: number;

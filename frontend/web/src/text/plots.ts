@@ -201,7 +201,7 @@ export const plotsText = {
     recoveryFrom: (load: string) => `Time from ${load} until the error stayed small`,
     notYet: "not yet",
     noLoad: "no load yet",
-    notThere: "It was not there when the load came",
+    notThere: "It controlled nothing when the load came",
     notBefore: (time: string) => `not by ${time}`,
     endedBefore: (load: string, time: string) =>
       `From ${load} on the error was not small again before something was changed at ${time} s`,
