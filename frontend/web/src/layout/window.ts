@@ -5,8 +5,12 @@ import { formatNumber } from "../units";
 
 const { windows } = text;
 
+/** A label within a sentence; NDOBC stays as it is. */
+const within = (label: string): string =>
+  label.replace(/^[A-Z](?=[a-z])/, (letter) => letter.toLowerCase());
+
 const at = ({ label, start_s: startS }: WindowState): string =>
-  windows.at(label, startS.toFixed(2));
+  windows.at(within(label), startS.toFixed(2));
 
 /** What began the window, and when. */
 export const sinceOf = (window: WindowState): string =>
