@@ -94,3 +94,17 @@ def test_shift_escape_stops_from_a_text_field_and_from_the_3d_view(page: Page, l
     view.evaluate("body => { body.tabIndex = 0; body.focus(); }")
     page.keyboard.press("Shift+Escape")
     wait_for_status(page, lab, "paused")
+
+
+def test_names_of_the_parts_are_shown_in_the_window_that_asks(page: Page, lab: Lab) -> None:
+    open_view(page, lab)
+    seen = """name => document.querySelector("iframe").contentWindow
+        .__viserMutable && document.querySelector("iframe").contentWindow
+        .__viserSceneTree.getState()[name].visibility"""
+    names = page.get_by_role("button", name="Names of the parts")
+    assert page.evaluate(seen, "/a/c/p/n4") is False
+    page.keyboard.press("n")
+    expect(names).to_have_attribute("aria-pressed", "true")
+    page.wait_for_function(f"() => ({seen})('/a/c/p/n4')", timeout=LONG_MS)
+    names.click()
+    page.wait_for_function(f"() => !({seen})('/a/c/p/n4')", timeout=LONG_MS)

@@ -1,104 +1,142 @@
-"""Torques as arrows: tangential, longer with the torque, turned with its sign."""
+"""Torques as curved arrows about their axis: longer with the torque, turned with its sign."""
 
 import math
+from typing import NamedTuple
 
 import viser
 
 from svsa_scene import appearance as look
-from svsa_scene.geometry import make_arrow_head, make_arrow_shaft, turn
+from svsa_scene.geometry import join, make_arc, make_arrow_head, turn, turn_over
 from svsa_scene.moved import Moved
 from svsa_scene.pose import ActuatorPose
 
-_SMALLEST_NM = 0.05
-_LENGTH_AT_1_NM = 0.36
-_LONGEST = 1.5
-_WIDTH = 0.045
-_HEAD = 0.26
+SMALLEST_NM = 0.05
+LONGEST_NM = 20.0
+_PIECES = 7
+_PIECE = 0.45
+_LONGEST = (_PIECES + 1) * _PIECE
+_WIRE = 0.05
+_HEAD = 0.3
 _TOP = math.pi
 
 
-def compute_arrow_length(torque_nm: float) -> float:
-    """Length of an arrow, scene units: as the root of the torque, so that small ones are seen."""
+def compute_arc(torque_nm: float) -> float:
+    """Angle of an arrow, rad: with the root of the torque, so that small ones are seen, from
+    0.45 rad at 0.05 N·m, below which none is drawn, to 3.6 rad at 20 N·m and above.
+    """
     size = abs(torque_nm)
-    return min(_LENGTH_AT_1_NM * math.sqrt(size), _LONGEST) if size >= _SMALLEST_NM else 0.0
+    if size < SMALLEST_NM:
+        return 0.0
+    low, high = math.sqrt(SMALLEST_NM), math.sqrt(LONGEST_NM)
+    share = (math.sqrt(min(size, LONGEST_NM)) - low) / (high - low)
+    return _PIECE + share * (_LONGEST - _PIECE)
+
+
+class ArrowPlace(NamedTuple):
+    """Where an arrow is, in scene units.
+
+    node: its frame, below the one that it moves with. radius: of its circle about the axis. z:
+    place of that along the axis. foot: angle about z at which it begins, rad.
+    """
+
+    node: str
+    radius: float
+    z: float
+    foot: float
 
 
 class TorqueArrow:
-    """One torque at a place of a frame.
-
-    name: the arrow's frame, below the one that it moves with. place: its foot there. heading:
-    the angle about z at which it points along +y for a positive torque, rad.
+    """One torque: as many pieces of arc as fit, and a head with a piece behind it that ends the
+    arc where the torque's size says. A positive torque turns as q does, counter-clockwise.
     """
 
     def __init__(
         self,
         server: viser.ViserServer,
         moved: Moved,
-        name: str,
-        place: tuple[float, float, float],
-        heading: float,
+        place: ArrowPlace,
         color: look.Rgb,
         label: str,
     ) -> None:
         self._moved = moved
-        self._name = name
-        self._heading = heading
-        self._shown = False
+        self._place = place
+        self._shown = 0
         scene = server.scene
-        self._root = scene.add_frame(name, show_axes=False, position=place, visible=False)
-        shaft, head = make_arrow_shaft(_WIDTH), make_arrow_head(3.2 * _WIDTH, _HEAD)
-        self._shaft = scene.add_mesh_simple(
-            f"{name}/s", shaft.vertices, shaft.faces, color=color, cast_shadow=False
+        node, radius = place.node, place.radius
+        self._root = scene.add_frame(
+            node, show_axes=False, position=(0.0, 0.0, place.z), visible=False
         )
-        self._head = scene.add_frame(f"{name}/h", show_axes=False)
+        arc = join([make_arc(radius, _WIRE, _PIECE)])
+        self._pieces = [
+            scene.add_mesh_simple(
+                f"{node}/{number}",
+                arc.vertices,
+                arc.faces,
+                color=color,
+                wxyz=turn(number * _PIECE),
+                visible=False,
+                cast_shadow=False,
+            )
+            for number in range(_PIECES)
+        ]
+        self._head = scene.add_frame(f"{node}/h", show_axes=False)
+        cone = make_arrow_head(3.2 * _WIRE, _HEAD)
+        cone.apply_translation((radius, 0.0, 0.0))
+        head = join([make_arc(radius, _WIRE, -_PIECE), cone])
         scene.add_mesh_simple(
-            f"{name}/h/m", head.vertices, head.faces, color=color, cast_shadow=False
+            f"{node}/h/m", head.vertices, head.faces, color=color, cast_shadow=False
         )
         scene.add_label(
-            f"{name}/h/t",
+            f"{node}/h/t",
             label,
-            position=(0.0, _HEAD + 0.16, 0.0),
+            position=(radius + 0.08, _HEAD + 0.14, 0.0),
             anchor="center-center",
             font_screen_scale=1.0,
+            depth_test=True,
         )
 
     def show(self, torque_nm: float) -> None:
-        """Point along the torque; too small a one is not drawn."""
-        length = compute_arrow_length(torque_nm)
-        if (length > 0.0) != self._shown:
-            self._shown = length > 0.0
-            self._root.visible = self._shown
-        if not self._shown:
+        """Turn with the torque; too small a one is not drawn."""
+        arc = compute_arc(torque_nm)
+        shown = math.ceil(arc / _PIECE)
+        if shown != self._shown:
+            self._show_pieces(shown)
+        if not shown:
             return
-        angle = self._heading + (math.pi if torque_nm < 0.0 else 0.0)
-        if self._moved.is_due(f"{self._name}/turn", (angle,)):
-            self._root.wxyz = turn(angle)
-        if self._moved.is_due(f"{self._name}/length", (length,)):
-            self._shaft.scale = (1.0, length, 1.0)
-            self._head.position = (0.0, length, 0.0)
+        way = -1.0 if torque_nm < 0.0 else 1.0
+        node, foot = self._place.node, self._place.foot
+        if self._moved.is_due(f"{node}/way", (way,)):
+            self._root.wxyz = turn(foot) if way > 0.0 else turn_over(foot)
+        if self._moved.is_due(f"{node}/arc", (arc,)):
+            self._head.wxyz = turn(arc)
+
+    def _show_pieces(self, shown: int) -> None:
+        """shown: pieces in sight, that of the head included; 0 hides the arrow."""
+        if (shown > 0) != (self._shown > 0):
+            self._root.visible = shown > 0
+        for number, piece in enumerate(self._pieces):
+            is_seen = number < shown - 1
+            if piece.visible != is_seen:
+                piece.visible = is_seen
+        self._shown = shown
 
 
 class TorqueArrows:
-    """u1 and w4 on the principal motor, u2 and w6 on the stiffness motor, w2 on the link's arm.
+    """u1 and w4 about the principal motor, u2 and w6 about the stiffness motor, w2 on the link's
+    ring from its arm.
 
-    Those of the motors stand above them and do not turn, so that they stay in sight.
+    Those of the motors begin at the top and do not turn with them.
     """
 
     def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
-        def add(
-            name: str,
-            place: tuple[float, float, float],
-            heading: float,
-            color: look.Rgb,
-            label: str,
-        ) -> TorqueArrow:
-            return TorqueArrow(server, moved, name, place, heading, color, label)
+        def add(place: ArrowPlace, color: look.Rgb, label: str) -> TorqueArrow:
+            return TorqueArrow(server, moved, place, color, label)
 
-        self._torque1 = add("/a/u1", (-0.66, 0.0, -2.95), _TOP, look.PRINCIPAL.color, "u₁")
-        self._torque2 = add("/a/u2", (-1.05, 0.0, -0.95), _TOP, look.SECONDARY.color, "u₂")
-        self._motor1 = add("/a/w4", (-0.66, 0.0, -2.5), _TOP, look.DISTURBANCE, "w₄")
-        self._motor2 = add("/a/w6", (-1.05, 0.0, -0.5), _TOP, look.DISTURBANCE, "w₆")
-        self._link = add("/a/l/w2", (1.28, 0.0, 1.0), 0.0, look.DISTURBANCE, "w₂")
+        self._torque1 = add(ArrowPlace("/a/u1", 0.78, -2.95, _TOP), look.PRINCIPAL.color, "u₁")
+        self._motor1 = add(ArrowPlace("/a/w4", 0.78, -2.4, _TOP), look.DISTURBANCE, "w₄")
+        self._torque2 = add(ArrowPlace("/a/u2", 1.06, -1.0, _TOP), look.SECONDARY.color, "u₂")
+        self._motor2 = add(ArrowPlace("/a/w6", 1.06, -0.45, _TOP), look.DISTURBANCE, "w₆")
+        self._link = add(ArrowPlace("/a/l/w2", 0.84, 1.0, 0.0), look.DISTURBANCE, "w₂")
 
     def show(self, pose: ActuatorPose) -> None:
         """Every torque of the pose."""

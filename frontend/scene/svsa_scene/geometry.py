@@ -125,10 +125,11 @@ def make_helix(radius: float, wire: float, turns: int) -> trimesh.Trimesh:
     return make_tube(path, wire, sections=8)
 
 
-def make_arrow_shaft(radius: float) -> trimesh.Trimesh:
-    """A rod of unit length along +y from the origin; scaled along y it changes its length."""
-    path = np.column_stack([np.zeros(2), [0.0, 1.0], np.zeros(2)])
-    return join([make_tube(path, radius)])
+def make_arc(radius: float, wire: float, angle: float) -> trimesh.Trimesh:
+    """A round wire on a circle about z, from +x through an angle, rad (below 0: clockwise)."""
+    along = np.linspace(0.0, angle, 10)
+    path = radius * np.column_stack([np.cos(along), np.sin(along), np.zeros_like(along)])
+    return make_tube(path, wire, sections=8)
 
 
 def make_arrow_head(radius: float, length: float) -> trimesh.Trimesh:
@@ -154,6 +155,13 @@ def make_spiral(
 def turn(angle: float) -> tuple[float, float, float, float]:
     """The rotation about z by an angle, rad, as the quaternion (w, x, y, z)."""
     return (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
+
+
+def turn_over(angle: float) -> tuple[float, float, float, float]:
+    """Half a turn about x, then one about z by an angle, rad: what ran counter-clockwise from +x
+    runs clockwise from there.
+    """
+    return (0.0, math.cos(angle / 2), math.sin(angle / 2), 0.0)
 
 
 def scale_sector(angle: float) -> tuple[float, float, float]:

@@ -28,7 +28,7 @@ class Rivals:
                 scene.add_label(
                     f"/a/r{number}/t",
                     "",
-                    position=(1.78 + 0.22 * number, 0.0, 1.0),
+                    position=(1.84 + 0.3 * number, 0.0, 0.96),
                     anchor="center-center",
                     font_screen_scale=1.0,
                 )

@@ -17,6 +17,7 @@ from svsa_scene.linkage import (
     compute_linkage,
 )
 from svsa_scene.moved import Moved
+from svsa_scene.names import add_names
 from svsa_scene.pose import ActuatorPose
 from svsa_scene.rivals import Rivals
 
@@ -113,19 +114,18 @@ class ActuatorScene:
     def _add_labels(self) -> None:
         scene = self._server.scene
         for name, text, position in (
-            ("/a/t1", "θ₁ principal motor", (-1.2, 0.0, -2.75)),
-            ("/a/t2", "θ₂ stiffness motor", (-1.62, 0.0, -0.75)),
             ("/a/c/t", "φ", (-1.34, 0.0, mechanism.SECTOR_Z)),
-            ("/a/l/t", "q", (1.4, 0.0, 1.0)),
-            ("/a/g/t", "q_d", (1.68, 0.0, 0.84)),
+            ("/a/l/t", "q", (1.14, 0.0, 0.96)),
+            ("/a/g/t", "q_d", (1.5, 0.0, 0.96)),
         ):
             scene.add_label(
                 name, text, position=position, anchor="center-center", font_screen_scale=1.0
             )
+        add_names(self._server)
         self._mass_label = scene.add_label(
             "/a/w/t",
             "3 kg",
-            position=(1.15, 0.0, mechanism.HOOK_Z + 0.42),
+            position=(1.14, 0.66, mechanism.HOOK_Z + 0.3),
             anchor="center-center",
             font_screen_scale=1.0,
         )

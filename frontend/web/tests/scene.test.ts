@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { angleSeen, type Camera, pullOf, wrap } from "../src/scene/ray";
+import { placeCamera } from "../src/scene/viewer";
 
 /** At the front of the actuator, on its axis, upright, looking back along it. */
 const FRONT: Camera = {
@@ -34,5 +35,22 @@ describe("the spring of the pointer", () => {
   it("takes the short way round", () => {
     expect(wrap(2 * Math.PI + 0.1)).toBeCloseTo(0.1, 9);
     expect(pullOf(-3.1, 3.1, 0)).toBeGreaterThan(0);
+  });
+});
+
+describe("the camera from the side", () => {
+  /** Half of what it sees along the axis, at the motor's near side (y = 0.48). */
+  const halfSeen = (aspect: number) =>
+    (placeCamera("side", aspect).position[1] - 0.48) * Math.tan(Math.PI / 12) * aspect;
+
+  it.each([0.6, 0.86, 0.93, 1.42, 2])("has the motor and the load whole, aspect %f", (aspect) => {
+    const middle = placeCamera("side", aspect).look_at[0];
+    expect(middle - halfSeen(aspect)).toBeLessThan(-3.75);
+    expect(middle + halfSeen(aspect)).toBeGreaterThan(1.7);
+  });
+
+  it("is no farther away than it has to be", () => {
+    expect(placeCamera("side", 2)).toEqual(placeCamera("side", 1.2));
+    expect(halfSeen(0.6)).toBeCloseTo(halfSeen(0.8), 0);
   });
 });

@@ -47,6 +47,7 @@ function Sheet() {
         <Row press={["C"]}>{keys.does.compare}</Row>
         {bench.value?.dead_man && <Row press={["D"]}>{keys.does.hold}</Row>}
         <Row press={["Z"]}>{keys.does.zoom}</Row>
+        <Row press={["N"]}>{keys.does.names}</Row>
         <Row press={["O"]}>{keys.does.runs}</Row>
         <Row press={["P"]}>{keys.does.calls}</Row>
         <Row press={["?"]}>{keys.does.help}</Row>

@@ -7,6 +7,7 @@ import { closeNewest } from "../panel/escape";
 import { toggleZoom } from "../plots/eventzoom";
 import { place, toggleRuns } from "../runs/place";
 import { pressStop } from "../safety/stop";
+import { toggleNames } from "../scene/viewer";
 import { toggleDrawer } from "../script/drawer";
 import { perform } from "../state/actions";
 import {
@@ -25,7 +26,7 @@ export const isHelpOpen = signal(false);
 
 type SessionCommand = Exclude<
   Command,
-  "hold" | "zoom" | "stop" | "runs" | "calls" | "help" | "close"
+  "hold" | "zoom" | "names" | "stop" | "runs" | "calls" | "help" | "close"
 >;
 
 /** No key starts a motor: on a bench Space only stops. */
@@ -63,6 +64,7 @@ export function answerKey(event: KeyboardEvent): void {
   if (command === "stop") void pressStop();
   else if (command === "hold") hold(HOLD_GRIP);
   else if (command === "zoom") toggleZoom();
+  else if (command === "names") toggleNames();
   else if (command === "runs") toggleRuns();
   else if (command === "calls") toggleDrawer();
   else if (command === "help") isHelpOpen.value = !isHelpOpen.peek();

@@ -8,6 +8,7 @@ export type Command =
   | "compare"
   | "hold"
   | "zoom"
+  | "names"
   | "runs"
   | "calls"
   | "help"
@@ -28,6 +29,7 @@ const COMMANDS: Readonly<Record<string, Command>> = {
   c: "compare",
   d: "hold",
   z: "zoom",
+  n: "names",
   o: "runs",
   p: "calls",
   "?": "help",

@@ -1,7 +1,7 @@
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { isPushing, PushLayer } from "./push";
-import { CAMERA_NAMES, isLow, setCamera, toggleLow } from "./viewer";
+import { areNamesOn, CAMERA_NAMES, isLow, setCamera, toggleLow, toggleNames } from "./viewer";
 
 const words = text.scene;
 
@@ -44,6 +44,20 @@ export function SceneTools() {
         ))}
         <span class="scene-tools-end">
           <PushButton />
+          <button
+            type="button"
+            class="tool is-icon"
+            aria-pressed={areNamesOn.value}
+            aria-label={words.names}
+            aria-keyshortcuts="N"
+            title={`${words.names} (N): ${words.namesHint}`}
+            onClick={toggleNames}
+          >
+            <svg viewBox="0 0 12 12" aria-hidden="true">
+              <path d="M1 1h6.5v3.5H1zM2.2 10.2l3-4.6.9.6-3 4.6z" />
+              <circle cx="2.4" cy="10.3" r="1.4" />
+            </svg>
+          </button>
           <button
             type="button"
             class="tool is-icon"

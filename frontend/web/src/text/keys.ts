@@ -12,6 +12,7 @@ export const keysText = {
       compare: "Switch the comparison on or off",
       hold: "Hold the dead-man's switch of the bench, as long as it is down",
       zoom: "Zoom of the last event beside the plots",
+      names: "Names of the parts in the 3D view",
       runs: "Recorded runs, and back to the lab",
       calls: "What you did, as Python and curl",
       help: "Show or hide this sheet",

@@ -10,6 +10,8 @@ export const sceneText = {
     pushLayer:
       "Drag to push the link; the arrows left and right push by 1 N·m while they are down, Esc ends",
     pulling: (torque: string) => `${torque} N·m`,
+    names: "Names of the parts",
+    namesHint: "motors, spiral, pivot, lever and spring, in this window only",
     low: "Low graphics",
     lowHint: "Fewer parts, coarser, 15 pictures a second: for computers without a graphics card",
   },
