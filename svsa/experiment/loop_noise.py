@@ -4,7 +4,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import solve_discrete_lyapunov
 
 from svsa.plant.effects import RIG, Effects, build_bench
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
@@ -56,6 +55,8 @@ def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
     if radius >= 1.0:
         return LoopNoise(math.inf, math.inf, radius)
     Q = np.diag([motor, motor, deflection])
+    from scipy.linalg import solve_discrete_lyapunov  # late: it takes a while
+
     P = solve_discrete_lyapunov(A, B @ Q @ B.T, method="bilinear")
     u1, u2 = np.sqrt(np.maximum(np.diag(P)[_TORQUES], 0.0))
     return LoopNoise(float(u1), float(u2), radius)

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from svsa.errors import ParameterError
-from svsa.experiment.export import export
 from svsa.experiment.result import Result, build_results
 from svsa.runtime.catalogue.entry import RunPage
 from svsa.runtime.catalogue.runs import Catalogue
@@ -70,4 +69,6 @@ def resimulate(run: str | Path) -> Comparison:
 
 def export_run(run: str | Path, kind: str, target: Path | str) -> None:
     """Write a recorded run as "csv", "parquet", "mat" or "mcap"; see `svsa.experiment.export`."""
+    from svsa.experiment.export import export  # late: what the formats need takes a second
+
     export(find_record(run), kind, target)

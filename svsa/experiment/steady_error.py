@@ -4,7 +4,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import root
 
 from svsa.control.feedback_linearization import build_gains
 from svsa.control.ndobc import compute_disturbance_gain
@@ -62,6 +61,8 @@ def compute_fl_steady_error(
         stiffness = gain.g22 * w.w2 + gain.g24 * w.w4 + gain.g26 * w.w6
         missing = sigma - linearization.sigma + stiffness / gains.s0
         return nominal.M * linearization.ddq + w.w2, missing, position
+
+    from scipy.optimize import root  # late: it takes a while
 
     found = root(lambda point: find_demands(point)[:2], [w.w2 / sigma, 0.0])
     phi, theta2 = (float(value) for value in found.x)

@@ -5,7 +5,6 @@ from typing import Annotated, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
-from scipy.interpolate import PPoly, make_interp_spline
 
 from svsa.checked import Checked, Number, quantity
 from svsa.errors import ParameterError, Violation
@@ -98,6 +97,8 @@ def build_spline(points: Points) -> Curve:
     times, values = np.array(points.times), np.array(points.values)
     unit = (times[-1] - times[0]) / (len(times) - 1)
     knots = (times - times[0]) / unit
+    from scipy.interpolate import PPoly, make_interp_spline  # late: it takes a while
+
     spline = make_interp_spline(knots, values, k=SPLINE_DEGREE, bc_type=(AT_REST, AT_REST))
     pieces = PPoly.from_spline(spline)
     inside = slice(SPLINE_DEGREE, SPLINE_DEGREE + len(times) - 1)
