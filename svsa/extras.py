@@ -27,10 +27,14 @@ class MissingExtraError(SvsaError, ImportError):
     """A package is missing that comes with an extra; the message says how to install it."""
 
 
+def list_missing(extra: Extra) -> list[str]:
+    """The packages of this extra that are not installed."""
+    return [module for module in MODULES[extra] if not _is_there(module)]
+
+
 def require_extra(extra: Extra) -> None:
     """Raise `MissingExtraError` where a package of this extra is not installed."""
-    missing = [module for module in MODULES[extra] if not _is_there(module)]
-    if missing:
+    if missing := list_missing(extra):
         raise MissingExtraError(
             f"This needs {', '.join(missing)}, which is not installed:"
             f" run `pip install '{DISTRIBUTION}[{extra}]'`.",

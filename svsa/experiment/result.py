@@ -15,6 +15,7 @@ import numpy as np
 from svsa.checked import check_number
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.channels import Channels
+from svsa.extras import list_missing, require_extra
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.metrics import Metrics, compute_metrics
@@ -92,7 +93,11 @@ class Result(Channels):
         np.savetxt(path, self.samples, fmt="%.9g", delimiter=",", header=names, comments="")
 
     def plot(self) -> "Picture":
-        """Position, its error, stiffness, torques and disturbances as a matplotlib figure."""
+        """Position, its error, stiffness, torques and disturbances as a matplotlib figure.
+
+        Raises `MissingExtraError` where matplotlib, of the extra `plot`, is not installed.
+        """
+        require_extra("plot")
         from svsa.experiment.figures import plot_run
 
         return plot_run(self)
@@ -102,17 +107,20 @@ class Result(Channels):
 
     def _repr_html_(self) -> str:
         lines = "<br>".join(html.escape(line) for line in self._describe())
-        if not len(self.samples):
+        if self._picture is None:
             return f"<p>{lines}</p>"
         picture = base64.b64encode(self._picture).decode()
         return f'<p>{lines}</p><img alt="The run" src="data:image/png;base64,{picture}">'
 
     def _repr_png_(self) -> bytes | None:
-        return self._picture if len(self.samples) else None
+        return self._picture
 
     @cached_property
-    def _picture(self) -> bytes:
+    def _picture(self) -> bytes | None:
+        """None where there is nothing to draw, or nothing to draw with."""
         stream = io.BytesIO()
+        if not len(self.samples) or list_missing("plot"):
+            return None
         self.plot().savefig(stream, format="png", dpi=PICTURE_DPI)
         return stream.getvalue()
 

@@ -66,9 +66,10 @@ def test_the_library_simulates_without_any_extra():
     program = (
         "import svsa, svsa.cli\n"
         "result = svsa.simulate('4a', 'ndobc', duration_s=0.01)\n"
-        "print(len(result.samples), len(result.to_dataframe()))"
+        "print(len(result.samples), len(result.to_dataframe()), result._repr_png_())\n"
+        "assert result._repr_html_().startswith('<p>')"
     )
-    assert run_without(ALL, program) == "10 10\n"
+    assert run_without(ALL, program) == "10 10 None\n"
 
 
 def test_what_needs_an_extra_says_in_one_line_how_to_install_it():
