@@ -28,7 +28,7 @@ class Rivals:
                 scene.add_label(
                     f"/a/r{number}/t",
                     "",
-                    position=(1.84 + 0.3 * number, 0.0, 0.96),
+                    position=(1.84 + 0.3 * number, 0.0, 0.6),
                     anchor="center-center",
                     font_screen_scale=1.0,
                 )

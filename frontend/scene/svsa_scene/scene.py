@@ -116,7 +116,7 @@ class ActuatorScene:
         for name, text, position in (
             ("/a/c/t", "φ", (-1.34, 0.0, mechanism.SECTOR_Z)),
             ("/a/l/t", "q", (1.14, 0.0, 0.96)),
-            ("/a/g/t", "q_d", (1.5, 0.0, 0.96)),
+            ("/a/g/t", "q_d", (1.5, 0.0, 1.3)),
         ):
             scene.add_label(
                 name, text, position=position, anchor="center-center", font_screen_scale=1.0
