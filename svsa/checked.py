@@ -7,13 +7,30 @@ API, the TOML files, the REST schema and every error message speak from that one
 from numbers import Real
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, Strict, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Strict, ValidationError
 
 from svsa.errors import ParameterError, Violation
 from svsa.explanation import explain
 
+_GREATEST_WHOLE = 2**63
+
+
+def _read_whole(value: Any) -> Any:
+    is_whole = isinstance(value, float) and value.is_integer() and abs(value) < _GREATEST_WHOLE
+    return int(value) if is_whole else value
+
+
+Flag = Annotated[bool, Strict()]
 Number = Annotated[float, Strict()]
-Whole = Annotated[int, Strict()]
+Whole = Annotated[int, Strict(), BeforeValidator(_read_whole)]
+"""8.0 is a whole number as 8 is, which is what JSON Schema means by an integer.
+
+Its bounds belong to the field: in an `Annotated` around it they are checked, but the JSON Schema
+does not say them.
+"""
+
+BY_KIND = Field(discriminator="kind", json_schema_extra={"required": ["kind"]})
+"""For a union: its `kind`, which must be given, says of which type a value is."""
 
 
 class Checked(BaseModel):

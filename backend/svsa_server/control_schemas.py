@@ -4,9 +4,11 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, Field
 
-from svsa.checked import Checked, quantity
+from svsa.checked import Checked, Flag, quantity
 
 LONGEST_NAME = 40
+_CONTROLS = r"\u0000-\u001f\u007f-\u009f"
+_READABLE = rf"^[^{_CONTROLS}]*[^\s{_CONTROLS}][^{_CONTROLS}]*$"
 
 
 def _check_printable(name: str) -> str:
@@ -18,12 +20,12 @@ def _check_printable(name: str) -> str:
 class ControlRequest(Checked):
     """Takes control of a session."""
 
-    by: Annotated[str, Field(max_length=LONGEST_NAME), AfterValidator(_check_printable)] = quantity(
-        "", "Who is in control, as everybody is told"
-    )
-    take_over: Annotated[bool, Field(strict=True)] = quantity(
-        "", "Whoever is in control loses it", default=False
-    )
+    by: Annotated[
+        str,
+        Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": _READABLE}),
+        AfterValidator(_check_printable),
+    ] = quantity("", "Who is in control, as everybody is told, in printable characters")
+    take_over: Flag = quantity("", "Whoever is in control loses it", default=False)
 
 
 class ControlState(BaseModel):

@@ -1,8 +1,8 @@
 """What goes over the wire about recorded runs."""
 
-from typing import Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from svsa.checked import Checked, quantity
 from svsa.errors import ParameterError, Violation
@@ -20,20 +20,26 @@ from svsa.signals import Channel
 from svsa_server.lane_schemas import StretchState, WindowState
 
 ExportName = Literal["csv", "parquet", "mat", "mcap"]
+RunName = Annotated[str, Field(max_length=LONGEST_NAME)]
+Notes = Annotated[str, Field(max_length=LONGEST_NOTES)]
+Tags = Annotated[
+    tuple[Annotated[str, Field(min_length=1, max_length=LONGEST_TAG)], ...],
+    Field(max_length=MOST_TAGS, json_schema_extra={"uniqueItems": True}),
+]
 
 
 class RunPatch(Checked):
-    """What to change of a run; what is left out stays."""
+    """What to change of a run; what is left out, or null, stays."""
 
-    name: str | None = quantity("", f"Its name, up to {LONGEST_NAME} characters", default=None)
-    tags: tuple[str, ...] | None = quantity(
-        "", f"Up to {MOST_TAGS} words of up to {LONGEST_TAG} characters", default=None
-    )
-    notes: str | None = quantity("", f"Notes, up to {LONGEST_NOTES} characters", default=None)
+    model_config = ConfigDict(json_schema_extra={"minProperties": 1})
+
+    name: RunName | None = quantity("", "Its name", default=None)
+    tags: Tags | None = quantity("", "Words to find it by, each once", default=None)
+    notes: Notes | None = quantity("", "Notes", default=None)
 
     @model_validator(mode="after")
     def _check_some(self) -> Self:
-        if all(value is None for _, value in self):
+        if not self.model_fields_set:
             raise ParameterError(Violation("change", {}, "", "of name, tags or notes"))
         return self
 

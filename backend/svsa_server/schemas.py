@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, Field, create_model, model_validator
 
-from svsa.checked import Checked, Number, Whole, quantity
+from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.control.gains import FASTEST_POLE_RAD_PER_S, Gains, compute_coefficients
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.paper import get_figure
@@ -19,6 +19,7 @@ from svsa.runtime.session import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
 from svsa_server.lane_schemas import LaneMetrics, LaneState, WindowState
+from svsa_server.run_schemas import Notes, RunName, Tags
 
 LONGEST_PARAMETER_FILE = 100_000
 _Part = Annotated[Number, Field(ge=-FASTEST_POLE_RAD_PER_S, le=FASTEST_POLE_RAD_PER_S)]
@@ -151,9 +152,7 @@ class ExperimentRequest(Checked):
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
     law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)", default="ndobc")
-    load: Annotated[bool, Field(strict=True)] = quantity(
-        "", "With the paper's 3 kg load at 5 s", default=True
-    )
+    load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
     rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1, default=())
     effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
 
@@ -177,11 +176,9 @@ class SessionRequest(ExperimentRequest):
 class RecordingRequest(Checked):
     """What a recording is called; all of it may be changed later."""
 
-    name: Annotated[str, Field(max_length=200)] = quantity("", "Name of the run", default="")
-    tags: tuple[Annotated[str, Field(max_length=50)], ...] = quantity(
-        "", "Words to find it by", default=(), max_length=20
-    )
-    notes: Annotated[str, Field(max_length=10_000)] = quantity("", "Notes", default="")
+    name: RunName = quantity("", "Name of the run", default="")
+    tags: Tags = quantity("", "Words to find it by, each once", default=())
+    notes: Notes = quantity("", "Notes", default="")
 
 
 class BranchRequest(Checked):
@@ -269,9 +266,7 @@ class ExcitationState(BaseModel):
 class ExcitationRequest(Checked):
     """What the recording of the excitation is called."""
 
-    name: Annotated[str, Field(max_length=200)] = quantity(
-        "", "Name of the run", default="Identification"
-    )
+    name: RunName = quantity("", "Name of the run", default="Identification")
 
 
 class ParameterFileRequest(Checked):

@@ -6,11 +6,9 @@ gearbox, efficiency, sign or counts are not given can be checked, but does not a
 
 import tomllib
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from pydantic import Field
-
-from svsa.checked import Checked, Number, Whole, quantity
+from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.errors import ParameterError, Violation
 
 PERIODS_S = (0.001, 0.002)
@@ -112,12 +110,8 @@ class SafetySettings(Checked):
     stale_fault_s: Number = quantity("s", "Feedback older: fault", gt=0, le=1, default=0.020)
     missed_ticks: Whole = quantity("ticks", "Missed in a row: fault", ge=1, le=1000, default=20)
     supervisor_s: Number = quantity("s", "Supervisor silent: fault", gt=0, le=5, default=0.05)
-    dead_man: Annotated[bool, Field(strict=True)] = quantity(
-        "", "The operator holds a switch; 0.1 s without: ramp", default=False
-    )
-    needs_watcher: Annotated[bool, Field(strict=True)] = quantity(
-        "", "Runs only while a stream of it is open", default=True
-    )
+    dead_man: Flag = quantity("", "The operator holds a switch; 0.1 s without: ramp", default=False)
+    needs_watcher: Flag = quantity("", "Runs only while a stream of it is open", default=True)
 
 
 class DesignSettings(Checked):

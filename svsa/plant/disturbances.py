@@ -7,7 +7,7 @@ from typing import Annotated, Literal, NamedTuple, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from svsa.checked import Checked, Number, quantity
+from svsa.checked import BY_KIND, Checked, Number, quantity
 from svsa.compilation import compiled
 from svsa.errors import ParameterError, Violation
 from svsa.model.dynamics import ExternalLoad
@@ -132,7 +132,7 @@ class SeriesLoad(_Load):
 
 Load = Annotated[
     PaperLoad | MassLoad | ConstantLoad | PulseLoad | PushLoad | SineLoad | SeriesLoad,
-    Field(discriminator="kind"),
+    BY_KIND,
 ]
 
 

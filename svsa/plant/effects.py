@@ -5,11 +5,9 @@ nominal model; a hung mass is a load.
 """
 
 import math
-from typing import Annotated, NamedTuple
+from typing import NamedTuple
 
-from pydantic import Field
-
-from svsa.checked import Checked, Number, Whole, quantity
+from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.parameters import ActuatorParameters
 
 MOST_DELAY_SAMPLES = 5
@@ -72,10 +70,10 @@ class Effects(Checked):
     estimation: StateEstimation | None = quantity(
         "", "State estimated from positions", default=None
     )
-    delay_samples: Annotated[Whole, Field(ge=0, le=MOST_DELAY_SAMPLES)] = quantity(
-        "samples", "From measurement to torque", default=0
+    delay_samples: Whole = quantity(
+        "samples", "From measurement to torque", ge=0, le=MOST_DELAY_SAMPLES, default=0
     )
-    torque_limits: bool = quantity("", "Torques limited as the limits say", default=True)
+    torque_limits: Flag = quantity("", "Torques limited as the limits say", default=True)
     friction: Friction | None = quantity("", "Motor friction", default=None)
     current_lag: CurrentLag | None = quantity("", "Lag of the current loop", default=None)
     noise: SensorNoise | None = quantity("", "Sensor noise", default=None)

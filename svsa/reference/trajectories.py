@@ -2,8 +2,7 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
+from svsa.checked import BY_KIND
 from svsa.reference.chirp import ChirpPosition, ChirpStiffness
 from svsa.reference.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
 from svsa.reference.series import SeriesPosition, SeriesStiffness
@@ -26,8 +25,8 @@ AnyStiffness = (
     | ChirpStiffness
     | SeriesStiffness
 )
-PositionReference = Annotated[AnyPosition, Field(discriminator="kind")]
-StiffnessReference = Annotated[AnyStiffness, Field(discriminator="kind")]
+PositionReference = Annotated[AnyPosition, BY_KIND]
+StiffnessReference = Annotated[AnyStiffness, BY_KIND]
 Trajectory = AnyPosition | AnyStiffness
 
 

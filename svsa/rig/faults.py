@@ -2,9 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
-from svsa.checked import Checked, Number, Whole, quantity
+from svsa.checked import BY_KIND, Checked, Number, Whole, quantity
 
 Node = Literal["motor1", "motor2", "deflection"]
 DriveName = Literal["motor1", "motor2"]
@@ -110,5 +108,5 @@ RigFault = Annotated[
     | ZeroedCounter
     | BusErrors
     | CurrentOffset,
-    Field(discriminator="kind"),
+    BY_KIND,
 ]

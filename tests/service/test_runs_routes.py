@@ -177,6 +177,7 @@ REFUSED = [
     ("GET", "runs/run-1/samples", {"end_s": "inf"}, None, "end_s"),
     ("GET", "runs/run-1/samples", {"start_s": 2, "end_s": 1}, None, "end_s"),
     ("PATCH", "runs/run-1", {}, {}, "change"),
+    ("PATCH", "runs/run-1", {}, {"tags": [""]}, "tags[0]"),
     ("PATCH", "runs/run-1", {}, {"name": "x" * 201}, "name"),
     ("PATCH", "runs/run-1", {}, {"name": 5}, "name"),
     ("PATCH", "runs/run-1", {}, {"tags": ["x", "x"]}, "tags"),

@@ -34,7 +34,8 @@ async def find_client(
         str | None,
         Header(
             alias=CLIENT_HEADER,
-            description="Who calls: a text that others do not guess; see `PUT …/control`",
+            description="Who calls: a text that others do not guess, 1 to 40 printable characters"
+            " in percent-encoded UTF-8; see `PUT …/control`, which needs it",
         ),
     ] = None,
 ) -> str | None:

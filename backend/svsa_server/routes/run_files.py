@@ -7,7 +7,7 @@ from functools import partial
 from typing import IO, Annotated, Any
 
 from fastapi import APIRouter, Query
-from fastapi.responses import HTMLResponse, StreamingResponse
+from fastapi.responses import StreamingResponse
 
 from svsa.experiment.export import EXPORT_KINDS, build_file_name, get_kind
 from svsa.runtime.resimulation import Comparison, check_simulated
@@ -27,6 +27,9 @@ _BUSY: dict[int | str, dict[str, Any]] = {
 _FILES = {
     kind.media_type.partition(";")[0]: {"schema": {"type": "string", "format": "binary"}}
     for kind in EXPORT_KINDS.values()
+}
+_PAGE: dict[int | str, dict[str, Any]] = {
+    200: {"content": {"text/html": {"schema": {"type": "string"}}}, "description": "The page"}
 }
 router = APIRouter(responses=_BUSY)
 
@@ -51,14 +54,14 @@ async def export_run(
     )
 
 
-@router.get("/runs/{run_id}/replay", response_class=HTMLResponse)
+@router.get("/runs/{run_id}/replay", response_class=StreamingResponse, responses=_PAGE)
 async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
     file = await work.write(write_replay, await asyncio.to_thread(runs.find_folder, run_id))
     return _send(file, "text/html", {"Cache-Control": f"private, max-age={REPLAY_AGE_S}"})
 
 
-@router.get("/runs/{run_id}/replay.html", response_class=HTMLResponse)
+@router.get("/runs/{run_id}/replay.html", response_class=StreamingResponse, responses=_PAGE)
 async def download_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The run as one page with 3D replay and plots together; opens from a file, offline."""
     record = await asyncio.to_thread(runs.open, run_id)

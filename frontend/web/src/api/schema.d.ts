@@ -1585,7 +1585,7 @@ export interface components {
         ControlRequest: {
             /**
              * By
-             * @description Who is in control, as everybody is told
+             * @description Who is in control, as everybody is told, in printable characters
              */
             by: string;
             /**
@@ -2651,7 +2651,7 @@ export interface components {
             name: string;
             /**
              * Tags
-             * @description Words to find it by
+             * @description Words to find it by, each once
              * @default []
              */
             tags: string[];
@@ -2938,22 +2938,22 @@ export interface components {
         };
         /**
          * RunPatch
-         * @description What to change of a run; what is left out stays.
+         * @description What to change of a run; what is left out, or null, stays.
          */
         RunPatch: {
             /**
              * Name
-             * @description Its name, up to 200 characters
+             * @description Its name
              */
             name?: string | null;
             /**
              * Tags
-             * @description Up to 20 words of up to 50 characters
+             * @description Words to find it by, each once
              */
             tags?: string[] | null;
             /**
              * Notes
-             * @description Notes, up to 10000 characters
+             * @description Notes
              */
             notes?: string | null;
         };
@@ -3978,7 +3978,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path?: never;
@@ -4115,7 +4115,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4177,7 +4177,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4237,7 +4237,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4299,7 +4299,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4361,7 +4361,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4423,7 +4423,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4485,7 +4485,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4547,7 +4547,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4631,7 +4631,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4715,7 +4715,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4810,7 +4810,7 @@ export interface operations {
                 client?: string;
             };
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4881,7 +4881,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -4965,7 +4965,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5027,7 +5027,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5089,7 +5089,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5173,7 +5173,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5235,7 +5235,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5297,7 +5297,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5381,7 +5381,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5465,7 +5465,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5549,7 +5549,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5633,7 +5633,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5717,7 +5717,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5801,7 +5801,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5885,7 +5885,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -5969,7 +5969,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6053,7 +6053,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6137,7 +6137,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6221,7 +6221,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6305,7 +6305,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6367,7 +6367,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6451,7 +6451,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6513,7 +6513,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6576,7 +6576,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -6660,7 +6660,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
@@ -7196,7 +7196,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description Successful Response */
+            /** @description The page */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -7220,7 +7220,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
@@ -7229,7 +7229,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Refused values; nothing was changed */
@@ -7238,7 +7238,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Too much is being made already: again in 5 s (Retry-After) */
@@ -7247,7 +7247,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
         };
@@ -7264,7 +7264,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description Successful Response */
+            /** @description The page */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -7288,7 +7288,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
@@ -7297,7 +7297,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Refused values; nothing was changed */
@@ -7306,7 +7306,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
             /** @description Too much is being made already: again in 5 s (Retry-After) */
@@ -7315,7 +7315,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/html": components["schemas"]["ErrorModel"];
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
         };
@@ -7392,7 +7392,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description Who calls: a text that others do not guess; see `PUT …/control` */
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
             path: {
