@@ -9,8 +9,9 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from svsa.rig.launch import start_rig
 from tests.browser.test_page import open_page
+from tests.hardware.live_bench import write_bench
 from tests.lab import Lab, run_lab
-from tests.service.test_bench_session import BenchLab, write_bench
+from tests.service.test_bench_session import BenchLab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 

@@ -7,16 +7,12 @@ import subprocess
 import sys
 import threading
 import time
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
-
-import tomli_w
+from typing import NamedTuple
 
 from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.launch import RunningRig
-from tests.hardware.wired_bench import RIG_BENCH
 from tests.processes import find_child
 
 LOOP, SUPERVISOR = "svsa.runtime.realtime.process", "svsa.hardware.supervisor"
@@ -31,19 +27,6 @@ class Outcome(NamedTuple):
 
     before_ma: list[int]
     zero_s: float
-
-
-def write_bench(folder: Path, rig: RunningRig, **safety: Any) -> Path:
-    """The rig's bench file with this rig's ports, and its calibration record beside it."""
-    bench: dict[str, Any] = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
-    bench["bus"]["options"]["port"] = rig.port
-    bench["emulator"]["control_port"] = rig.control_port
-    bench["safety"] |= safety
-    path = folder / "bench.toml"
-    path.write_text(tomli_w.dumps(bench), encoding="utf-8")
-    record = RIG_BENCH.with_name("bench.calibration.toml")
-    path.with_name(record.name).write_text(record.read_text(encoding="utf-8"), encoding="utf-8")
-    return path
 
 
 class StandingBench:

@@ -9,18 +9,16 @@ import os
 import signal
 import threading
 import time
-import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-import tomli_w
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from svsa.rig.launch import RunningRig, start_rig
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.live_bench import write_bench
 from tests.lab import Lab, run_lab
 from tests.processes import find_child
 
@@ -29,20 +27,6 @@ pytestmark = pytest.mark.wall_clock
 PATIENCE_S = 20.0
 ZERO_S = 5.0
 LOOP, SUPERVISOR = "svsa.runtime.realtime.process", "svsa.hardware.supervisor"
-RELAXED = {"stale_zero_s": 0.9, "stale_fault_s": 1.0, "missed_ticks": 900, "supervisor_s": 2.0}
-
-
-def write_bench(folder: Path, rig: RunningRig) -> Path:
-    """The rig's bench file with this rig's ports, and its calibration record beside it."""
-    bench: dict[str, Any] = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
-    bench["bus"]["options"]["port"] = rig.port
-    bench["emulator"]["control_port"] = rig.control_port
-    bench["safety"] |= RELAXED
-    path = folder / "bench.toml"
-    path.write_text(tomli_w.dumps(bench), encoding="utf-8")
-    record = RIG_BENCH.with_name("bench.calibration.toml")
-    path.with_name(record.name).write_text(record.read_text(encoding="utf-8"), encoding="utf-8")
-    return path
 
 
 class BenchLab:
