@@ -24,7 +24,7 @@ FAULT_LABELS = {
     "loop_late": "Control loop late",
     "loop_silent": "Control loop silent",
     "loop_lost": "Control loop lost",
-    "loop_and_supervisor_lost": "Control loop and supervisor lost",
+    "loop_and_supervisor_lost": "Loop and supervisor lost",
 }
 
 

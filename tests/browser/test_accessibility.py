@@ -179,7 +179,7 @@ def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
 def test_a_bench_has_no_violation(page: Page, lab: Lab, status: str) -> None:
     PatchedBench(page, status=status, dead_man=True)
     open_lab(page, lab)
-    expect_no_violation(page, WIDE, PHONE)
+    expect_no_violation(page, HIGH, PHONE)
 
 
 def test_the_login_has_no_violation(page: Page) -> None:

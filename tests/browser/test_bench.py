@@ -136,8 +136,8 @@ def test_the_status_bar_tells_the_lateness_of_a_bench(page: Page, lab: Lab) -> N
     open_page(page, lab)
     bar = page.get_by_role("region", name="Status", exact=True)
     expect(bar.get_by_text("late 24 µs / 71 µs · 3 ticks skipped")).to_be_visible()
-    patched.change(loop=BENCH["loop"] | {"alive": False})
-    expect(bar.get_by_text("Loop is dead")).to_be_visible()
+    patched.change(loop=BENCH["loop"] | {"alive": False, "state": "gone"})
+    expect(bar.get_by_text("gone")).to_be_visible()
 
 
 def test_on_a_real_bench_the_load_button_only_marks(page: Page, lab: Lab) -> None:

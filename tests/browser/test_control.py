@@ -135,12 +135,11 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
 
 
 def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
-    """The page at the list of runs, which leaves a slow machine the time to be punctual."""
+    """The page with its plots paused, which leaves a slow machine the time to be punctual."""
     page = context.new_page()
     page.goto(bench.lab.url)
     bench.make_ready()
-    page.get_by_role("button", name="Runs", exact=True).click()
-    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
+    page.get_by_role("button", name="Pause plots").click()
     return page
 
 

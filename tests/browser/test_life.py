@@ -83,7 +83,7 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         view = page.frame_locator("iframe").locator("canvas").first
         expect(view).to_be_visible(timeout=PATIENCE_MS)
         page.get_by_role("button", name="Runs", exact=True).click()
-        row = page.get_by_role("list", name="Recorded runs").get_by_role("listitem").first
+        row = page.get_by_role("table", name="Recorded runs").get_by_role("row").last
         expect(row.get_by_role("link", name="Cut")).to_be_visible()
         expect(row).to_contain_text("cut off")
         assert lab.client.get("/api/v1/runs").json()["runs"][0]["duration_s"] > 7

@@ -56,8 +56,8 @@ def test_an_effect_by_itself_with_its_value(page: Page, lab: Lab, realism: Locat
     assert read(lab)["effects"]["noise"]["deflection_std_rad"] == 0.0005
     deviation.fill("500")
     deviation.press("Enter")
-    expect(realism.get_by_role("alert").filter(has_text="deflection_std_rad")).to_contain_text(
-        "0.1 rad"
+    expect(realism.get_by_role("alert").filter(has_text="Deflection, std. dev.")).to_contain_text(
+        "at most 100 mrad"
     )
     expect(deviation).to_have_value("0.5")
     noise.uncheck()
@@ -77,7 +77,7 @@ def test_the_model_is_made_wrong_and_exact(page: Page, lab: Lab, realism: Locato
     assert read(lab)["nominal"]["link_inertia_kg_m2"] == 0.0206
     model.fill("-1")
     model.press("Enter")
-    expect(realism.get_by_role("alert").filter(has_text="link_inertia")).to_be_visible()
+    expect(realism.get_by_role("alert").filter(has_text="link inertia, Model")).to_be_visible()
     exact = realism.get_by_role("button", name="Make the model exact")
     exact.click()
     expect(exact).to_be_disabled()

@@ -70,7 +70,7 @@ def test_an_axis_that_moved_since_its_reset_is_not_at_its_mark() -> None:
 def test_an_uncalibrated_bench_does_not_arm_and_says_why() -> None:
     bench = read_bench(RIG_BENCH)
     bench = bench.changed(motor2=bench.motor2.changed(sign=None))
-    with WiredBench(bench) as b, pytest.raises(StateError, match=r"\[motor2\] sign is not given"):
+    with WiredBench(bench) as b, pytest.raises(StateError, match=r"motor2\.sign is not given"):
         b.plant.arm(b.now)
 
 

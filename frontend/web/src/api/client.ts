@@ -49,7 +49,7 @@ export const putStiffness = (reference: Sent<StiffnessReference>) =>
   call("put", "/stiffness", reference);
 /** rivals: laws of the lanes beside, from the first on; those left out keep theirs. */
 export const putLaw = (law: Law, rivals: readonly Law[]) =>
-  call("put", "/law", { law, rival_laws: [...rivals] });
+  call("put", "/law", rivals.length === 0 ? { law } : { law, rival_laws: [...rivals] });
 export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });

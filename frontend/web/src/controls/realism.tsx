@@ -31,7 +31,7 @@ export function Realism({ state }: { state: SessionState }) {
         />
       }
     >
-      <p class="hint is-about">{preset === null ? words.mixture : words.does[preset]}</p>
+      <p class="hint">{preset === null ? words.mixture : words.does[preset]}</p>
       <Problem control="realism.preset" />
       <details class="more">
         <summary>{words.each}</summary>

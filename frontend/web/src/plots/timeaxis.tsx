@@ -64,7 +64,9 @@ export function TimeAxis() {
       const value = text.plots.spanValue(from.toFixed(2), to.toFixed(2));
       axis.current?.setAttribute("aria-valuetext", value);
       axis.current?.setAttribute("aria-valuenow", to.toFixed(2));
-      axis.current?.setAttribute("aria-valuemax", Math.max(to, shownRing().newestTime).toFixed(2));
+      const { newestTime } = shownRing();
+      const end = newestTime > to ? newestTime : to;
+      axis.current?.setAttribute("aria-valuemax", end.toFixed(2));
       toldAt = performance.now();
     };
     const draw = () => {
