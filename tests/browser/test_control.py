@@ -135,11 +135,12 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
 
 
 def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
-    """The page with its plots paused, which leaves a slow machine the time to be punctual."""
+    """The page at the list of runs, which leaves a slow machine the time to be punctual."""
     page = context.new_page()
     page.goto(bench.lab.url)
     bench.make_ready()
-    page.get_by_role("button", name="Pause plots").click()
+    page.get_by_role("button", name="Runs", exact=True).click()
+    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
     return page
 
 
@@ -180,6 +181,7 @@ def find_run(page: Page) -> Locator:
     return bench.get_by_role("button", name="Run", exact=True)
 
 
+@pytest.mark.wall_clock
 def test_the_bench_runs_only_while_the_switch_is_held(
     context: BrowserContext, bench: BenchLab
 ) -> None:
@@ -206,6 +208,7 @@ def test_the_bench_runs_only_while_the_switch_is_held(
     page.keyboard.up("Enter")
 
 
+@pytest.mark.wall_clock
 def test_only_the_switch_of_who_is_in_control_counts(
     context: BrowserContext, bench: BenchLab
 ) -> None:

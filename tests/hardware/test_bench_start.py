@@ -3,10 +3,11 @@
 import io
 import types
 
+import numba
 import pytest
 from rich.console import Console
 
-from svsa.compilation import compiled, watch_compilation
+from svsa.compilation import watch_compilation
 from svsa.experiment.paper import get_figure
 from svsa.runtime.realtime import launch
 from svsa.runtime.realtime.launch import BenchError, BenchProcesses
@@ -95,7 +96,7 @@ def test_a_bench_that_cannot_be_opened_says_why(start):
 
 
 def test_every_compiled_function_is_told_once():
-    @compiled
+    @numba.njit
     def double(x):
         return 2.0 * x
 

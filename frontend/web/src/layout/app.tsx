@@ -32,7 +32,9 @@ export function App() {
         </a>
       )}
       <TopBar />
-      {at.kind === "lab" && state?.bench && <BenchStrip bench={state.bench} />}
+      {(at.kind === "lab" || at.kind === "list") && state?.bench && (
+        <BenchStrip bench={state.bench} />
+      )}
       <PrivateBanner />
       <Banners />
       <HelpSheet />
