@@ -147,8 +147,9 @@ def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
 def hold_through(page: Page, bench: BenchLab) -> bool:
     """Run with D held, and on with the pointer; whether it ran until then.
 
-    A page that is too slow once to be heard every 0.1 s ends the run, as it should. Beside a browser
-    on two cores motor 1 was once too fast as well, why is not known: that ends an attempt too.
+    A page that is too slow once to be heard every 0.1 s ends the run, as it should. Beside a
+    browser on two cores motor 1 was once too fast as well, why is not known: that ends an
+    attempt too.
     """
     row = page.get_by_role("region", name="Dead-man's switch")
     button = row.get_by_role("button", name="Hold to run")
