@@ -8,7 +8,7 @@ PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type
 SIDE_BY_SIDE := -n 2 --dist loadfile --no-loadscope-reorder
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 
-.PHONY: help run dev bench-demo test quick check format page schema lock screenshots bench clean
+.PHONY: help run dev bench-demo test quick check hooks format page schema lock screenshots bench clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -42,6 +42,9 @@ check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated
 	@$(BIN)/svsa openapi > .venv/openapi.json
 	@$(WEB) run --silent schema -- "$(CURDIR)/.venv/openapi.json" --check
 	$(WEB) run check
+
+hooks: .venv/installed  ## have every commit pass `make check` first
+	@$(BIN)/pre-commit install
 
 format: .venv/installed $(PAGE)  ## put the code into shape
 	$(BIN)/ruff check --fix .
