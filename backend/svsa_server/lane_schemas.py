@@ -47,6 +47,10 @@ class LaneState(LaneMetrics):
     """A lane; lane 1 is the session's own controller."""
 
     lane: int
+    id: int = Field(
+        description="Its own for the whole run: a lane keeps it where lanes before it are taken"
+        " away, and none gets that of a lane that went"
+    )
     law: Law
     name: str = Field(description="Of who controls it now")
     stretches: list[StretchState] = Field(

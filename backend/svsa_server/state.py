@@ -51,6 +51,7 @@ def build_progress(session: Session) -> SessionProgress:
         lanes=[
             LaneState(
                 lane=number + 1,
+                id=timeline.lane_ids[number],
                 law=lane.law,
                 name=stretches[number][-1].name,
                 stretches=stretches[number],

@@ -28,6 +28,7 @@ from svsa_server.stream_schemas import (
     StateMessage,
     StreamChannel,
     StreamError,
+    pack_lane_ids,
 )
 
 BATCH_PERIOD_S = 1.0 / 30.0
@@ -93,12 +94,14 @@ class SampleCursor:
             skipped_to = self._align(oldest)
             missed = (skipped_to - self._next) // stride
             self._next = skipped_to
-        rows = history.read(self._next, stride, self._columns, self.read_lanes())
+        lanes = self.read_lanes()
+        rows = history.read(self._next, stride, self._columns, lanes)
         if not len(rows):
             return None
-        header = HEADER.pack(MAGIC, self._run, self._next, stride, len(rows), missed, rows.shape[1])
+        header = HEADER.pack(MAGIC, self._run, self._next, stride, len(rows), missed, len(lanes))
+        ids = pack_lane_ids(session.timeline.lane_ids[lane] for lane in lanes)
         self._next += stride * len(rows)
-        return header + rows.astype("<f4").tobytes()
+        return header + ids + rows.astype("<f4").tobytes()
 
     def read_lanes(self) -> list[int]:
         """The lanes of the next batch, counted from 0: those asked for that there are."""

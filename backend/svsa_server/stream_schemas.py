@@ -1,6 +1,7 @@
 """What a stream sends: its messages, and the header of a binary batch of samples."""
 
 import struct
+from collections.abc import Iterable
 from typing import Any, Literal
 
 from pydantic import BaseModel, Field
@@ -20,6 +21,7 @@ HEADER_FIELDS = (
     ("lanes", "I", "lanes in each sample"),
 )
 HEADER = struct.Struct("<" + "".join(code for _, code, _ in HEADER_FIELDS))
+LANE_ID = "I"
 _TYPES = {"4s": "4 bytes", "I": "uint32", "Q": "uint64"}
 
 
@@ -60,6 +62,12 @@ class StreamError(BaseModel):
 StreamMessage = Hello | StateMessage | StreamError
 
 
+def pack_lane_ids(ids: Iterable[int]) -> bytes:
+    """The identities of the lanes of a batch, which follow its header."""
+    every = list(ids)
+    return struct.pack(f"<{len(every)}{LANE_ID}", *every)
+
+
 def describe_stream(batch_period_s: float) -> str:
     """The stream in words (Markdown), with the layout of a batch as it is packed."""
     rows, offset = [], 0
@@ -82,9 +90,14 @@ def describe_stream(batch_period_s: float) -> str:
             "|---|---|---|---|",
             *rows,
             "",
-            f"then `float32[count][lanes][channels]` from byte {HEADER.size} on, in the order of"
-            " `hello.lanes` and `hello.channels`; NaN is a value that is not known. A slow client"
-            " gets the newest samples, with what it lost in `missed`.",
+            f"then `{_TYPES[LANE_ID]}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
+            " that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come"
+            " and go beside it; its place among them, which `hello.lanes` tells of the first batch,"
+            " may change.",
+            "",
+            f"Then `float32[count][lanes][channels]` from byte {HEADER.size} + 4 · lanes on, in the"
+            " order of these ids and of `hello.channels`; NaN is a value that is not known. A slow"
+            " client gets the newest samples, with what it lost in `missed`.",
             "",
             f"Left out, `channels` is `{','.join(PLOTTED)}`.",
             "",

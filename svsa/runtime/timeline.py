@@ -4,6 +4,7 @@ A session follows its run with it; of a recorded run the same is read from its c
 its commands.
 """
 
+import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -55,7 +56,8 @@ class Timeline:
     kept_ticks: how long a stretch that has ended is kept. `load_window`: of the newest load;
     it ends with the next change, when a load is taken off, or with another one; a load that ends
     by itself ends no window, so that a push shows after it. `load_numbers`: which controller each
-    lane had when that load came, None for a lane that began later.
+    lane had when that load came, None for a lane that began later. `lane_ids`: of every lane an
+    identity that it keeps where lanes before it go, and that no other lane of the run ever has.
     """
 
     def __init__(
@@ -65,6 +67,8 @@ class Timeline:
         self.kept_ticks = kept_ticks
         self._numbers: dict[Controller, int] = {}
         self.lanes: list[list[Stretch]] = [[] for _ in configuration.lanes]
+        self._new_lane_ids = itertools.count(1)
+        self.lane_ids = [next(self._new_lane_ids) for _ in self.lanes]
         self.windows: list[Window] = [Window("start", "", 0)]
         self.load_window: Window | None = None
         self.load_numbers: list[int | None] = []
@@ -82,6 +86,10 @@ class Timeline:
         if command.kind == "rivals":
             origins = find_origins(before.rivals, self._configuration.rivals)
             self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
+            self.lane_ids = [
+                next(self._new_lane_ids) if lane is None else self.lane_ids[lane]
+                for lane in origins
+            ]
             if self.load_numbers:
                 kept = self.load_numbers
                 self.load_numbers = [None if lane is None else kept[lane] for lane in origins]

@@ -72,6 +72,7 @@ def test_the_stream_stands_beside_rest_as_it_is_packed() -> None:
     offsets = [int(row.split("|")[1]) for row in text.splitlines() if re.match(r"\| \d", row)]
     assert offsets == [0, 4, 8, 16, 20, 24, 28]
     assert len(offsets) == len(HEADER_FIELDS)
+    assert "`uint32[lanes]`" in text
     named = {parameter["name"] for parameter in operation["parameters"]}
     assert {"rate_hz", "history_s", "lanes", "channels", "client"} <= named
     schema = operation["responses"]["101"]["content"]["application/json"]["schema"]

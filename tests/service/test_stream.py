@@ -20,7 +20,8 @@ class Batch:
         magic, *numbers = HEADER.unpack(message[:32])
         assert magic == b"SVSA"
         self.run, self.first, self.stride, count, self.missed, lanes = numbers
-        samples = np.frombuffer(message[32:], "<f4").reshape(count, lanes, channels)
+        self.lanes = np.frombuffer(message[32 : 32 + 4 * lanes], "<u4").tolist()
+        samples = np.frombuffer(message[32 + 4 * lanes :], "<f4").reshape(count, lanes, channels)
         self.rows = samples[:, 0]
         self.ticks = self.first + self.stride * np.arange(count)
         self.size = len(message)

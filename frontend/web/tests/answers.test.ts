@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-const STATE = { run: 1, tick: 7, status: "running", time_s: 0.007 };
+const STATE = { run: 1, tick: 7, status: "running", time_s: 0.007, lanes: [{ id: 1 }] };
 type Answer = { status: number; body: unknown } | "lost";
 type Server = (method: string, path: string, name: string | null) => Answer;
 

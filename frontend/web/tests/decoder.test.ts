@@ -3,10 +3,11 @@ import { decodeBatch, HEADER_BYTES, MAGIC, StreamFormatError } from "../src/stre
 
 function batch(
   rows: number[][],
-  { magic = MAGIC, firstTick = 5n, count = rows.length, lanes = 1 } = {},
+  { magic = MAGIC, firstTick = 5n, count = rows.length, ids = [1], lanes = 0 } = {},
 ) {
   const width = rows[0]?.length ?? 0;
-  const message = new ArrayBuffer(HEADER_BYTES + 4 * rows.length * width);
+  const begin = HEADER_BYTES + 4 * ids.length;
+  const message = new ArrayBuffer(begin + 4 * rows.length * width);
   const view = new DataView(message);
   view.setUint32(0, magic, true);
   view.setUint32(4, 3, true);
@@ -14,9 +15,12 @@ function batch(
   view.setUint32(16, 5, true);
   view.setUint32(20, count, true);
   view.setUint32(24, 7, true);
-  view.setUint32(28, lanes, true);
+  view.setUint32(28, lanes || ids.length, true);
+  ids.forEach((id, index) => {
+    view.setUint32(HEADER_BYTES + 4 * index, id, true);
+  });
   rows.flat().forEach((value, index) => {
-    view.setFloat32(HEADER_BYTES + 4 * index, value, true);
+    view.setFloat32(begin + 4 * index, value, true);
   });
   return message;
 }
@@ -40,8 +44,8 @@ describe("decodeBatch", () => {
       [1, 2, 10, 20],
       [3, 4, 30, 40],
     ];
-    const decoded = decodeBatch(batch(rows, { lanes: 2 }), 2);
-    expect(decoded).toMatchObject({ count: 2, lanes: 2 });
+    const decoded = decodeBatch(batch(rows, { ids: [1, 3] }), 2);
+    expect(decoded).toMatchObject({ count: 2, lanes: [1, 3] });
     expect([...decoded.values]).toEqual(rows.flat());
   });
 

@@ -39,7 +39,7 @@ describe("a figure's outcome", () => {
 
   it("is cut out of a batch lane by lane", () => {
     const values = new Float32Array([0, 1, 2, 0, 3, 4, 0.5, 5, 6, 0.5, 7, 8]);
-    const batch = { run: 1, firstTick: 0, stride: 1, count: 2, missed: 0, lanes: 2, values };
+    const batch = { run: 1, firstTick: 0, stride: 1, count: 2, missed: 0, lanes: [1, 2], values };
     expect(sliceCourse(batch, 3)).toEqual({
       timeS: [0, 0.5],
       positionRad: [

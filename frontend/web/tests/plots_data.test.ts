@@ -8,8 +8,8 @@ import { SampleRing, type Stretch } from "../src/stream/ring";
 const ALONE = [[{ number: 1, name: "NDOBC", ink: 0, from: 0, to: Number.POSITIVE_INFINITY }]];
 
 function ringOf(values: readonly number[], channel = "position_error_rad"): SampleRing {
-  const ring = new SampleRing(1000, [channel]);
-  const header = { run: 1, firstTick: 0, stride: 10, missed: 0, lanes: 1 };
+  const ring = new SampleRing(1000, [channel], [1]);
+  const header = { run: 1, firstTick: 0, stride: 10, missed: 0, lanes: [1] };
   ring.append({ ...header, count: values.length, values: new Float32Array(values) }, 0.001);
   return ring;
 }
@@ -99,8 +99,8 @@ describe("between two cursors", () => {
 
 /** 100 Hz: six samples of 1, nothing for 2 s, then six samples of 2. */
 function ringWithGap(): SampleRing {
-  const ring = new SampleRing(1000, ["position_error_rad"]);
-  const header = { run: 1, stride: 10, count: 6, lanes: 1 };
+  const ring = new SampleRing(1000, ["position_error_rad"], [1]);
+  const header = { run: 1, stride: 10, count: 6, lanes: [1] };
   const six = (value: number) => new Float32Array(6).fill(value);
   ring.append({ ...header, firstTick: 0, missed: 0, values: six(1) }, 0.001);
   ring.append({ ...header, firstTick: 2060, missed: 200, values: six(2) }, 0.001);

@@ -90,10 +90,10 @@ describe("the curves of a switch", () => {
   });
 
   it("take only the samples of their piece", () => {
-    const ring = new SampleRing(100, ["position_error_rad"]);
+    const ring = new SampleRing(100, ["position_error_rad"], [1, 2]);
     const rows = Float32Array.from({ length: 20 }, (_, index) => index);
     ring.append(
-      { run: 1, firstTick: 0, stride: 1000, missed: 0, lanes: 2, count: 10, values: rows },
+      { run: 1, firstTick: 0, stride: 1000, missed: 0, lanes: [1, 2], count: 10, values: rows },
       0.001,
     );
     for (const one of curves(swapped)) {

@@ -7,7 +7,7 @@ import { SampleRing } from "../src/stream/ring";
 function batch(firstTick: number, count: number): Batch {
   const ticks = Array.from({ length: count }, (_, row) => firstTick + 5 * row);
   const values = new Float32Array(ticks.flatMap((tick) => [tick, -tick]));
-  return { run: 1, firstTick, stride: 5, count, missed: 0, lanes: 1, values };
+  return { run: 1, firstTick, stride: 5, count, missed: 0, lanes: [1], values };
 }
 
 function contents(ring: SampleRing, first = 0, factor = 1) {
@@ -26,7 +26,7 @@ function contents(ring: SampleRing, first = 0, factor = 1) {
 
 describe("SampleRing", () => {
   it("gives back what was put in, with time from the ticks", () => {
-    const ring = new SampleRing(10, ["a", "b"]);
+    const ring = new SampleRing(10, ["a", "b"], [1]);
     ring.append(batch(1000, 3), 0.5);
     expect(contents(ring)).toEqual({
       time: [500, 502.5, 505],
@@ -38,7 +38,7 @@ describe("SampleRing", () => {
   });
 
   it("forgets the oldest, and stays in order over its end", () => {
-    const ring = new SampleRing(4, ["a", "b"]);
+    const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 3), 1);
     ring.append(batch(15, 3), 1);
     expect(contents(ring).a).toEqual([10, 15, 20, 25]);
@@ -46,13 +46,13 @@ describe("SampleRing", () => {
   });
 
   it("takes the newest part of a batch larger than itself", () => {
-    const ring = new SampleRing(4, ["a", "b"]);
+    const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 9), 1);
     expect(contents(ring).a).toEqual([25, 30, 35, 40]);
   });
 
   it("finds the first sample at or after a time", () => {
-    const ring = new SampleRing(4, ["a", "b"]);
+    const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 6), 1);
     expect(ring.firstAt(-1)).toBe(0);
     expect(ring.firstAt(15)).toBe(1);
@@ -61,13 +61,13 @@ describe("SampleRing", () => {
   });
 
   it("multiplies by a factor on the way out", () => {
-    const ring = new SampleRing(4, ["a", "b"]);
+    const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(10, 1), 1);
     expect(contents(ring, 0, 0.5).a).toEqual([5]);
   });
 
   it("is empty at first and after clearing", () => {
-    const ring = new SampleRing(4, ["a", "b"]);
+    const ring = new SampleRing(4, ["a", "b"], [1]);
     expect(ring.newestTime).toBeNaN();
     ring.append(batch(0, 2), 1);
     ring.clear();
@@ -76,7 +76,7 @@ describe("SampleRing", () => {
   });
 
   it("shows a channel that is not streamed as no number", () => {
-    const ring = new SampleRing(4, ["a", "b"]);
+    const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 2), 1);
     const out = new Float32Array(2);
     ring.copyChannel("c", 0, out);
@@ -84,11 +84,11 @@ describe("SampleRing", () => {
   });
 });
 
-/** Channel a of two lanes at one tick. */
-const pair = (tick: number, ...values: number[]): Batch => ({
-  ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0 },
-  lanes: values.length,
-  values: new Float32Array(values),
+/** Channel a of these lanes, by their ids, at one tick. */
+const tick = (at: number, values: Record<number, number>): Batch => ({
+  ...{ run: 1, firstTick: at, stride: 1, count: 1, missed: 0 },
+  lanes: Object.keys(values).map(Number),
+  values: new Float32Array(Object.values(values)),
 });
 
 function lane(ring: SampleRing, number: number): number[] {
@@ -99,23 +99,58 @@ function lane(ring: SampleRing, number: number): number[] {
 
 describe("the lanes of a SampleRing", () => {
   it("begin without a past, and go with theirs", () => {
-    const ring = new SampleRing(10, ["a"]);
-    ring.append(pair(0, 1), 1);
-    ring.append(pair(1, 2, 20), 1);
-    ring.append(pair(2, 3, 30), 1);
+    const ring = new SampleRing(10, ["a"], [1]);
+    ring.append(tick(0, { 1: 1 }), 1);
+    ring.arrange([1, 2]);
+    ring.append(tick(1, { 1: 2, 2: 20 }), 1);
+    ring.append(tick(2, { 1: 3, 2: 30 }), 1);
     expect(ring.lanes).toBe(2);
     expect(lane(ring, 1)).toEqual([1, 2, 3]);
     expect(lane(ring, 2)).toEqual([Number.NaN, 20, 30]);
     expect(ring.newest("a", 2)).toBe(30);
-    ring.append(pair(3, 4), 1);
-    ring.append(pair(4, 5, 50), 1);
+    ring.arrange([1]);
+    ring.append(tick(3, { 1: 4 }), 1);
+    ring.arrange([1, 3]);
+    ring.append(tick(4, { 1: 5, 3: 50 }), 1);
     expect(lane(ring, 1)).toEqual([1, 2, 3, 4, 5]);
     expect(lane(ring, 2)).toEqual([Number.NaN, Number.NaN, Number.NaN, Number.NaN, 50]);
   });
 
+  it("have their own past where one between them is taken away, and none has that one's", () => {
+    const ring = new SampleRing(10, ["a"], [1, 2, 3]);
+    ring.append(tick(0, { 1: 1, 2: 20, 3: 300 }), 1);
+    ring.arrange([1, 3]);
+    expect(lane(ring, 2)).toEqual([300]);
+    ring.append(tick(1, { 1: 2, 3: 301 }), 1);
+    expect(ring.lanes).toBe(2);
+    expect([lane(ring, 1), lane(ring, 2)]).toEqual([
+      [1, 2],
+      [300, 301],
+    ]);
+    expect(ring.stretch("a", 2, 0, 2)?.values.slice(0, 2)).toEqual(new Float32Array([300, 301]));
+  });
+
+  it("are told apart by the batch, where it was sent before lanes changed", () => {
+    const ring = new SampleRing(10, ["a"], [1, 2, 3]);
+    ring.arrange([1, 3, 4]);
+    ring.append(tick(0, { 1: 1, 2: 20, 3: 300 }), 1);
+    expect([1, 2, 3].map((number) => lane(ring, number))).toEqual([[1], [300], [Number.NaN]]);
+  });
+
+  it("of a copy take channels that they lack from the same lane of the other", () => {
+    const ring = new SampleRing(10, ["b"], [1, 2, 3]);
+    ring.append(tick(0, { 1: 1, 2: 2, 3: 3 }), 1);
+    const held = ring.copy();
+    const next = ring.reselect(["a"]);
+    next.arrange([1, 3]);
+    next.append(tick(0, { 1: 10, 3: 30 }), 1);
+    held.adopt(next);
+    expect([1, 2, 3].map((number) => lane(held, number))).toEqual([[10], [Number.NaN], [30]]);
+  });
+
   it("are no numbers where there are none", () => {
-    const ring = new SampleRing(10, ["a"]);
-    ring.append(pair(0, 1), 1);
+    const ring = new SampleRing(10, ["a"], [1]);
+    ring.append(tick(0, { 1: 1 }), 1);
     expect(lane(ring, 3)).toEqual([Number.NaN]);
     expect(ring.newest("a", 3)).toBeNaN();
   });
@@ -123,7 +158,7 @@ describe("the lanes of a SampleRing", () => {
 
 describe("samples that were not sent", () => {
   const row = (firstTick: number, stride: number, ...values: number[]): Batch => ({
-    ...{ run: 1, firstTick, stride, count: values.length, missed: 0, lanes: 1 },
+    ...{ run: 1, firstTick, stride, count: values.length, missed: 0, lanes: [1] },
     values: new Float32Array(values),
   });
   const rows = (ring: SampleRing) =>
@@ -133,7 +168,7 @@ describe("samples that were not sent", () => {
     ]);
 
   it("are a gap from the first to the last of them", () => {
-    const ring = new SampleRing(20, ["a"]);
+    const ring = new SampleRing(20, ["a"], [1]);
     ring.append(row(0, 5, 1, 2), 1);
     ring.append(row(30, 5, 3, 4), 1);
     expect(rows(ring)).toEqual([
@@ -148,7 +183,7 @@ describe("samples that were not sent", () => {
   });
 
   it("are one where one is missing, and none where the rate changes", () => {
-    const ring = new SampleRing(20, ["a"]);
+    const ring = new SampleRing(20, ["a"], [1]);
     ring.append(row(0, 50, 1, 2), 1);
     ring.append(row(100, 5, 3), 1);
     ring.append(row(105, 50, 4), 1);
@@ -157,7 +192,7 @@ describe("samples that were not sent", () => {
   });
 
   it("are there again where the server sends them again", () => {
-    const ring = new SampleRing(20, ["a"]);
+    const ring = new SampleRing(20, ["a"], [1]);
     ring.append(row(0, 5, 1, 2), 1);
     ring.append(row(20, 5, 5), 1);
     const next = ring.reselect(["a"]);
@@ -168,14 +203,14 @@ describe("samples that were not sent", () => {
 
 describe("a SampleRing whose channels change", () => {
   const one = (tick: number, ...values: number[]): Batch => ({
-    ...{ run: 1, firstTick: tick, stride: 1, count: values.length, missed: 0, lanes: 1 },
+    ...{ run: 1, firstTick: tick, stride: 1, count: values.length, missed: 0, lanes: [1] },
     values: new Float32Array(values),
   });
   const values = (ring: SampleRing, channel: string) =>
     Array.from({ length: ring.length }, (_, index) => ring.valueAt(channel, index));
 
   it("keeps the past of what stays, and takes what is sent again", () => {
-    const ring = new SampleRing(10, ["a"]);
+    const ring = new SampleRing(10, ["a"], [1]);
     ring.append(one(0, 1, 2, 3, 4), 1);
     const next = ring.reselect(["b", "a"]);
     next.append({ ...one(2, 30, 3, 40, 4, 50, 5), count: 3 }, 1);
@@ -185,7 +220,7 @@ describe("a SampleRing whose channels change", () => {
   });
 
   it("gives a copy the channels it lacks, sample by sample of the same time", () => {
-    const ring = new SampleRing(10, ["a"]);
+    const ring = new SampleRing(10, ["a"], [1]);
     ring.append(one(0, 1, 2, 3), 1);
     const held = ring.copy();
     const next = ring.reselect(["b"]);
@@ -197,7 +232,7 @@ describe("a SampleRing whose channels change", () => {
   });
 
   it("finds the nearest sample, and its number stays while older ones go", () => {
-    const ring = new SampleRing(3, ["a"]);
+    const ring = new SampleRing(3, ["a"], [1]);
     ring.append(one(0, 0, 10, 20), 1);
     expect([-5, 0.4, 0.6, 9].map((time) => ring.nearestTo(time))).toEqual([0, 0, 1, 2]);
     expect(ring.stretch("a", 1, 2, 3)?.number).toBe(2);
@@ -211,7 +246,7 @@ describe("a SampleRing whose channels change", () => {
 describe("a channel that is derived", () => {
   const VELOCITIES = ["velocity_reference_rad_per_s", "velocity_rad_per_s"];
   const of = (tick: number, ...values: number[]): Batch => ({
-    ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0, lanes: 1 },
+    ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0, lanes: [1] },
     values: new Float32Array(values),
   });
   const derived = (ring: SampleRing) =>
@@ -220,7 +255,7 @@ describe("a channel that is derived", () => {
     );
 
   it("is the difference of its two, sample by sample, and no channel of the stream", () => {
-    const ring = new SampleRing(10, VELOCITIES);
+    const ring = new SampleRing(10, VELOCITIES, [1]);
     ring.append(of(0, 3, 1), 1);
     ring.append(of(2, 1, 4), 1);
     expect(derived(ring)).toEqual([2, Number.NaN, -3]);
@@ -230,7 +265,7 @@ describe("a channel that is derived", () => {
   });
 
   it("comes and goes with them", () => {
-    const ring = new SampleRing(10, VELOCITIES.slice(0, 1));
+    const ring = new SampleRing(10, VELOCITIES.slice(0, 1), [1]);
     ring.append(of(0, 3), 1);
     const held = ring.copy();
     const both = ring.reselect(VELOCITIES);
@@ -244,7 +279,7 @@ describe("a channel that is derived", () => {
 
 describe("a reading", () => {
   it("is of the nearest sample, and of none before the oldest and after the newest", () => {
-    const ring = new SampleRing(10, ["a"]);
+    const ring = new SampleRing(10, ["a"], [1]);
     ring.append(batch(1000, 3), 0.01);
     const times = [9.9, 9.99, 10.04, 10.1, 10.11, 10.2];
     expect(times.map((time) => ring.sampleAt(time))).toEqual([-1, 0, 1, 2, 2, -1]);
@@ -252,9 +287,10 @@ describe("a reading", () => {
   });
 
   it("of a channel that came later begins where it has numbers", () => {
-    const ring = new SampleRing(10, ["a"]);
-    ring.append(pair(0, 1), 1);
-    ring.append(pair(1, 2, 20), 1);
+    const ring = new SampleRing(10, ["a"], [1]);
+    ring.append(tick(0, { 1: 1 }), 1);
+    ring.arrange([1, 2]);
+    ring.append(tick(1, { 1: 2, 2: 20 }), 1);
     expect(ring.beginningOf("a", 1)).toBe(0);
     expect(ring.beginningOf("a", 2)).toBe(1);
     expect(ring.beginningOf("b", 1)).toBeNaN();

@@ -345,7 +345,9 @@ export interface paths {
          *     | 24 | uint32 | missed | samples left out before it, for a client that was too slow |
          *     | 28 | uint32 | lanes | lanes in each sample |
          *
-         *     then `float32[count][lanes][channels]` from byte 32 on, in the order of `hello.lanes` and `hello.channels`; NaN is a value that is not known. A slow client gets the newest samples, with what it lost in `missed`.
+         *     then `uint32[lanes]` from byte 32 on: of every lane the `id` that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come and go beside it; its place among them, which `hello.lanes` tells of the first batch, may change.
+         *
+         *     Then `float32[count][lanes][channels]` from byte 32 + 4 · lanes on, in the order of these ids and of `hello.channels`; NaN is a value that is not known. A slow client gets the newest samples, with what it lost in `missed`.
          *
          *     Left out, `channels` is `position_reference_rad,position_rad,position_error_rad,stiffness_reference_nm_per_rad,stiffness_nm_per_rad,torque1_nm,torque2_nm,disturbance_link_nm,disturbance_motor1_nm,disturbance_motor2_nm,estimate_link_nm,estimate_motor1_nm,estimate_motor2_nm`.
          *
@@ -2057,6 +2059,11 @@ export interface components {
             since_load: components["schemas"]["Metrics"] | null;
             /** Lane */
             lane: number;
+            /**
+             * Id
+             * @description Its own for the whole run: a lane keeps it where lanes before it are taken away, and none gets that of a lane that went
+             */
+            id: number;
             /**
              * Law
              * @enum {string}

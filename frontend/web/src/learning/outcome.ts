@@ -43,7 +43,7 @@ export function sliceCourse({ count, lanes, values }: Batch, channels: number): 
   const read = (channel: number, lane: number) =>
     Array.from(
       { length: count },
-      (_, index) => values[(index * lanes + lane) * channels + channel] as number,
+      (_, index) => values[(index * lanes.length + lane) * channels + channel] as number,
     );
   return {
     timeS: read(0, 0),

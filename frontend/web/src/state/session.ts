@@ -48,7 +48,13 @@ export const selectionCount = signal(0);
 export function acceptState(state: Progress): void {
   const known = session.peek();
   if (known === null || (known.run_number === state.run_number && state.tick < known.tick)) return;
-  session.value = { ...known, ...state };
+  take({ ...known, ...state });
+}
+
+/** The samples stand in the order of the lanes that the page draws them as. */
+function take(state: SessionState): void {
+  samples.ring.arrange(state.lanes.map(({ id }) => id));
+  session.value = state;
 }
 
 function acceptText(message: string): void {
@@ -63,7 +69,7 @@ function acceptText(message: string): void {
   periodS = content.period_s;
   run = content.state.run_number;
   samples.ring = continues ? samples.ring.reselect(names) : new SampleRing(CAPACITY, names);
-  session.value = content.state;
+  take(content.state);
   received.count++;
   if (continues) return;
   selection.continues = false;

@@ -1,7 +1,8 @@
 /**
  * One binary message of the stream, little-endian:
  * u32 magic "SVSA", u32 run, u64 first tick, u32 stride, u32 count, u32 missed, u32 lanes,
- * then float32[count][lanes][channels]. Sample i is at tick first + i·stride.
+ * then u32[lanes], which lane each is, then float32[count][lanes][channels]. Sample i is at tick
+ * first + i·stride.
  */
 
 export const HEADER_BYTES = 32;
@@ -14,8 +15,9 @@ export interface Batch {
   count: number;
   /** Samples that the server dropped for this client before this batch. */
   missed: number;
-  lanes: number;
-  /** Row-major: values[(i * lanes + l) * channels + c]. */
+  /** Of every lane its id, as the session's state has it. */
+  lanes: readonly number[];
+  /** Row-major: values[(i * lanes.length + l) * channels + c]. */
   values: Float32Array;
 }
 
@@ -35,12 +37,13 @@ export function decodeBatch(message: ArrayBuffer, channels: number): Batch {
     throw new StreamFormatError(`a batch begins with 0x${magic.toString(16)}: it must be "SVSA"`);
   }
   const count = header.getUint32(20, true);
-  const lanes = header.getUint32(28, true);
-  const size = count * lanes * channels;
-  const expected = HEADER_BYTES + 4 * size;
+  const laneCount = header.getUint32(28, true);
+  const size = count * laneCount * channels;
+  const begin = HEADER_BYTES + 4 * laneCount;
+  const expected = begin + 4 * size;
   if (message.byteLength !== expected) {
     throw new StreamFormatError(
-      `a batch has ${message.byteLength} bytes: ${count} samples of ${lanes} lanes of ${channels} channels have ${expected}`,
+      `a batch has ${message.byteLength} bytes: ${count} samples of ${laneCount} lanes of ${channels} channels have ${expected}`,
     );
   }
   return {
@@ -49,7 +52,7 @@ export function decodeBatch(message: ArrayBuffer, channels: number): Batch {
     stride: header.getUint32(16, true),
     count,
     missed: header.getUint32(24, true),
-    lanes,
-    values: new Float32Array(message, HEADER_BYTES, size),
+    lanes: Array.from(new Uint32Array(message, HEADER_BYTES, laneCount)),
+    values: new Float32Array(message, begin, size),
   };
 }

@@ -1,7 +1,8 @@
 /**
  * The newest samples of a session, one column a channel and lane, in arrays that are never
- * reallocated. A lane is there from the first batch that has it, with no number before, and goes
- * with its past with the first batch that has it no more.
+ * reallocated. Which lanes there are, and in which order, `arrange` is told; whose samples a batch
+ * has, the batch says, by the ids of the lanes: a lane takes its past along wherever it stands, has
+ * no number where it was not there, and goes with its past.
  *
  * Channels that are derived from others stand beside them.
  *
@@ -22,6 +23,11 @@ export interface Stretch {
   number: number;
 }
 
+interface Lane {
+  id: number;
+  columns: Map<string, Float32Array>;
+}
+
 /** So far from a sample it is still the one meant, s. */
 const REACH_S = 0.02;
 
@@ -31,16 +37,18 @@ export class SampleRing {
   #time: Float64Array;
   /** The tick at which the sample after this one is expected. */
   #due: Float64Array;
-  #lanes: Map<string, Float32Array>[] = [];
+  #lanes: Lane[] = [];
   #next = 0;
   #length = 0;
   #total = 0;
 
-  constructor(capacity: number, channels: readonly string[]) {
+  /** @param lanes their ids */
+  constructor(capacity: number, channels: readonly string[], lanes: readonly number[] = []) {
     this.capacity = capacity;
     this.#channels = channels;
     this.#time = new Float64Array(capacity);
     this.#due = new Float64Array(capacity);
+    this.arrange(lanes);
   }
 
   get channels(): readonly string[] {
@@ -71,19 +79,28 @@ export class SampleRing {
     this.#length = 0;
   }
 
+  /** These lanes from now on, by their ids, in this order. */
+  arrange(ids: readonly number[]): void {
+    const held = new Map(this.#lanes.map(({ id, columns }) => [id, columns]));
+    const blank = () => new Map(this.#columns.map((name) => [name, this.#blank()]));
+    this.#lanes = ids.map((id) => ({ id, columns: held.get(id) ?? blank() }));
+  }
+
   /** Takes the newest samples; what is held of the same time and later gives way to them. */
   append(batch: Batch, periodS: number): void {
-    this.#setLanes(batch.lanes);
     this.#dropFrom(batch.firstTick * periodS);
     this.#markGap(batch, periodS);
     const derived = derivedFrom(this.#channels);
-    const width = batch.lanes * this.#channels.length;
+    const width = this.#channels.length;
+    const places = this.#lanes.map(({ id }) => batch.lanes.indexOf(id));
     const skipped = Math.max(0, batch.count - this.capacity);
     for (let row = skipped; row < batch.count; row++) {
-      let source = row * width;
-      for (const columns of this.#lanes) {
+      for (const [lane, { columns }] of this.#lanes.entries()) {
+        const place = places[lane] as number;
+        let source = (row * batch.lanes.length + place) * width;
         for (const channel of this.#channels) {
-          (columns.get(channel) as Float32Array)[this.#next] = batch.values[source++] as number;
+          const value = place < 0 ? Number.NaN : (batch.values[source++] as number);
+          (columns.get(channel) as Float32Array)[this.#next] = value;
         }
         for (const name of derived) this.#derive(columns, name);
       }
@@ -106,7 +123,7 @@ export class SampleRing {
   reselect(channels: readonly string[]): SampleRing {
     const other = this.copy();
     other.#channels = channels;
-    for (const columns of other.#lanes) {
+    for (const { columns } of other.#lanes) {
       const kept = other.#columns;
       for (const name of [...columns.keys()]) if (!kept.includes(name)) columns.delete(name);
       for (const name of kept) if (!columns.has(name)) columns.set(name, this.#blank());
@@ -118,9 +135,10 @@ export class SampleRing {
     const other = new SampleRing(this.capacity, this.#channels);
     other.#time = this.#time.slice();
     other.#due = this.#due.slice();
-    other.#lanes = this.#lanes.map(
-      (columns) => new Map([...columns].map(([name, column]) => [name, column.slice()])),
-    );
+    other.#lanes = this.#lanes.map(({ id, columns }) => ({
+      id,
+      columns: new Map([...columns].map(([name, column]) => [name, column.slice()])),
+    }));
     other.#next = this.#next;
     other.#length = this.#length;
     other.#total = this.#total;
@@ -132,19 +150,20 @@ export class SampleRing {
     const known = this.#columns;
     const missing = source.#columns.filter((name) => !known.includes(name));
     this.#channels = [...new Set([...this.#channels, ...source.#channels])];
-    this.#lanes.forEach((columns, lane) => {
+    for (const { id, columns } of this.#lanes) {
+      const lane = source.#lanes.findIndex((other) => other.id === id) + 1;
       for (const name of missing) {
         const column = this.#blank();
         for (let index = 0; index < this.#length; index++) {
           const time = this.timeAt(index);
           const at = source.firstAt(time);
           if (source.timeAt(at) === time) {
-            column[this.#slot(index)] = source.valueAt(name, at, lane + 1);
+            column[this.#slot(index)] = source.valueAt(name, at, lane);
           }
         }
         columns.set(name, column);
       }
-    });
+    }
   }
 
   /** Newest value of a channel of lane 1, 2, …; NaN when there is none. */
@@ -227,7 +246,7 @@ export class SampleRing {
   }
 
   #column(channel: string, lane: number): Float32Array | undefined {
-    return this.#lanes[lane - 1]?.get(channel);
+    return this.#lanes[lane - 1]?.columns.get(channel);
   }
 
   #blank(): Float32Array {
@@ -244,7 +263,7 @@ export class SampleRing {
   }
 
   #appendBlank(tick: number, stride: number, periodS: number): void {
-    for (const columns of this.#lanes) {
+    for (const { columns } of this.#lanes) {
       for (const column of columns.values()) column[this.#next] = Number.NaN;
     }
     this.#advance(tick, stride, periodS);
@@ -256,13 +275,6 @@ export class SampleRing {
     this.#next = (this.#next + 1) % this.capacity;
     this.#length = Math.min(this.#length + 1, this.capacity);
     this.#total++;
-  }
-
-  #setLanes(count: number): void {
-    this.#lanes.length = Math.min(this.#lanes.length, count);
-    while (this.#lanes.length < count) {
-      this.#lanes.push(new Map(this.#columns.map((name) => [name, this.#blank()])));
-    }
   }
 
   #dropFrom(timeS: number): void {
