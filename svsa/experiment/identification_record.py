@@ -4,7 +4,6 @@ Only what a bench knows is read. The angles of a simulated run, which are the tr
 put through the encoders and noise that the run had; those of a bench are measured already.
 """
 
-import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -14,6 +13,7 @@ from scipy.signal import lfilter
 from svsa.errors import SvsaError
 from svsa.experiment.identification_kernel import UNLOADED, Setting, Torques, measure
 from svsa.model.dynamics import build_actuator
+from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio
 from svsa.plant.disturbances import follow_loads
 from svsa.plant.effects import build_bench
@@ -102,7 +102,7 @@ def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: f
     A bench records what it asked for, a simulation what the motors make at that instant:
     with the lag, each follows from the other (`compute_lagged_torque`). lag, period: s.
     """
-    rest = math.exp(-period / lag) if lag > 0.0 else 0.0
+    rest = exp(-period / lag) if lag > 0.0 else 0.0
     if is_measured:
         made = lfilter([0.0, 1.0 - rest], [1.0, -rest], recorded, axis=0)
         return Torques(np.ascontiguousarray(made), recorded)

@@ -9,6 +9,7 @@ from svsa.hardware.standstill import Standstill
 from svsa.hardware.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.model.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
 from svsa.model.dynamics import Actuator
+from svsa.model.exponential import expm1
 from svsa.packed import pack
 from svsa.signals import Disturbance, State, Torque
 
@@ -39,7 +40,7 @@ class MotorGuard:
     def warm(self, current_a: float, period: float) -> None:
         """Heat after a period (s) with what was sent last; current_a: as the drive says."""
         share = (max(abs(self.last), abs(current_a) * self._scale) / self._nominal) ** 2
-        self.heat += -math.expm1(-period / self._motor.thermal_time_s) * (share - self.heat)
+        self.heat += -expm1(-period / self._motor.thermal_time_s) * (share - self.heat)
 
     def limit(self, torque: float, angle: float, period: float) -> float:
         """The torque (N·m) that may be sent: limit, rate, heat, and no way out of its ends."""

@@ -5,7 +5,6 @@ J = (M, B1, B2) and the internal torques F. The true plant and the nominal model
 same functions with other constants.
 """
 
-import math
 from typing import NamedTuple
 
 from svsa.compilation import compiled
@@ -17,6 +16,7 @@ from svsa.model.spring import (
     compute_printed_reaction_torque,
     compute_reaction_torque,
 )
+from svsa.model.trigonometry import sin
 from svsa.parameters import ActuatorParameters
 from svsa.signals import Disturbance, State
 
@@ -120,7 +120,7 @@ def compute_acceleration(actuator, x, u, load):
     actuator: `Actuator`. x: `State`. u: `Torque`, N·m. load: `ExternalLoad`.
     """
     F = compute_internal_torque(actuator, x)
-    gravity = load.gravity_moment * math.sin(x.q)
+    gravity = load.gravity_moment * sin(x.q)
     return Acceleration(
         (F.link - gravity + load.w2) / (actuator.M + load.inertia),
         (F.motor1 + u.u1 + load.w4) / actuator.B1,

@@ -3,6 +3,7 @@
 import math
 
 from svsa.compilation import compiled
+from svsa.model.trigonometry import acos
 
 
 @compiled
@@ -38,4 +39,4 @@ def compute_zero_stiffness_deflection(mu):
     With c = cos φ: 2c² − μc − 1 = 0, c = (μ + √(μ² + 8))/4. Beyond this angle the spring
     pushes the wrong way. mu: lever ratio in [0, 1). Returns rad, positive.
     """
-    return math.acos((mu + math.sqrt(mu * mu + 8.0)) / 4.0)
+    return acos((mu + math.sqrt(mu * mu + 8.0)) / 4.0)

@@ -8,6 +8,8 @@ import math
 from typing import NamedTuple
 
 from svsa.compilation import compiled
+from svsa.model.exponential import log1p
+from svsa.model.trigonometry import cos, sin, sin_cos
 
 REACTION_ENERGY = 0
 REACTION_PRINTED = 1
@@ -34,7 +36,7 @@ class SpringDerivatives(NamedTuple):
 @compiled
 def compute_elastic_torque(mu, phi, K):
     """τ_e = K μ² sin φ cos φ / (1 − μ cos φ)², N·m, Eq 2. Positive pulls q back."""
-    s, c = math.sin(phi), math.cos(phi)
+    s, c = sin_cos(phi)
     n = 1.0 - mu * c
     return K * mu * mu * s * c / (n * n)
 
@@ -42,7 +44,7 @@ def compute_elastic_torque(mu, phi, K):
 @compiled
 def compute_stiffness(mu, phi, K):
     """σ = ∂τ_e/∂φ = K μ² (cos 2φ − μ cos φ) / (1 − μ cos φ)³, N·m/rad, Eq 3."""
-    c = math.cos(phi)
+    c = cos(phi)
     n = 1.0 - mu * c
     return K * mu * mu * (2.0 * c * c - 1.0 - mu * c) / (n * n * n)
 
@@ -53,9 +55,9 @@ def compute_elastic_energy(mu, phi, K):
 
     Written with ε = μ(1 − cos φ)/(1 − μ), so that nothing cancels at small deflection.
     """
-    d = 2.0 * math.sin(0.5 * phi) ** 2
+    d = 2.0 * sin(0.5 * phi) ** 2
     epsilon = mu * d / (1.0 - mu)
-    return K * (epsilon / ((1.0 - mu) * (1.0 + epsilon)) - math.log1p(epsilon))
+    return K * (epsilon / ((1.0 - mu) * (1.0 + epsilon)) - log1p(epsilon))
 
 
 @compiled
@@ -65,7 +67,7 @@ def compute_reaction_torque(mu, phi, K, gamma):
     Written with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n) and 1 − cos φ = sin²φ/(1 + cos φ),
     so that nothing cancels; |φ| < π. gamma: reduction γ of the spiral.
     """
-    s, c = math.sin(phi), math.cos(phi)
+    s, c = sin_cos(phi)
     d = s * s / (1.0 + c)
     n = 1.0 - mu * c
     return K * mu * d * (1.0 / (1.0 - mu) + c / n) / ((1.0 - mu) * n * 2.0 * math.pi * gamma)
@@ -80,10 +82,10 @@ def compute_printed_reaction_torque(mu, phi, K):
     """
     t = 2.0 * math.pi * mu
     sin_2beta = 2.0 * t / (1.0 + t * t)
-    c = math.cos(phi)
+    c = cos(phi)
     n = 1.0 - mu * c
     square = 1.0 + mu * mu - 2.0 * mu * c
-    return K * mu * mu * sin_2beta * math.sin(phi) ** 2 / (2.0 * n * square)
+    return K * mu * mu * sin_2beta * sin(phi) ** 2 / (2.0 * n * square)
 
 
 @compiled
@@ -93,7 +95,7 @@ def compute_spring_derivatives(mu, phi, K):
     τ_e = K μ² S/n² with S = sin φ cos φ; σ = K μ² N/n³ with N = cos 2φ − μ cos φ;
     ∂τ_e/∂μ = 2Kμ S/n³; ∂²τ_e/∂μ² = 2K S (1 + 2μ cos φ)/n⁴.
     """
-    s, c = math.sin(phi), math.cos(phi)
+    s, c = sin_cos(phi)
     S = s * c
     S1 = c * c - s * s
     S2 = -4.0 * S

@@ -1,6 +1,5 @@
 """The nonlinear disturbance observer, Eq 10–16, in discrete time."""
 
-import math
 from typing import Annotated
 
 from pydantic import Field
@@ -8,6 +7,7 @@ from pydantic import Field
 from svsa.checked import Checked, Number, quantity
 from svsa.compilation import compiled
 from svsa.model.dynamics import compute_internal_torque
+from svsa.model.exponential import expm1
 from svsa.signals import Disturbance
 
 Bandwidth = Annotated[Number, Field(ge=0.1, le=1000)]
@@ -23,7 +23,7 @@ class ObserverBandwidth(Checked):
 
 def compute_shares(observer: ObserverBandwidth, period: float) -> tuple[float, float, float]:
     """1 − e^(−βT) of the three channels: how much of the error one sample takes away."""
-    b2, b4, b6 = (-math.expm1(-beta * period) for beta in observer.bandwidth_rad_per_s)
+    b2, b4, b6 = (-expm1(-beta * period) for beta in observer.bandwidth_rad_per_s)
     return b2, b4, b6
 
 

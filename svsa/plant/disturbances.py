@@ -11,6 +11,7 @@ from svsa.checked import BY_KIND, Checked, Number, quantity
 from svsa.compilation import compiled
 from svsa.errors import ParameterError, Violation
 from svsa.model.dynamics import ExternalLoad
+from svsa.model.trigonometry import sin
 
 GRAVITY_M_PER_S2 = 9.81
 PAPER_TORQUE_NM = 2.0
@@ -267,7 +268,7 @@ def compute_load(table, tick, period, time):
         else:
             shape = 1.0
             if row[KIND] == SINE:
-                shape = math.sin(row[OMEGA] * since + row[PHASE])
+                shape = sin(row[OMEGA] * since + row[PHASE])
             w2 += shape * row[W2]
             w4 += shape * row[W4]
             w6 += shape * row[W6]

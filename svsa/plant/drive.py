@@ -1,8 +1,7 @@
 """The drives: from the torque that is asked for to the torque that the motors make."""
 
-import math
-
 from svsa.compilation import compiled
+from svsa.model.exponential import exp, expm1
 from svsa.signals import Torque
 
 
@@ -15,7 +14,7 @@ def compute_lagged_torque(start, target, lag, since):
     """
     if lag <= 0.0:
         return target
-    rest = math.exp(-since / lag)
+    rest = exp(-since / lag)
     return Torque(
         target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
     )
@@ -26,7 +25,7 @@ def compute_mean_torque(start, target, lag, period):
     """The mean of `compute_lagged_torque` over a period (s): what the observer is told."""
     if lag <= 0.0:
         return target
-    rest = lag / period * -math.expm1(-period / lag)
+    rest = lag / period * -expm1(-period / lag)
     return Torque(
         target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
     )

@@ -1,8 +1,7 @@
 """Friction of the motors: Coulomb and Stribeck."""
 
-import math
-
 from svsa.compilation import compiled
+from svsa.model.exponential import exp, tanh
 
 
 @compiled
@@ -14,5 +13,5 @@ def compute_friction(velocity, coulomb, static, stribeck, creep):
     the sign, so that the equations stay differentiable.
     """
     ratio = velocity / stribeck
-    level = coulomb + (static - coulomb) * math.exp(-ratio * ratio)
-    return level * math.tanh(velocity / creep)
+    level = coulomb + (static - coulomb) * exp(-ratio * ratio)
+    return level * tanh(velocity / creep)

@@ -9,6 +9,8 @@ import math
 import numpy as np
 
 from svsa.compilation import compiled
+from svsa.model.exponential import log
+from svsa.model.trigonometry import cos
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX1 = np.uint64(0xBF58476D1CE4E5B9)
@@ -37,5 +39,5 @@ def draw_uniform(seed, tick, channel):
 @compiled
 def draw_normal(seed, tick, channel):
     """A standard normal number (Box–Muller) from the channels 2·channel and 2·channel + 1."""
-    radius = math.sqrt(-2.0 * math.log(draw_uniform(seed, tick, 2 * channel)))
-    return radius * math.cos(2.0 * math.pi * draw_uniform(seed, tick, 2 * channel + 1))
+    radius = math.sqrt(-2.0 * log(draw_uniform(seed, tick, 2 * channel)))
+    return radius * cos(2.0 * math.pi * draw_uniform(seed, tick, 2 * channel + 1))

@@ -8,6 +8,7 @@ from pydantic import model_validator
 from svsa.checked import Checked, Number, quantity
 from svsa.compilation import compiled
 from svsa.errors import ParameterError, Violation
+from svsa.model.trigonometry import sin_cos
 from svsa.reference.fade import blend, compute_fade
 from svsa.reference.shape import (
     CHIRP,
@@ -84,7 +85,8 @@ def compute_chirp(offset, amplitude, start, end, duration, taper, time):
     r = 2.0 * math.pi * (end - start) / duration
     p = 2.0 * math.pi * start + r * time
     angle = (2.0 * math.pi * start + 0.5 * r * time) * time
-    s, c = amplitude * math.sin(angle), amplitude * math.cos(angle)
+    s, c = sin_cos(angle)
+    s, c = amplitude * s, amplitude * c
     p2 = p * p
     swing = Derivatives(
         offset + s,

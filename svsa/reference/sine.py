@@ -5,6 +5,7 @@ from typing import Literal
 
 from svsa.checked import Checked, Number, quantity
 from svsa.compilation import compiled
+from svsa.model.trigonometry import sin_cos
 from svsa.reference.shape import FULL_TURN_RAD, SINE, TRANSITION, Derivatives, Shape
 
 
@@ -78,7 +79,7 @@ def build_sine(
 def compute_sine(offset, amplitude, omega, phase, time):
     """Offset + amplitude sin(ωt + phase) with four derivatives; ω in rad/s, t in s."""
     angle = omega * time + phase
-    s = amplitude * math.sin(angle)
-    c = amplitude * math.cos(angle)
+    s, c = sin_cos(angle)
+    s, c = amplitude * s, amplitude * c
     w2 = omega * omega
     return Derivatives(offset + s, omega * c, -w2 * s, -w2 * omega * c, w2 * w2 * s)

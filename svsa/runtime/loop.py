@@ -35,6 +35,7 @@ from svsa.model.dynamics import (
     compute_deflection,
     compute_disturbance,
 )
+from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
@@ -118,7 +119,7 @@ def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: in
         torque1_max=c.limits.torque1_nm if limited else math.inf,
         torque2_max=c.limits.torque2_nm if limited else math.inf,
         bench=build_bench(c.effects, c.seed, c.actuator, c.sampling.period_s),
-        decay=math.exp(-estimation.corner_rad_per_s * c.sampling.period_s) if estimation else 0.0,
+        decay=exp(-estimation.corner_rad_per_s * c.sampling.period_s) if estimation else 0.0,
         domain=build_domain(c.actuator, c.limits),
         period=c.sampling.period_s,
         steps=steps,

@@ -1,0 +1,49 @@
+"""Every sample of the paper's simulated figures, and of one run with every effect, as a hash.
+
+python -m tests.experiment.golden
+"""
+
+import hashlib
+import json
+import sys
+
+import svsa
+from svsa.plant.effects import (
+    CurrentLag,
+    Effects,
+    Encoders,
+    Friction,
+    LinkGravity,
+    SensorNoise,
+    StateEstimation,
+)
+
+EVERY_EFFECT = Effects(
+    encoders=Encoders(),
+    estimation=StateEstimation(),
+    delay_samples=1,
+    friction=Friction(),
+    current_lag=CurrentLag(),
+    noise=SensorNoise(),
+    gravity=LinkGravity(),
+)
+
+
+def compute_hash(result: svsa.Result) -> str:
+    """Of all channels at all ticks, as little-endian doubles."""
+    return hashlib.sha256(result.samples.astype("<f8").tobytes()).hexdigest()[:16]
+
+
+def compute_hashes() -> dict[str, str]:
+    """Of Figures 4A, 4B and 5 with both laws, and of 4A with every effect."""
+    hashes = {
+        f"{figure} {law}": compute_hash(svsa.simulate(figure, law))
+        for figure in ("4a", "4b", "5")
+        for law in ("fl", "ndobc")
+    }
+    run = svsa.simulate("4a", "ndobc", effects=EVERY_EFFECT, seed=7, duration_s=8.0)
+    return hashes | {"4a with every effect": compute_hash(run)}
+
+
+if __name__ == "__main__":
+    json.dump(compute_hashes(), sys.stdout)

@@ -1,0 +1,44 @@
+"""The same bits on every machine: x86-64 and aarch64, with or without wide registers or a fused
+multiply-add.
+
+A change of an equation changes these hashes: put in the new ones (`python -m
+tests.experiment.golden`), and say in the commit why. A change of numba, LLVM, libm or processor
+that changes them is a fault.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from tests.experiment.golden import compute_hashes
+
+GOLDEN = {
+    "4a fl": "1c06d5097b6c8708",
+    "4a ndobc": "2b3870f260320b6c",
+    "4b fl": "439805e4654b5690",
+    "4b ndobc": "e26401e0d4b72c20",
+    "5 fl": "971be87890df8022",
+    "5 ndobc": "17b879fbf2e0bbdd",
+    "4a with every effect": "d769f2356f780a26",
+}
+
+
+def test_every_sample_of_the_figures_is_what_it_was() -> None:
+    assert compute_hashes() == GOLDEN
+
+
+def test_a_processor_without_any_extension_computes_the_same(tmp_path: Path) -> None:
+    """Compiled anew for the oldest of this machine's family: on x86-64 without AVX and FMA."""
+    machine = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "SVSA_CACHE": str(tmp_path)}
+    answer = subprocess.run(
+        [sys.executable, "-m", "tests.experiment.golden"],
+        env=os.environ | machine,
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    assert answer.returncode == 0, answer.stderr
+    assert json.loads(answer.stdout) == GOLDEN
