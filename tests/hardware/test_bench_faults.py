@@ -1,8 +1,8 @@
 """Every fault that can be caused is caused, on the emulated rig while it runs Figure 4A.
 
-In lockstep, over the wire. What counts is what the rig's own drives were told, in the rig's
-time, and where its true mechanism went; physics decides which of several faults comes first, so
-some causes name more than one.
+In lockstep, in this process; a few over sockets too. What counts is what the rig's own drives
+were told, in the rig's time, and where its true mechanism went; physics decides which of several
+faults comes first, so some causes name more than one.
 """
 
 import math
@@ -14,7 +14,7 @@ import pytest
 
 from svsa.errors import StateError
 from svsa.experiment.bench_run import LockstepBench, connect_bench
-from svsa.hardware.bus import open_bus
+from svsa.hardware import can_plant
 from svsa.hardware.drive import build_broadcast_resets
 from svsa.hardware.emulation import ADVANCE_ID, encode_time
 from svsa.hardware.faults import FAULTS
@@ -38,9 +38,10 @@ from svsa.rig.faults import (
     Unplugged,
     ZeroedCounter,
 )
-from svsa.rig.launch import RunningRig, start_rig
+from svsa.rig.launch import start_rig
 from svsa.signals import Torque
 
+from .in_process_rig import InProcessRig, start_in_process
 from .watched_bench import FIGURE, Bench, make_ready
 
 DRIVES: tuple[DriveName, DriveName] = ("motor1", "motor2")
@@ -51,15 +52,15 @@ SEEN_IN_MOTION = {*WRONG, "deflection_limit", "position_limit", "overload"}
 
 
 @pytest.fixture(scope="module")
-def rig() -> Iterator[RunningRig]:
-    with start_rig(lockstep=True) as running:
+def rig() -> Iterator[InProcessRig]:
+    with start_in_process() as running:
         yield running
 
 
 class Place:
     """The one bench of this module: READY for each test, made anew after one that failed."""
 
-    def __init__(self, rig: RunningRig) -> None:
+    def __init__(self, rig: InProcessRig) -> None:
         self._rig = rig
         self._bench: Bench | None = None
 
@@ -76,7 +77,7 @@ class Place:
 
 
 @pytest.fixture(scope="module")
-def place(rig: RunningRig) -> Iterator[Place]:
+def place(rig: InProcessRig) -> Iterator[Place]:
     made = Place(rig)
     yield made
     made.close()
@@ -112,7 +113,7 @@ def quick_stop(b: Bench) -> None:
 
 def intrude(b: Bench) -> None:
     """Another program on the bus resets the drives, and waits until the rig has heard it."""
-    bus = open_bus(connect_bench(b.rig).bus)
+    bus = can_plant.open_bus(b.bench.bus)
     for frame in build_broadcast_resets(b.bench):
         bus.send(frame)
     bus.send(can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(0)))
@@ -196,6 +197,22 @@ def test_a_fault_ends_the_run_and_is_cleared_by_hand_only(ready: Bench, name: st
     if "load" not in name and "pulled" not in name:
         check_speeds(ready, 0.25 if "frozen" in name else 1.4)
     ready.recover()
+
+
+@pytest.mark.parametrize(
+    "name", ["no frames of motor1", "error frames", "a stranger resets the drives"]
+)
+def test_over_sockets_it_ends_the_same(name: str) -> None:
+    """The causes that come over the wire itself, with the rig in a process of its own."""
+    with start_rig(lockstep=True) as rig:
+        bench = make_ready(rig)
+        try:
+            bench.run()
+            begin = bench.begin_watch()
+            CASES[name].cause(bench)
+            check_stopped(bench, CASES[name], begin)
+        finally:
+            bench.close()
 
 
 def check_speeds(b: Bench, share: float) -> None:
@@ -301,7 +318,7 @@ def test_a_drive_that_does_not_answer_is_named_while_arming(ready: Bench) -> Non
     ],
 )
 def test_a_limit_of_the_bench_file_ends_the_run(
-    place: Place, rig: RunningRig, safety: dict[str, float], code: str
+    place: Place, rig: InProcessRig, safety: dict[str, float], code: str
 ) -> None:
     """The figure itself goes beyond a limit this low: no fault has to be injected."""
     place.close()
@@ -315,7 +332,9 @@ def test_a_limit_of_the_bench_file_ends_the_run(
         bench.close()
 
 
-def test_the_operators_silence_ramps_to_zero_without_a_fault(place: Place, rig: RunningRig) -> None:
+def test_the_operators_silence_ramps_to_zero_without_a_fault(
+    place: Place, rig: InProcessRig
+) -> None:
     place.close()
     bench = make_ready(rig, dead_man=True)
     try:
@@ -338,7 +357,7 @@ def test_the_operators_silence_ramps_to_zero_without_a_fault(place: Place, rig: 
 
 
 def test_it_neither_starts_before_home_nor_arms_uncalibrated(
-    place: Place, rig: RunningRig, tmp_path: Any
+    place: Place, rig: InProcessRig, tmp_path: Any
 ) -> None:
     place.close()
     bench = Bench(rig)

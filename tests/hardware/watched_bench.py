@@ -8,6 +8,8 @@ from svsa.experiment.paper import get_figure
 from svsa.hardware.machine import BenchStatus
 from svsa.rig.launch import RunningRig
 
+from .in_process_rig import InProcessRig
+
 FIGURE = get_figure("4a").build_configuration(load=False)
 MOVING_TICKS = 500
 LONGEST_TICKS = 700
@@ -32,7 +34,7 @@ class Bench(LockstepBench):
     when a drive that hears was last told anything but zero, in the rig's time.
     """
 
-    def __init__(self, rig: RunningRig, **safety: Any) -> None:
+    def __init__(self, rig: RunningRig | InProcessRig, **safety: Any) -> None:
         bench, self.beats = connect_bench(rig), RigBeats()
         bench = bench.changed(safety=bench.safety.changed(**safety))
         super().__init__(rig, FIGURE, 1, bench, self.beats)  # pyright: ignore[reportArgumentType]
@@ -94,7 +96,7 @@ class Bench(LockstepBench):
         assert self.read_currents() == [0, 0]
 
 
-def make_ready(rig: RunningRig, **safety: Any) -> Bench:
+def make_ready(rig: RunningRig | InProcessRig, **safety: Any) -> Bench:
     bench = Bench(rig, **safety)
     rig.control.clear_faults()
     rig.control.set_loads(())

@@ -1,0 +1,52 @@
+"""Between a rig and its clients: frames in, time on where it is asked for, frames out."""
+
+from typing import Any
+
+from svsa.hardware.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, decode_time, encode_time
+from svsa.rig.frame import Frame, FrameServer
+from svsa.rig.rig import Rig
+
+LONGEST_STEP_US = 10_000_000
+
+
+class Exchange:
+    """Carries frames between a rig and the clients of its servers.
+
+    lockstep: time goes on only when a client asks for it with `ADVANCE_ID`. origin_s: what the
+    stamps of frames count from, s, in the rig's time.
+    """
+
+    def __init__(
+        self, rig: Rig, servers: list[FrameServer], lockstep: bool, origin_s: float = 0.0
+    ) -> None:
+        self._rig, self._servers = rig, servers
+        self._lockstep, self._origin_s = lockstep, origin_s
+
+    def serve(self, server: FrameServer) -> None:
+        """Do what has come; who is new is greeted before the first frame of theirs acts."""
+        heard = server.poll()
+        for client in server.take_arrivals():
+            greeting = Frame(EMULATED_ID, EMULATED_DATA, extended=True)
+            server.send(greeting, self._stamp(self._rig.now_us), to=client)
+        for client, frame in heard:
+            self._take(server, client, frame)
+
+    def advance_to(self, time_us: int) -> None:
+        """Let the rig go on to this time, and say what it says meanwhile."""
+        for said_us, frame, sender in self._rig.advance_to(time_us):
+            for server in self._servers:
+                server.send(frame, self._stamp(said_us), but=sender)
+
+    def _stamp(self, time_us: int) -> float:
+        return self._origin_s + time_us * 1e-6
+
+    def _take(self, server: FrameServer, client: Any, frame: Frame) -> None:
+        """A client's frame: a command to a drive, or the request to let time go on."""
+        if not (frame.extended and frame.can_id == ADVANCE_ID):
+            self._rig.receive(frame, client)
+            return
+        if self._lockstep:
+            self.advance_to(min(decode_time(frame.data), self._rig.now_us + LONGEST_STEP_US))
+        now_us = self._rig.now_us
+        echo = Frame(ADVANCE_ID, encode_time(now_us), extended=True)
+        server.send(echo, self._stamp(now_us), to=client)
