@@ -7,12 +7,13 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Error, Playwright
 
+# Without a graphics card: the page is put together without one, WebGL is drawn by SwiftShader.
+# Putting the page together by SwiftShader too took most of a test's processor time.
 ARGUMENTS = [
     "--no-sandbox",
+    "--disable-gpu",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--disable-accelerated-2d-canvas",
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
