@@ -3,7 +3,8 @@ PYTHON ?= python3
 BIN := .venv/bin
 PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
-PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print)
+PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
+  frontend/scene/svsa_scene/cameras.json
 # Each module in one of two processes, in the order of the folders: the browser last.
 SIDE_BY_SIDE := -n 2 --dist loadfile --no-loadscope-reorder
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web

@@ -12,6 +12,7 @@ from tests.lab import Lab
 pytestmark = pytest.mark.browser
 
 LONG_MS = 60_000
+SIZES = ((390, 844), (1280, 720), (1440, 900))
 CAMERA = """() => {
     const viser = document.querySelector("iframe").contentWindow.__viserMutable;
     const { x, y, z } = viser?.camera?.position ?? {};
@@ -34,6 +35,69 @@ def test_the_camera_goes_to_a_preset_of_this_page_only(page: Page, lab: Lab) -> 
     page.wait_for_function(f"() => ({CAMERA})()[0] < -11", timeout=LONG_MS)
     page.get_by_role("button", name="Camera: Front").click()
     page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
+
+
+# What is wrong with the labels on the picture, once all that it shows has been laid out anew.
+FIND_LABEL_PROBLEMS = """async () => {
+    for (let i = 0; i < 14; i++) await new Promise(requestAnimationFrame);
+    const view = document.querySelector(".view");
+    const frame = view.querySelector("iframe").getBoundingClientRect();
+    const shown = [...view.querySelectorAll(".scene-labels span")]
+        .filter((one) => getComputedStyle(one).visibility === "visible")
+        .map((one) => ({ text: one.innerText, box: one.getBoundingClientRect() }));
+    const tools = [...view.querySelectorAll(".tool")]
+        .map((one) => ({ text: one.innerText || "tool", box: one.getBoundingClientRect() }));
+    const problems = shown.length < 3 ? [`only ${shown.length} labels`] : [];
+    for (const [index, { text, box }] of shown.entries()) {
+        if (box.left < frame.left || box.right > frame.right || box.top < frame.top ||
+            box.bottom > frame.bottom) problems.push(`${text} is cut`);
+        for (const { text: other, box: b } of [...shown.slice(index + 1), ...tools]) {
+            if (Math.min(box.right, b.right) > Math.max(box.left, b.left) &&
+                Math.min(box.bottom, b.bottom) > Math.max(box.top, b.top)) {
+                problems.push(`${text} lies over ${other}`);
+            }
+        }
+    }
+    return problems;
+}"""
+
+
+def test_labels_lie_on_the_picture_clear_of_each_other(page: Page, lab: Lab) -> None:
+    open_view(page, lab)
+    rivals = {"rivals": [{"law": "fl"}, {"law": "ndobc"}]}
+    lab.client.put(lab.session + "/lanes", json=rivals).raise_for_status()
+    lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
+    problems = []
+
+    def measure(where: str) -> None:
+        found = page.evaluate(FIND_LABEL_PROBLEMS)
+        problems.extend(f"{where}: {problem}" for problem in found)
+
+    for (width, height), stiffness in zip(SIZES, (5.0, 15.0, 60.0), strict=True):
+        reference = {"kind": "constant", "stiffness_nm_per_rad": stiffness}
+        lab.client.put(lab.session + "/stiffness", json=reference).raise_for_status()
+        lab.jump(3)
+        page.set_viewport_size({"width": width, "height": height})
+        measure(f"{width} px")
+        page.keyboard.press("n")
+        for camera in ("Front", "Side", "Spring", "Whole"):
+            page.get_by_role("button", name=f"Camera: {camera}").click()
+            measure(f"{width} px, {camera}, {stiffness:g} N·m/rad, names")
+        page.keyboard.press("n")
+    assert not problems, "\n".join(problems)
+
+
+def test_the_first_camera_is_fitted_and_a_narrower_window_moves_it_back(
+    page: Page, lab: Lab
+) -> None:
+    page.set_viewport_size({"width": 1280, "height": 720})
+    open_view(page, lab)
+    first = page.evaluate(CAMERA)
+    page.get_by_role("button", name="Camera: Whole").click()
+    page.wait_for_timeout(300)
+    assert page.evaluate(CAMERA) == pytest.approx(first, abs=0.01)
+    page.set_viewport_size({"width": 1130, "height": 1200})
+    page.wait_for_function(f"() => ({CAMERA})()[2] < {1.2 * first[2]}", timeout=LONG_MS)
 
 
 def wait_for_pushes(page: Page, lab: Lab, ended: int) -> list[str]:
@@ -100,9 +164,9 @@ def test_names_of_the_parts_are_shown_in_the_window_that_asks(page: Page, lab: L
     open_view(page, lab)
     seen = """name => document.querySelector("iframe").contentWindow
         .__viserMutable && document.querySelector("iframe").contentWindow
-        .__viserSceneTree.getState()[name].visibility"""
+        .__viserSceneTree.getState()[name]?.visibility"""
     names = page.get_by_role("button", name="Names of the parts")
-    assert page.evaluate(seen, "/a/c/p/n4") is False
+    page.wait_for_function(f"() => ({seen})('/a/c/p/n4') === false", timeout=LONG_MS)
     page.keyboard.press("n")
     expect(names).to_have_attribute("aria-pressed", "true")
     page.wait_for_function(f"() => ({seen})('/a/c/p/n4')", timeout=LONG_MS)

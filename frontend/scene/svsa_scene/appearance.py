@@ -1,6 +1,8 @@
 """Colours, materials, light and camera of the view."""
 
+import json
 import math
+from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
@@ -90,7 +92,8 @@ def paint(mesh: trimesh.Trimesh, finish: Finish) -> trimesh.Trimesh:
 
 
 def set_stage(server: viser.ViserServer, ground: float) -> None:
-    """Light, ground grid at z = `ground` and the first camera pose.
+    """Light, ground grid at z = `ground` and the first camera pose: of those in `cameras.json`,
+    from which the page has its presets too, the one that shows all.
 
     There is no environment map: without a graphics card it makes a frame three times as long.
     """
@@ -121,10 +124,11 @@ def set_stage(server: viser.ViserServer, ground: float) -> None:
         fade_distance=6.5,
         fade_from="origin",
     )
+    whole = json.loads((files("svsa_scene") / "cameras.json").read_text("utf-8"))["whole"]
     camera = server.initial_camera
-    camera.position = (7.84, 5.06, 1.74)
-    camera.look_at = (-0.75, -0.27, -0.74)
-    camera.fov = math.radians(30.0)
+    camera.position = tuple(whole["position"])
+    camera.look_at = tuple(whole["look_at"])
+    camera.fov = math.radians(whole["fov_deg"])
     camera.near = 0.1
     camera.far = 60.0
 

@@ -8,6 +8,7 @@ import viser
 from svsa_scene import appearance as look
 from svsa_scene.geometry import join, make_arc, make_arrow_head, turn, turn_over
 from svsa_scene.moved import Moved
+from svsa_scene.names import add_label
 from svsa_scene.pose import ActuatorPose
 
 SMALLEST_NM = 0.05
@@ -86,14 +87,7 @@ class TorqueArrow:
         scene.add_mesh_simple(
             f"{node}/h/m", head.vertices, head.faces, color=color, cast_shadow=False
         )
-        scene.add_label(
-            f"{node}/h/t",
-            label,
-            position=(radius + 0.08, _HEAD + 0.14, 0.0),
-            anchor="center-center",
-            font_screen_scale=1.0,
-            depth_test=True,
-        )
+        add_label(server, f"{node}/h/t", label, (radius + 2 * _WIRE, 0.4 * _HEAD, 0.0))
 
     def show(self, torque_nm: float) -> None:
         """Turn with the torque; too small a one is not drawn."""
@@ -125,17 +119,18 @@ class TorqueArrows:
     """u1 and w4 about the principal motor, u2 and w6 about the stiffness motor, w2 on the link's
     ring from its arm.
 
-    Those of the motors begin at the top and do not turn with them.
+    Those of the motors begin at the top and do not turn with them; they are so wide that the link's
+    ring, seen from the front, does not hide them.
     """
 
     def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
         def add(place: ArrowPlace, color: look.Rgb, label: str) -> TorqueArrow:
             return TorqueArrow(server, moved, place, color, label)
 
-        self._torque1 = add(ArrowPlace("/a/u1", 0.78, -2.95, _TOP), look.PRINCIPAL.color, "u₁")
-        self._motor1 = add(ArrowPlace("/a/w4", 0.78, -2.4, _TOP), look.DISTURBANCE, "w₄")
-        self._torque2 = add(ArrowPlace("/a/u2", 1.06, -1.0, _TOP), look.SECONDARY.color, "u₂")
-        self._motor2 = add(ArrowPlace("/a/w6", 1.06, -0.45, _TOP), look.DISTURBANCE, "w₆")
+        self._torque1 = add(ArrowPlace("/a/u1", 1.3, -2.95, _TOP), look.PRINCIPAL.color, "u₁")
+        self._motor1 = add(ArrowPlace("/a/w4", 1.3, -2.4, _TOP), look.DISTURBANCE, "w₄")
+        self._torque2 = add(ArrowPlace("/a/u2", 1.1, -1.0, _TOP), look.SECONDARY.color, "u₂")
+        self._motor2 = add(ArrowPlace("/a/w6", 1.1, -0.45, _TOP), look.DISTURBANCE, "w₆")
         self._link = add(ArrowPlace("/a/l/w2", 0.84, 1.0, 0.0), look.DISTURBANCE, "w₂")
 
     def show(self, pose: ActuatorPose) -> None:

@@ -1,60 +1,56 @@
-"""Names of the parts, each on a line from its part, and the motors' angles.
+"""Labels of the scene: each at its part, where its line begins.
 
-The names are hidden until a viewer asks: every browser shows them for itself alone
-(`frontend/web/src/scene/viewer.ts` knows them by their nodes).
+The page lays them out on the picture, clear of each other (`frontend/web/src/scene/labels.ts`);
+in a viewer without the page they stand at the parts themselves. The names of the parts are hidden
+until a viewer asks: every browser shows them for itself alone (`scene/viewer.ts` knows their
+nodes).
 """
 
 from typing import NamedTuple
 
-import numpy as np
 import viser
 
-_INK = (128, 138, 150)
+from svsa_scene.mechanism import SECTOR_Z
+
+Point = tuple[float, float, float]
 
 
-class PartName(NamedTuple):
-    """A name at the end of a line. node: below the frame that it moves with. part, place: where
-    the line begins and ends, scene units of that frame.
+class PartLabel(NamedTuple):
+    """A word for a part. node: frame of its own, below the one that it moves with. place: the
+    point of the part, scene units of that frame.
     """
 
     node: str
     text: str
-    part: tuple[float, float, float]
-    place: tuple[float, float, float]
+    place: Point
 
 
 SYMBOLS = (
-    PartName("/a/t1", "θ₁", (-0.48, 0.0, -2.68), (-1.05, 0.0, -2.68)),
-    PartName("/a/t2", "θ₂", (-0.4, 0.0, -0.72), (-1.3, 0.0, -0.72)),
+    PartLabel("/a/c/t0", "φ", (-1.08, 0.0, SECTOR_Z)),
+    PartLabel("/a/l/t0", "q", (1.14, 0.0, 0.92)),
+    PartLabel("/a/g/t0", "q_d", (1.56, 0.0, 0.92)),
+    PartLabel("/a/t1", "θ₁", (-0.48, 0.0, -2.68)),
+    PartLabel("/a/t2", "θ₂", (-0.4, 0.0, -0.72)),
 )
 NAMES = (
-    PartName("/a/n1", "principal motor", (0.3, 0.37, -2.8), (1.2, 0.7, -2.8)),
-    PartName("/a/n2", "stiffness motor", (0.25, 0.31, -0.9), (1.5, 0.9, -0.9)),
-    PartName("/a/c/n3", "spiral", (0.33, -0.42, 0.27), (0.95, -1.1, 0.5)),
-    PartName("/a/c/p/n4", "pivot", (0.0, 0.0, 1.05), (-0.5, -0.95, 1.0)),
-    PartName("/a/l/n5", "lever", (-0.6, 0.085, 0.86), (-1.25, 0.6, 1.35)),
-    PartName("/a/l/n6", "spring", (0.0, -0.4, 1.05), (0.2, -1.28, 0.45)),
+    PartLabel("/a/n1", "principal motor", (0.0, 0.49, -2.8)),
+    PartLabel("/a/n2", "stiffness motor", (0.0, 0.41, -0.95)),
+    PartLabel("/a/c/s/n3", "spiral", (0.0, -0.56, 0.28)),
+    PartLabel("/a/c/p/n4", "pivot", (0.0, 0.0, 1.06)),
+    PartLabel("/a/l/v/n5", "lever", (0.18, 0.085, 0.87)),
+    PartLabel("/a/l/n6", "spring", (0.0, -0.42, 1.07)),
 )
 
 
-def add_names(server: viser.ViserServer) -> None:
-    """The angles in sight, unless a part is before them; the names hidden."""
-    for one in SYMBOLS:
-        _add(server, one, is_seen=True)
-    for one in NAMES:
-        _add(server, one, is_seen=False)
-
-
-def _add(server: viser.ViserServer, name: PartName, *, is_seen: bool) -> None:
-    scene = server.scene
-    scene.add_frame(name.node, show_axes=False, visible=is_seen)
-    points = np.array([[name.part, name.place]])
-    scene.add_line_segments(f"{name.node}/l", points, _INK, thickness=1.5, thickness_units="screen")
-    scene.add_label(
-        f"{name.node}/t",
-        name.text,
-        position=name.place,
-        anchor="center-center",
-        font_screen_scale=1.0,
-        depth_test=is_seen,
+def add_label(server: viser.ViserServer, node: str, text: str, place: Point) -> viser.LabelHandle:
+    """A label at a place of the frame that its node lies in; never smaller with the distance."""
+    return server.scene.add_label(
+        node, text, position=place, anchor="center-center", font_screen_scale=1.0
     )
+
+
+def add_part_labels(server: viser.ViserServer) -> None:
+    """The symbols in sight; the names hidden."""
+    for one in (*SYMBOLS, *NAMES):
+        server.scene.add_frame(one.node, show_axes=False, visible=one in SYMBOLS)
+        add_label(server, f"{one.node}/t", one.text, one.place)

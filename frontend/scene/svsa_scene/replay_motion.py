@@ -20,6 +20,7 @@ import zstandard
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.geometry import turn
+from svsa_scene.names import add_label
 from svsa_scene.pose import ActuatorPose, LaneStretch
 from svsa_scene.replay_packing import ArrayPack
 from svsa_scene.scene import ActuatorScene
@@ -44,6 +45,7 @@ _SMOOTH = ("wxyz", "position", "scale")
 _GHOST_STEP = 0.16
 _MOST_NAMED = 2
 _LONGEST_NAME = 16
+_ON_GHOST = (1.43, 0.1, 0.86)
 
 
 class Motion(NamedTuple):
@@ -154,13 +156,7 @@ def _add_ghost(
     group = [look.paint(mesh, finish) for mesh in mechanism.build_ghost()]
     server.scene.add_glb(f"{node}/solid", mechanism.export(group))
     if name:
-        server.scene.add_label(
-            f"{node}/t",
-            name,
-            position=(1.68 + 0.28 * lane, 0.0, 0.84),
-            anchor="center-center",
-            font_screen_scale=1.0,
-        )
+        add_label(server, f"{node}/t", name, _ON_GHOST)
     return frame
 
 

@@ -6,6 +6,7 @@ from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.geometry import turn
 from svsa_scene.moved import Moved
+from svsa_scene.names import add_label
 from svsa_scene.pose import RivalPose
 
 
@@ -25,12 +26,8 @@ class Rivals:
         for number in range(look.MOST_RIVALS):
             self._paint(number)
             self._labels.append(
-                scene.add_label(
-                    f"/a/r{number}/t",
-                    "",
-                    position=(1.84 + 0.3 * number, 0.0, 0.6),
-                    anchor="center-center",
-                    font_screen_scale=1.0,
+                add_label(
+                    server, f"/a/r{number}/t", "", (mechanism.compute_rival_tip(number), 0.15, 0.9)
                 )
             )
 

@@ -17,9 +17,11 @@ from svsa_scene.linkage import (
     compute_linkage,
 )
 from svsa_scene.moved import Moved
-from svsa_scene.names import add_names
+from svsa_scene.names import add_label, add_part_labels
 from svsa_scene.pose import ActuatorPose
 from svsa_scene.rivals import Rivals
+
+_ON_MASS = (1.14, 0.0, mechanism.HOOK_Z + 0.39)
 
 
 class ActuatorScene:
@@ -112,23 +114,8 @@ class ActuatorScene:
         )
 
     def _add_labels(self) -> None:
-        scene = self._server.scene
-        for name, text, position in (
-            ("/a/c/t", "φ", (-1.34, 0.0, mechanism.SECTOR_Z)),
-            ("/a/l/t", "q", (1.14, 0.0, 0.96)),
-            ("/a/g/t", "q_d", (1.5, 0.0, 1.3)),
-        ):
-            scene.add_label(
-                name, text, position=position, anchor="center-center", font_screen_scale=1.0
-            )
-        add_names(self._server)
-        self._mass_label = scene.add_label(
-            "/a/w/t",
-            "3 kg",
-            position=(1.14, 0.66, mechanism.HOOK_Z + 0.3),
-            anchor="center-center",
-            font_screen_scale=1.0,
-        )
+        add_part_labels(self._server)
+        self._mass_label = add_label(self._server, "/a/w/t", "3 kg", _ON_MASS)
 
     def _turn(self, key: str, node: viser.SceneNodeHandle, angle: float) -> None:
         if self._moved.is_due(key, (angle,)):

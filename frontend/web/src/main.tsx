@@ -16,6 +16,7 @@ import "./design/design.css";
 import "./design/plane.css";
 import "./design/outcome.css";
 import "./learning/learning.css";
+import "./scene/labels.css";
 import "./scene/scene.css";
 import "./bench/bench.css";
 import "./bench/hold.css";

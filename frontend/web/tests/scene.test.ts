@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
+import { addressOf, CAMERA_NAMES, placeCamera } from "../src/scene/cameras";
 import { angleSeen, type Camera, pullOf, wrap } from "../src/scene/ray";
-import { placeCamera } from "../src/scene/viewer";
 
 /** At the front of the actuator, on its axis, upright, looking back along it. */
 const FRONT: Camera = {
@@ -52,5 +52,21 @@ describe("the camera from the side", () => {
   it("is no farther away than it has to be", () => {
     expect(placeCamera("side", 2)).toEqual(placeCamera("side", 1.2));
     expect(halfSeen(0.6)).toBeCloseTo(halfSeen(0.8), 0);
+  });
+});
+
+describe("the first camera", () => {
+  it("is in viser's address, as far away as the picture is narrow", () => {
+    const { position } = placeCamera("whole", 0.45);
+    const asked = new URLSearchParams(addressOf(placeCamera("whole", 0.45)));
+    expect(asked.get("initialCameraPosition")?.split(",").map(Number)).toEqual([...position]);
+    const near = placeCamera("whole", 2).position;
+    expect(Math.hypot(...position)).toBeGreaterThan(1.8 * Math.hypot(...near));
+  });
+
+  it.each(CAMERA_NAMES)("%s has an angle that the address tells in rad", (name) => {
+    const place = placeCamera(name, 1);
+    const fov = Number(new URLSearchParams(addressOf(place)).get("initialCameraFov"));
+    expect(fov).toBeCloseTo((place.fov_deg * Math.PI) / 180, 9);
   });
 });

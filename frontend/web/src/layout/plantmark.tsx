@@ -12,5 +12,9 @@ export function markOf(plant: RunDetails["plant"]): Mark | null {
 
 export function PlantMark({ kind }: { kind: Mark | null }) {
   if (kind === null) return null;
-  return <strong class={`corner-mark is-${kind}`}>{text.mark[kind].name}</strong>;
+  return (
+    <strong class={`corner-mark is-${kind}`} data-over-picture>
+      {text.mark[kind].name}
+    </strong>
+  );
 }

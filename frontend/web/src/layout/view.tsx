@@ -1,28 +1,50 @@
+import { useCallback, useEffect, useRef } from "preact/hooks";
 import { sessionName } from "../api/request";
 import { answerKey } from "../keys/keys";
+import { addressOf } from "../scene/cameras";
+import { SceneLabels } from "../scene/labels";
 import { SceneTools } from "../scene/tools";
-import { enterView, isLow } from "../scene/viewer";
+import { beginAt, enterView, fitCamera, isLow } from "../scene/viewer";
 import { theme } from "../state/preferences";
 import { connectionCount } from "../state/session";
 import { text } from "../text/en";
 import { CornerMark } from "./marks";
 
+/** viser's page in the frame, its first camera fitted to the frame. */
+function load(frame: HTMLIFrameElement): void {
+  const first = addressOf(beginAt("whole", frame.clientWidth / frame.clientHeight));
+  frame.src = `viser/${sessionName}/?${first}${theme.peek() === "dark" ? "&darkMode" : ""}`;
+}
+
 /** The actuator in 3D, served by viser; made anew after each lost connection. */
 export function View() {
   const connection = connectionCount.value;
+  const frame = useRef<HTMLIFrameElement | null>(null);
+  const begin = useCallback((element: HTMLIFrameElement | null) => {
+    frame.current = element;
+    if (element !== null) load(element);
+  }, []);
+  const present = useCallback(() => frame.current, []);
+  const box = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const resizing = new ResizeObserver(fitCamera);
+    if (box.current !== null) resizing.observe(box.current);
+    return () => resizing.disconnect();
+  }, []);
   return (
-    <div class={`view ${isLow.value ? "is-low" : ""}`}>
+    <div class={`view ${isLow.value ? "is-low" : ""}`} ref={box}>
       {connection > 0 && (
         <iframe
-          key={connection}
+          key={`${connection} ${theme.value}`}
           title={text.view}
-          src={`viser/${sessionName}/${theme.value === "dark" ? "?darkMode" : ""}`}
+          ref={begin}
           onLoad={({ currentTarget }) => {
             currentTarget.contentWindow?.addEventListener("keydown", answerKey, true);
             enterView(currentTarget);
           }}
         />
       )}
+      <SceneLabels frame={present} />
       <SceneTools />
       <CornerMark />
     </div>

@@ -2,6 +2,7 @@
 import "uplot/dist/uPlot.min.css";
 import "../theme.css";
 import "../layout/plantmark.css";
+import "../scene/labels.css";
 import "../plots/plots.css";
 import "./replay.css";
 import "./about.css";

@@ -1,7 +1,8 @@
 import { effect } from "@preact/signals";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { PlantMark } from "../layout/plantmark";
 import { inkOf } from "../plots/inks";
+import { SceneLabels } from "../scene/labels";
 import { theme } from "../state/preferences";
 import { text } from "../text/replay";
 import { timeS } from "./clock";
@@ -40,6 +41,7 @@ const coloursOf = ({ stretches }: Run, lane: number) => [
 export function View({ recording: { run, arrays } }: { recording: Recording }) {
   const frame = useRef<HTMLIFrameElement>(null);
   const [state, setState] = useState<"starting" | "shown" | "failed">("starting");
+  const present = useCallback(() => frame.current, []);
   useEffect(() => {
     const element = frame.current;
     if (element === null) return;
@@ -61,6 +63,7 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
   return (
     <section class={`view is-${state}`} aria-label={text.view}>
       <iframe ref={frame} title={text.view} />
+      {state === "shown" && <SceneLabels frame={present} />}
       <PlantMark kind={findMark(run)} />
       {state === "failed" && <p class="view-problem">{text.noView}</p>}
       <ul class="view-legend">

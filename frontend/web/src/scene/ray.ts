@@ -15,6 +15,10 @@ const LINK_PLANE = 0.85;
 /** three.js has y up and looks the other way along the scene's axis. */
 const toScene = ([x, y, z]: Vector): Vector => [-z, -x, y];
 
+/** Where a camera is, in the scene's coordinates. */
+export const placeOf = ({ matrixWorld: { elements } }: Camera): Vector =>
+  toScene([elements[12] as number, elements[13] as number, elements[14] as number]);
+
 function turn(elements: readonly number[], [x, y, z]: Vector): Vector {
   const row = (index: number) =>
     (elements[index] as number) * x +
@@ -31,7 +35,7 @@ export function angleSeen(camera: Camera, right: number, up: number): number | n
   const { elements } = camera.matrixWorld;
   const reach = Math.tan((camera.fov * Math.PI) / 360);
   const sight = toScene(turn(elements, [right * camera.aspect * reach, up * reach, -1]));
-  const from = toScene([elements[12] as number, elements[13] as number, elements[14] as number]);
+  const from = placeOf(camera);
   const distance = (LINK_PLANE - from[0]) / sight[0];
   if (!Number.isFinite(distance) || distance <= 0) return null;
   const y = from[1] + distance * sight[1];

@@ -1,7 +1,8 @@
 import { session } from "../state/session";
 import { text } from "../text/en";
+import { CAMERA_NAMES } from "./cameras";
 import { isPushing, PushLayer } from "./push";
-import { areNamesOn, CAMERA_NAMES, isLow, setCamera, toggleLow, toggleNames } from "./viewer";
+import { areNamesOn, isLow, setCamera, toggleLow, toggleNames } from "./viewer";
 
 const words = text.scene;
 
@@ -30,7 +31,7 @@ export function SceneTools() {
   return (
     <>
       {isPushing.value && <PushLayer />}
-      <div class="scene-tools" role="toolbar" aria-label={words.tools}>
+      <div class="scene-tools" data-over-picture role="toolbar" aria-label={words.tools}>
         {CAMERA_NAMES.map((name) => (
           <button
             key={name}

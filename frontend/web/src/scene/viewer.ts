@@ -1,7 +1,8 @@
 /** The way into viser's page, which shares this page's origin: its camera, and how much it draws. */
 import { effect, signal } from "@preact/signals";
 import { remember, remembered } from "../state/storage";
-import type { Camera } from "./ray";
+import { type CameraName, placeCamera, type View } from "./cameras";
+import { type Camera, placeOf } from "./ray";
 
 interface Viser {
   messageQueue: Record<string, unknown>[];
@@ -13,32 +14,15 @@ interface ViserWindow extends Window {
   __viserMutable?: Viser;
 }
 
-type Point = readonly [number, number, number];
-export type CameraName = "start" | "front" | "side" | "spring";
-
-/** aspect: width over height of the narrowest picture that shows all from there. */
-interface Preset {
-  position: Point;
-  look_at: Point;
-  aspect: number;
-}
-
-const CAMERAS: Record<CameraName, Preset> = {
-  start: { position: [7.84, 5.06, 1.74], look_at: [-0.75, -0.27, -0.74], aspect: 0.9 },
-  front: { position: [9.4, 0.01, 0], look_at: [0.6, 0, -0.5], aspect: 0.75 },
-  side: { position: [-1.03, 11.5, 0.2], look_at: [-1.03, 0, -0.55], aspect: 1.08 },
-  spring: { position: [4.4, 1.5, 1.3], look_at: [0.6, 0, 0.05], aspect: 1.15 },
-};
-export const CAMERA_NAMES = Object.keys(CAMERAS) as CameraName[];
-
 /** What the picture can do without. */
 const DISPENSABLE = ["/ground", "/a/stand", "/a/t1", "/a/t2", "/light/rim"];
 /** The names of the parts, which the scene holds hidden: `svsa_scene/names.py`. */
-const NAMES = ["/a/n1", "/a/n2", "/a/c/n3", "/a/c/p/n4", "/a/l/n5", "/a/l/n6"];
+const NAMES = ["/a/n1", "/a/n2", "/a/c/s/n3", "/a/c/p/n4", "/a/l/v/n5", "/a/l/n6"];
 const LOW_PERIOD_MS = 1000 / 15;
 const STORE = "svsa.graphics";
 const WAIT_MS = 100;
 const PATIENCE = 300;
+const UNMOVED = 0.01;
 
 export const isLow = signal(remembered(STORE) === "low");
 /** Whether this page names the parts; that of nobody else does. */
@@ -63,26 +47,35 @@ export function enterView(frame: HTMLIFrameElement, tries = PATIENCE): void {
 
 export const cameraNow = (): Camera | null => viser.peek()?.camera ?? null;
 
-/** From where a preset looks: farther away where the picture is too narrow for it. */
-export function placeCamera(
-  name: CameraName,
-  aspect: number,
-): Record<"position" | "look_at", Point> {
-  const { position, look_at, aspect: least } = CAMERAS[name];
-  const away = Math.max(1, least / aspect);
-  const move = (axis: 0 | 1 | 2) => look_at[axis] + away * (position[axis] - look_at[axis]);
-  return { position: [move(0), move(1), move(2)], look_at };
+/** The preset that the camera was last sent to. */
+let sent: { name: CameraName; view: View } | null = null;
+
+/** The view begins with a preset; returns from where that looks. */
+export function beginAt(name: CameraName, aspect: number): View {
+  sent = { name, view: placeCamera(name, aspect) };
+  return sent.view;
 }
 
 export function setCamera(name: CameraName): void {
-  const { position, look_at } = placeCamera(name, cameraNow()?.aspect ?? 1);
+  const { position, look_at, fov_deg } = beginAt(name, cameraNow()?.aspect ?? 1);
+  const fov = (fov_deg * Math.PI) / 180;
   viser
     .peek()
     ?.messageQueue.push(
+      { type: "SetCameraFovMessage", fov, initial: false },
       { type: "SetCameraLookAtMessage", look_at, initial: false },
       { type: "SetCameraPositionMessage", position, initial: false },
     );
   viser.peek()?.requestRender();
+}
+
+/** Fits the preset to a picture of another shape, unless somebody has moved the camera since. */
+export function fitCamera(): void {
+  const camera = cameraNow();
+  if (sent === null || camera === null) return;
+  const place = placeOf(camera);
+  const moved = Math.hypot(...sent.view.position.map((value, axis) => value - (place[axis] ?? 0)));
+  if (moved < UNMOVED) setCamera(sent.name);
 }
 
 /** Lets through at most 15 wishes for a picture a second while the graphics are low. */

@@ -3,7 +3,7 @@ export const sceneText = {
   scene: {
     tools: "3D view",
     camera: "Camera",
-    cameras: { start: "Whole", front: "Front", side: "Side", spring: "Spring" },
+    cameras: { whole: "Whole", front: "Front", side: "Side", spring: "Spring" },
     cameraHint: (name: string) => `Camera: ${name}`,
     push: "Push",
     pushHint: "Take the link with the mouse and pull: a spring pushes it towards the pointer",

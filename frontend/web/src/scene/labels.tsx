@@ -1,0 +1,196 @@
+/**
+ * The labels of the 3D view, on the picture: viser's own, which stand at their parts and over each
+ * other, are hidden, and each is written where there is room, on a line from its part.
+ */
+import { useEffect, useRef } from "preact/hooks";
+import { type Box, LabelPlaces, lineEnd, type Placed, type Wanted } from "./labelplaces";
+import {
+  findOnPicture,
+  isCovered,
+  type SceneObject,
+  type SeeingCamera,
+  transform,
+  type Vector,
+} from "./sight";
+
+interface LabelNode {
+  message: { type: string; props: { text?: string } };
+  visibility?: boolean;
+  effectiveVisibility?: boolean;
+}
+
+interface LabelledViser {
+  messageQueue: Record<string, unknown>[];
+  camera: SeeingCamera | null;
+  nodeRefFromName: Record<string, SceneObject | undefined>;
+  nodePoseData: Record<string, { position: Vector } | undefined>;
+  requestRender(): void;
+}
+
+interface LabelledWindow extends Window {
+  __viserMutable?: LabelledViser;
+  __viserSceneTree?: { getState(): Record<string, LabelNode | undefined> };
+}
+
+interface Shown {
+  key: string;
+  text: string;
+  /** In the coordinates of the camera. */
+  point: Vector;
+}
+
+const PARTS = "/a";
+const MARGIN_PX = 4;
+const FASTEST_MS = 1000 / 30;
+/** A part that comes before another is noticed within so many pictures. */
+const LOOK_EVERY = 8;
+
+const parentOf = (name: string): string => name.slice(0, name.lastIndexOf("/"));
+
+/** Labels whose part is there; viser is told to leave all of them to the page. */
+function readLabels(viser: LabelledViser, tree: Record<string, LabelNode | undefined>): Shown[] {
+  const shown: Shown[] = [];
+  for (const [key, node] of Object.entries(tree)) {
+    if (node?.message.type !== "LabelMessage") continue;
+    if (node.visibility ?? true) {
+      const message = {
+        type: "SetSceneNodeVisibilityMessage",
+        name: key,
+        visible: false,
+        owner: "",
+      };
+      viser.messageQueue.push(message);
+      viser.requestRender();
+    }
+    const text = node.message.props.text ?? "";
+    const parent = parentOf(key);
+    const [frame, pose] = [viser.nodeRefFromName[parent], viser.nodePoseData[key]];
+    if (frame && pose && text !== "" && tree[parent]?.effectiveVisibility) {
+      shown.push({ key, text, point: transform(frame.matrixWorld, pose.position) });
+    }
+  }
+  return shown;
+}
+
+/** The spans and lines of one view. */
+class Sheet {
+  readonly #spans = new Map<string, HTMLSpanElement>();
+  readonly #lines = new Map<string, SVGLineElement>();
+  readonly #covered = new Map<string, boolean>();
+  readonly #places = new LabelPlaces();
+  #turn = 0;
+
+  constructor(
+    private readonly sheet: HTMLElement,
+    private readonly drawing: SVGSVGElement,
+  ) {}
+
+  draw(frame: HTMLIFrameElement): void {
+    const { __viserMutable: viser, __viserSceneTree: source } = (frame.contentWindow ??
+      {}) as LabelledWindow;
+    const camera = viser?.camera;
+    const parts = viser?.nodeRefFromName[PARTS];
+    if (!viser || !camera || !parts || !source) {
+      this.#show([]);
+      return;
+    }
+    const picture = this.#boxOf(frame);
+    this.#turn++;
+    const labels = readLabels(viser, source.getState());
+    const wanted = labels.flatMap(({ key, text, point }, index): Wanted[] => {
+      if (!this.#covered.has(key) || (this.#turn + index) % LOOK_EVERY === 0) {
+        this.#covered.set(key, isCovered(camera, point, parts));
+      }
+      const seen = this.#covered.get(key) ? null : findOnPicture(camera, point);
+      if (seen === null) return [];
+      const { offsetWidth: width, offsetHeight: height } = this.#write(key, text);
+      const [x, y] = [picture.left + seen.x * picture.width, picture.top + seen.y * picture.height];
+      return [{ key, x, y, width, height }];
+    });
+    this.#show(this.#places.place(wanted, this.#fieldOf(picture), this.#listTaken()));
+  }
+
+  #boxOf(element: Element): Box {
+    const [own, other] = [this.sheet.getBoundingClientRect(), element.getBoundingClientRect()];
+    const { width, height } = other;
+    return { left: other.left - own.left, top: other.top - own.top, width, height };
+  }
+
+  #fieldOf({ left, top, width, height }: Box): Box {
+    return {
+      left: left + MARGIN_PX,
+      top: top + MARGIN_PX,
+      width: width - 2 * MARGIN_PX,
+      height: height - 2 * MARGIN_PX,
+    };
+  }
+
+  /** The other things that lie over the picture. */
+  #listTaken(): Box[] {
+    const parent = this.sheet.parentElement as HTMLElement;
+    return [...parent.querySelectorAll("[data-over-picture]")].map((one) => this.#boxOf(one));
+  }
+
+  #write(key: string, text: string): HTMLSpanElement {
+    const known = this.#spans.get(key);
+    if (known?.dataset.text === text) return known;
+    const span = known ?? this.sheet.appendChild(document.createElement("span"));
+    const [base, index] = text.split("_");
+    span.dataset.text = text;
+    span.replaceChildren(base as string);
+    if (index) span.appendChild(document.createElement("sub")).textContent = index;
+    this.#spans.set(key, span);
+    return span;
+  }
+
+  #show(placed: readonly Placed[]): void {
+    const shown = new Map(placed.map((one) => [one.key, one]));
+    for (const [key, span] of this.#spans) {
+      const one = shown.get(key);
+      span.style.visibility = one ? "visible" : "hidden";
+      if (one) span.style.translate = `${one.left.toFixed(1)}px ${one.top.toFixed(1)}px`;
+    }
+    for (const one of placed) this.#drawLine(one);
+    for (const [key, line] of this.#lines) {
+      line.style.visibility = shown.has(key) ? "visible" : "hidden";
+    }
+  }
+
+  #drawLine(one: Placed): void {
+    let line = this.#lines.get(one.key);
+    if (!line) {
+      line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+      this.#lines.set(one.key, this.drawing.appendChild(line));
+    }
+    const end = lineEnd(one);
+    for (const [name, value] of Object.entries({ x1: one.x, y1: one.y, x2: end.x, y2: end.y })) {
+      line.setAttribute(name, value.toFixed(1));
+    }
+  }
+}
+
+/** Lies over the frame of a view and follows it. */
+export function SceneLabels({ frame }: { frame: () => HTMLIFrameElement | null }) {
+  const sheet = useRef<HTMLDivElement>(null);
+  const drawing = useRef<SVGSVGElement>(null);
+  useEffect(() => {
+    if (sheet.current === null || drawing.current === null) return;
+    const labels = new Sheet(sheet.current, drawing.current);
+    let drawnAt = 0;
+    let request = 0;
+    const follow = (now: number) => {
+      request = requestAnimationFrame(follow);
+      const shown = frame();
+      if (shown === null || now - drawnAt < FASTEST_MS - 2) return;
+      drawnAt = now;
+      labels.draw(shown);
+    };
+    request = requestAnimationFrame(follow);
+    return () => cancelAnimationFrame(request);
+  }, [frame]);
+  return (
+    <div class="scene-labels" ref={sheet} aria-hidden="true">
+      <svg ref={drawing} />
+    </div>
+  );
+}
