@@ -65,8 +65,8 @@ schema: .venv/installed  ## the page's types of the API, generated from the serv
 screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
 
-bench: .venv/installed  ## what a tick costs
-	$(BIN)/python -m tests.bench
+bench: .venv/installed  ## what the loop costs, beside a C loop of the same work
+	$(BIN)/svsa bench
 
 lock: .venv/installed  ## requirements.lock, every package with its hashes, at their newest
 	$(BIN)/uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \

@@ -91,6 +91,34 @@ app.command("bench-check")(bench_check)
 app.command("bench-home")(bench_home)
 
 
+@app.command("bench")
+def measure_costs(
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    repeats: Annotated[int, typer.Option(min=1, help="How often each is measured.")] = 15,
+    start: Annotated[
+        bool, typer.Option(help="Compile everything anew too, to measure it (a minute).")
+    ] = True,
+) -> None:
+    """Measure what the loop costs, beside a C loop of the same work (CPU time)."""
+    from svsa.experiment.benchmark import measure, measure_start
+
+    prepare()
+    with _messages.status("Measuring …"):
+        costs = measure(repeats) | (measure_start() if start else {})
+    if costs["ratio_to_c"] is None:
+        _messages.print(
+            "No C loop to compare with: it needs a C compiler (cc) and tests/bench/loop.c of the"
+            " source tree, which an installed package has not. Ratios are null."
+        )
+    if as_json:
+        print(json.dumps(costs, indent=2))
+        return
+    table = Table("what", "cost", title="CPU time, the least of many")
+    for name, value in costs.items():
+        table.add_row(name, f"{value:.4g}" if isinstance(value, float) else str(value))
+    Console().print(table)
+
+
 @app.command("bench-dbc")
 def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) -> None:
     """Print the frames of a bench as a DBC file, which CAN tools read to decode a capture."""

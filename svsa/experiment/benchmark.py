@@ -1,0 +1,179 @@
+"""`svsa bench`: what the loop costs, beside a C loop of the same work in the same minute.
+
+Times are CPU times, the least of many, ours and C's one after the other in turns, so that only
+their ratio speaks: it is hardly moved by what else the machine does, nor by how fast it is.
+"""
+
+import ctypes
+import os
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from svsa.experiment.paper import DURATION_S, LOAD_TIME_S, get_figure
+from svsa.experiment.simulate import simulate
+from svsa.model.lever import compute_lever_ratio_slope
+from svsa.packed import pack
+from svsa.plant.disturbances import PAPER_TORQUE_NM
+from svsa.runtime.loop import INITIAL, Blocks, Inputs, advance
+from svsa.runtime.measured import (
+    Actuation,
+    BenchConstants,
+    Carried,
+    follow_and_decide,
+    publish_and_foresee,
+)
+from svsa.runtime.run import Run
+from svsa.signals import CHANNELS
+
+C_LOOP = Path(__file__).parents[2] / "tests" / "bench" / "loop.c"
+FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC")
+LANES = 32
+REPEATS = 15
+BENCH_TICKS = 1000
+FIGURE, LAW = "4a", "ndobc"
+
+
+class CLoop(NamedTuple):
+    """The compiled C loop: one run with all its samples, and 32 lanes side by side."""
+
+    run_one: Callable[..., int]
+    run_lanes: Callable[..., int]
+
+
+def build_c_loop(folder: Path) -> CLoop | None:
+    """The C loop, compiled into `folder`; None without its source or without a C compiler.
+
+    The source is a file of the tests: an installed package has none.
+    """
+    compiler = os.environ.get("CC") or shutil.which("cc")
+    if compiler is None or not C_LOOP.exists():
+        return None
+    library = folder / "loop.so"
+    subprocess.run(  # noqa: S603  the machine's own compiler on a file of this project
+        [compiler, *FLAGS, "-o", str(library), str(C_LOOP), "-lm"], check=True
+    )
+    loaded = ctypes.CDLL(str(library))
+    loaded.run_one.restype = loaded.run_lanes.restype = ctypes.c_long
+    return CLoop(loaded.run_one, loaded.run_lanes)
+
+
+def list_c_constants(blocks: Blocks) -> np.ndarray:
+    """The constants of a lane of Figure 4A in the order of the C loop's structure, (40,)."""
+    figure = get_figure(FIGURE)
+    position: Any = figure.position
+    stiffness: Any = figure.stiffness
+    numbers: list[float] = []
+    for actuator in (blocks.plant, blocks.nominal):
+        a = actuator
+        slope = compute_lever_ratio_slope(a.gamma)
+        numbers += [a.M, a.B1, a.B2, a.D, a.D1, a.D2, a.K, slope, a.mu0]
+    domain = blocks.domain
+    numbers += [*blocks.gains, *blocks.shares, blocks.torque1_max, blocks.torque2_max]
+    numbers += [domain.mu_min, domain.mu_max, domain.deflection_max]
+    numbers += [domain.deflection_fraction, domain.singularity_fraction, blocks.period]
+    numbers += [position.amplitude_rad, 2.0 * np.pi * position.frequency_hz]
+    numbers += [stiffness.stiffness_nm_per_rad, PAPER_TORQUE_NM]
+    return np.array([*numbers, round(LOAD_TIME_S / blocks.period)], dtype=float)
+
+
+def run_c(loop: CLoop, blocks: Blocks, samples: np.ndarray) -> int:
+    """One run of the C loop into samples (ticks, channels); the ticks done."""
+    constants = list_c_constants(blocks)
+    return loop.run_one(_point(constants), ctypes.c_long(len(samples)), _point(samples))
+
+
+def run_c_lanes(loop: CLoop, blocks: Blocks, ticks: int) -> tuple[np.ndarray, np.ndarray]:
+    """Σ and greatest of the position error's square and size over so many ticks, of 32 lanes."""
+    constants = np.repeat(list_c_constants(blocks)[:, None], LANES, axis=1)
+    squares, peaks = np.empty(LANES), np.empty(LANES)
+    loop.run_lanes(_point(constants), ctypes.c_long(ticks), _point(squares), _point(peaks))
+    return squares, peaks
+
+
+def measure(repeats: int = REPEATS) -> dict[str, Any]:
+    """The figures of `svsa bench` but for what compiling and starting cost.
+
+    What needs the C loop is None where there is none (see `build_c_loop`).
+    """
+    run = Run(get_figure(FIGURE).build_configuration(LAW))
+    blocks, inputs = run.blocks[0], run.inputs
+    ticks = round(DURATION_S / run.period_s)
+    samples = np.empty((ticks, len(CHANNELS)))
+    works: dict[str, Callable[[], object]] = {
+        "single": lambda: simulate(FIGURE, LAW),
+        "kernel": lambda: advance(blocks, inputs, INITIAL, 0, samples),
+    }
+    with tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder:
+        loop = build_c_loop(Path(folder))
+        if loop is not None:
+            works["c"] = lambda: run_c(loop, blocks, samples)
+            works["c_lanes"] = lambda: run_c_lanes(loop, blocks, ticks)
+        cost = _measure_in_turns(works, repeats)
+    c, c_lane = cost.get("c"), cost.get("c_lanes", 0.0) / LANES
+    return {
+        "figure": FIGURE,
+        "law": LAW,
+        "run_s": DURATION_S,
+        "single_run_cpu_s": cost["single"],
+        "single_run_realtime_factor": DURATION_S / cost["single"],
+        "ratio_to_c": cost["single"] / c if c else None,
+        "kernel_ratio_to_c": cost["kernel"] / c if c else None,
+        "batch_runs_per_second_1_core": 1.0 / cost["kernel"],
+        "batch_ratio_to_c": c_lane / cost["kernel"] if c else None,
+        "bench_tick_cpu_us": 1e6 * measure_bench_tick(blocks, inputs, repeats),
+    }
+
+
+def measure_bench_tick(blocks: Blocks, inputs: Inputs, repeats: int = REPEATS) -> float:
+    """CPU time of a bench's tick as it is called from Python, without its I/O, s."""
+    constants = pack(BenchConstants(blocks, Actuation(0.0005, 0.0)))
+    carried, row = pack(Carried()), np.empty(len(CHANNELS))
+
+    def work() -> None:
+        for tick in range(BENCH_TICKS):
+            follow_and_decide(constants, inputs, carried, tick)
+            publish_and_foresee(constants, carried, 0.0, 0.0, tick, row)
+
+    return _measure_in_turns({"tick": work}, repeats)["tick"] / BENCH_TICKS
+
+
+def measure_start() -> dict[str, float]:
+    """CPU seconds of `svsa compile` where nothing is compiled, and of the same once it is."""
+    with tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder:
+        costs = []
+        for _ in range(2):
+            begin = resource.getrusage(resource.RUSAGE_CHILDREN)
+            subprocess.run(
+                [sys.executable, "-c", "from svsa.cli import main; main()", "compile"],
+                env=os.environ | {"SVSA_CACHE": folder},
+                check=True,
+                capture_output=True,
+            )
+            end = resource.getrusage(resource.RUSAGE_CHILDREN)
+            costs.append(end.ru_utime + end.ru_stime - begin.ru_utime - begin.ru_stime)
+    return {"compile_cpu_s": costs[0], "warm_start_cpu_s": costs[1]}
+
+
+def _measure_in_turns(works: dict[str, Callable[[], object]], repeats: int) -> dict[str, float]:
+    """The least CPU time of each, s; every one once before, which does not count."""
+    least = dict.fromkeys(works, np.inf)
+    for turn in range(repeats + 1):
+        for name, work in works.items():
+            begin = time.process_time()
+            work()
+            if turn:
+                least[name] = min(least[name], time.process_time() - begin)
+    return least
+
+
+def _point(array: np.ndarray) -> ctypes.c_void_p:
+    return ctypes.c_void_p(array.ctypes.data)

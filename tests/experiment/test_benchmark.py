@@ -1,0 +1,78 @@
+"""What `svsa bench` compares: a C loop that does the same work, and the figures it tells."""
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from typer.testing import CliRunner
+
+import svsa
+from svsa.cli import app
+from svsa.experiment import benchmark
+from svsa.runtime.run import Run
+from svsa.signals import CHANNEL_INDEX
+
+RUNNER = CliRunner()
+TICKS = 8000
+
+
+@pytest.fixture(scope="module")
+def c_loop(tmp_path_factory: pytest.TempPathFactory) -> benchmark.CLoop:
+    if shutil.which("cc") is None:
+        pytest.skip("no C compiler on this machine")
+    loop = benchmark.build_c_loop(tmp_path_factory.mktemp("c"))
+    assert loop is not None
+    return loop
+
+
+@pytest.fixture(scope="module")
+def ours() -> np.ndarray:
+    return svsa.simulate(benchmark.FIGURE, benchmark.LAW, duration_s=TICKS * 0.001).samples
+
+
+def test_the_c_loop_computes_every_channel_of_the_same_run(
+    c_loop: benchmark.CLoop, ours: np.ndarray
+) -> None:
+    run = Run(benchmark.get_figure(benchmark.FIGURE).build_configuration(benchmark.LAW))
+    samples = np.full_like(ours, np.nan)
+    assert benchmark.run_c(c_loop, run.blocks[0], samples) == TICKS
+    assert_allclose(samples, ours, rtol=1e-10, atol=1e-11)
+
+
+def test_the_lanes_of_the_c_loop_run_the_same(c_loop: benchmark.CLoop, ours: np.ndarray) -> None:
+    run = Run(benchmark.get_figure(benchmark.FIGURE).build_configuration(benchmark.LAW))
+    squares, peaks = benchmark.run_c_lanes(c_loop, run.blocks[0], TICKS)
+    error = ours[:, CHANNEL_INDEX["position_error_rad"]]
+    assert_allclose(squares, np.sum(error**2), rtol=1e-9)
+    assert_allclose(peaks, np.abs(error).max(), rtol=1e-9)
+
+
+def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -> None:
+    answer = RUNNER.invoke(app, ["bench", "--json", "--repeats", "1", "--no-start"])
+    assert answer.exit_code == 0, answer.output
+    costs = json.loads(answer.stdout)
+    numbers = (
+        "ratio_to_c",
+        "kernel_ratio_to_c",
+        "batch_ratio_to_c",
+        "single_run_realtime_factor",
+        "batch_runs_per_second_1_core",
+        "bench_tick_cpu_us",
+    )
+    assert all(costs[name] > 0.0 for name in numbers)
+
+
+def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """As in an installed package, which has no tests."""
+    monkeypatch.setattr(benchmark, "C_LOOP", tmp_path / "loop.c")
+    answer = RUNNER.invoke(app, ["bench", "--json", "--repeats", "1", "--no-start"])
+    costs = json.loads(answer.stdout)
+    assert costs["ratio_to_c"] is None
+    assert costs["batch_ratio_to_c"] is None
+    assert costs["batch_runs_per_second_1_core"] > 0.0
+    assert "tests/bench/loop.c" in answer.stderr
