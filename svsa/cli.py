@@ -137,15 +137,17 @@ def compile_loop() -> None:
 
 def prepare() -> None:
     """Have the control loop compiled, and say so where it takes long."""
+    from svsa.control.installed import list_law_names
     from svsa.experiment.simulate import simulate
+    from svsa.runtime.loop import advance
 
-    if is_compiled_before():
+    if is_compiled_before(advance):
         text = "Loading the compiled control loop …"
     else:
         text = "First start: compiling the control loop (about 15 s, once) …"
         _messages.print(text)
     with _messages.status(text):
-        for law in ("fl", "ndobc"):
+        for law in list_law_names():
             simulate("4a", law, duration_s=0.01)
 
 

@@ -6,9 +6,10 @@ batch run and a replay give the same bits). Calls between them are inlined: pass
 constants of an actuator from one to the next would cost more than the equations.
 
 The compiled code is cached between starts. numba notices a change in the file of a
-function, but not in the files of the functions it calls; the cache folder is therefore
-named after the text of every file that has a compiled function and of all that these import.
-A change in any other file compiles nothing anew.
+function, but not in the files of the functions it calls. Each file with a compiled function has
+therefore a cache folder of its own, named after its text and that of all that it imports: of the
+library by what it names, of a package outside by the whole package. A change in a file compiles
+anew what is made of it, and nothing else: a law is no part of the loop that calls it.
 """
 
 import contextlib
@@ -17,17 +18,18 @@ import os
 import platform
 import re
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numba
 from numba.core import config, event
 
 _LIBRARY = Path(__file__).parent
-_COMPILES = re.compile(r"^from svsa\.compilation import compiled$", re.MULTILINE)
 _IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 _KEPT_CACHES = 3
-_PREFIX = "compiled-"
+_OPTIONS = {"nogil": True, "error_model": "numpy", "forceinline": True}
 
 
 def _find_module(name: str) -> Path | None:
@@ -37,30 +39,45 @@ def _find_module(name: str) -> Path | None:
     )
 
 
-def _find_imported(text: str) -> Iterator[Path]:
-    """The files of the library that a file with this text imports, or imports from."""
-    for module, names in _IMPORT.findall(text):
+@cache
+def _find_imported(file: Path) -> frozenset[Path]:
+    """The files of the library that a file imports, or imports from."""
+    found: set[Path] = set()
+    for module, names in _IMPORT.findall(file.read_text(encoding="utf-8")):
         for name in (module, *(f"{module}.{part}" for part in re.findall(r"\w+", names))):
-            if (file := _find_module(name)) is not None:
-                yield file
+            if (imported := _find_module(name)) is not None:
+                found.add(imported)
+    return frozenset(found)
 
 
-def find_compiled_sources() -> list[Path]:
-    """The files with a compiled function, and what these import: they decide what is compiled."""
-    texts = {file: file.read_text(encoding="utf-8") for file in _LIBRARY.rglob("*.py")}
-    found = {file for file, text in texts.items() if _COMPILES.search(text)}
+def find_sources(file: Path) -> list[Path]:
+    """The files that decide what the compiled functions of a file become.
+
+    The file, what it imports of the library, and so on; of a package outside every file.
+    """
+    found = {file, *_find_siblings(file)}
     waiting = list(found)
     while waiting:
-        new = set(_find_imported(texts[waiting.pop()])) - found
+        new = _find_imported(waiting.pop()) - found
         found |= new
         waiting += new
     return sorted(found)
 
 
-def _compute_fingerprint() -> str:
+def _find_siblings(file: Path) -> list[Path]:
+    """Every file of the package outside the library that a file belongs to."""
+    package = None
+    for folder in file.parents:
+        if folder == _LIBRARY or not (folder / "__init__.py").exists():
+            break
+        package = folder
+    return [] if package is None or _LIBRARY in file.parents else [*package.rglob("*.py")]
+
+
+def _compute_fingerprint(file: Path) -> str:
     digest = hashlib.sha256(f"{numba.__version__} {platform.python_version()}".encode())
-    for source in find_compiled_sources():
-        digest.update(source.relative_to(_LIBRARY).as_posix().encode())
+    for source in find_sources(file):
+        digest.update(source.name.encode())
         digest.update(source.read_bytes())
     return digest.hexdigest()[:16]
 
@@ -72,27 +89,33 @@ def _choose_cache_root() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "svsa"
 
 
-def _prepare_cache() -> Path | None:
-    """Point numba at this library's own cache folder; None where none can be written."""
-    root = _choose_cache_root()
-    folder = root / f"{_PREFIX}{_compute_fingerprint()}"
+@cache
+def _open_cache(module: str, file: Path) -> Path | None:
+    """The cache folder of a file's functions; None where none can be written."""
+    folder = _choose_cache_root() / module / _compute_fingerprint(file)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         os.utime(folder)
-        caches = sorted(root.glob(f"{_PREFIX}*"), key=os.path.getmtime, reverse=True)
+        caches = sorted(folder.parent.iterdir(), key=os.path.getmtime, reverse=True)
     except OSError:
         return None
     for stale in caches[_KEPT_CACHES:]:
         shutil.rmtree(stale, ignore_errors=True)
-    if not os.access(folder, os.W_OK):
-        return None
+    return folder if os.access(folder, os.W_OK) else None
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """The function as machine code for the types that it is called with; a decorator."""
+    file = Path(function.__code__.co_filename)
+    folder = _open_cache(function.__module__, file) if file.exists() else None
+    if folder is None:
+        return numba.njit(**_OPTIONS)(function)
+    before = config.CACHE_DIR  # pyright: ignore[reportAttributeAccessIssue]
     config.CACHE_DIR = str(folder)  # pyright: ignore[reportAttributeAccessIssue]
-    return folder
-
-
-_CACHE = _prepare_cache()
-
-compiled = numba.njit(cache=_CACHE is not None, nogil=True, error_model="numpy", forceinline=True)
+    try:
+        return numba.njit(cache=True, **_OPTIONS)(function)
+    finally:
+        config.CACHE_DIR = before  # pyright: ignore[reportAttributeAccessIssue]
 
 
 class _CompilationListener(event.Listener):
@@ -115,6 +138,9 @@ def watch_compilation(tell: Callable[[str], None]) -> contextlib.AbstractContext
     return event.install_listener("numba:compile", _CompilationListener(tell))
 
 
-def is_compiled_before() -> bool:
-    """Whether an earlier start of this same library left compiled code in the cache."""
-    return _CACHE is not None and any(_CACHE.rglob("*.nbc"))
+def is_compiled_before(function: Any) -> bool:
+    """Whether an earlier start left this compiled function in the cache as it is now."""
+    python = function.py_func
+    file = Path(python.__code__.co_filename)
+    folder = _open_cache(python.__module__, file) if file.exists() else None
+    return folder is not None and any(folder.rglob(f"*.{python.__qualname__}-*.nbc"))

@@ -42,7 +42,7 @@ class Violation:
 
     def within(self, path: str) -> Self:
         """The violation as it is called from the value that holds this one at `path`."""
-        joint = "." if path and not self.name.startswith("[") else ""
+        joint = "." if path and self.name and not self.name.startswith("[") else ""
         return replace(self, name=path + joint + self.name)
 
 

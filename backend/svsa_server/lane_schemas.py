@@ -2,7 +2,6 @@
 
 from pydantic import BaseModel, Field
 
-from svsa.runtime.configuration import Law
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.timeline import WindowKind
 
@@ -51,7 +50,7 @@ class LaneState(LaneMetrics):
         description="Its own for the whole run: a lane keeps it where lanes before it are taken"
         " away, and none gets that of a lane that went"
     )
-    law: Law
+    law: str
     name: str = Field(description="Of who controls it now")
     stretches: list[StretchState] = Field(
         description="Who controlled it in the last 60 s, the present one last"

@@ -7,6 +7,7 @@ from pydantic import BaseModel, Field, create_model, model_validator
 
 from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.control.gains import FASTEST_POLE_RAD_PER_S, Gains, compute_coefficients
+from svsa.control.installed import LawName
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.paper import get_figure
 from svsa.observer.disturbance import ObserverBandwidth
@@ -14,7 +15,7 @@ from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import MOST_LANES, Configuration, Design, Lane, Law
+from svsa.runtime.configuration import MOST_LANES, Configuration, Design, Lane
 from svsa.runtime.session import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
@@ -29,8 +30,8 @@ Pole = _Part | tuple[_Part, _Part]
 class LawRequest(Checked):
     """Which law controls, and which the lanes beside; every plant stays where it is."""
 
-    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)")
-    rival_laws: tuple[Law, ...] = quantity(
+    law: LawName = quantity("", "Name of a law that is installed")
+    rival_laws: tuple[LawName, ...] = quantity(
         "",
         "Laws of the lanes beside, from the first on; those left out keep theirs",
         max_length=MOST_LANES - 1,
@@ -151,7 +152,7 @@ class ExperimentRequest(Checked):
     """One of the paper's figures, from t = 0; with other lanes and effects than it has."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
-    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)", default="ndobc")
+    law: LawName = quantity("", "Name of a law that is installed", default="ndobc")
     load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
     rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1, default=())
     effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
@@ -222,7 +223,7 @@ class GainsState(BaseModel):
 class ConfigurationState(BaseModel):
     """Everything that is set."""
 
-    law: Law
+    law: str
     position: PositionReference
     stiffness: StiffnessReference
     gains: GainsState

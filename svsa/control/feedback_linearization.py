@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from svsa.compilation import compiled
 from svsa.control.gains import Gains
+from svsa.control.law import Law
 from svsa.model.linearization import compute_linearization, solve_decoupling
 
 
@@ -58,3 +59,21 @@ def compute_feedback_linearization(nominal, gains, x, reference):
     linearization = compute_linearization(nominal, x)
     y1, y2 = compute_linearized_demand(linearization, gains, reference)
     return solve_decoupling(linearization, y1, y2)
+
+
+@compiled
+def control(nominal, gains, memory, x, reference, estimate, applied, period):
+    """FL as the loop calls it: see `Law`."""
+    return compute_feedback_linearization(nominal, gains, x, reference)
+
+
+FL = Law(
+    name="fl",
+    title="FL",
+    summary="Feedback linearization cancels the model it knows; a load it does not know stays.",
+    equation=r"u=A^{-1}\,(b-v)",
+    source="Eq 36",
+    parameters=Gains,
+    build=lambda gains, setting: build_gains(gains),
+    control=control,
+)

@@ -3,7 +3,9 @@
 from typing import NamedTuple
 
 from svsa.compilation import compiled
-from svsa.control.feedback_linearization import compute_linearized_demand
+from svsa.control.feedback_linearization import build_gains, compute_linearized_demand
+from svsa.control.gains import Gains
+from svsa.control.law import Law
 from svsa.model.linearization import compute_linearization, solve_decoupling
 
 
@@ -52,3 +54,23 @@ def compute_ndobc(nominal, gains, x, reference, estimate):
         y1 - (gain.g12 * w.w2 + gain.g14 * w.w4 + gain.g16 * w.w6),
         y2 - (gain.g22 * w.w2 + gain.g24 * w.w4 + gain.g26 * w.w6),
     )
+
+
+@compiled
+def control(nominal, gains, memory, x, reference, estimate, applied, period):
+    """NDOBC as the loop calls it: see `Law`."""
+    return compute_ndobc(nominal, gains, x, reference, estimate)
+
+
+NDOBC = Law(
+    name="ndobc",
+    title="NDOBC",
+    summary="Feedback linearization, and an observer that estimates the unknown load and"
+    " cancels it.",
+    equation=r"u=A^{-1}\,(b-v-\Gamma\hat w)",
+    source="Eq 24",
+    parameters=Gains,
+    build=lambda gains, setting: build_gains(gains),
+    control=control,
+    estimate="observer",
+)

@@ -19,7 +19,7 @@ from svsa.hardware.clock import LockstepClock
 from svsa.hardware.heartbeat import Heartbeats
 from svsa.hardware.machine import BenchStatus
 from svsa.rig.launch import RunningRig, start_rig
-from svsa.runtime.configuration import Configuration, Law
+from svsa.runtime.configuration import Configuration
 from svsa.runtime.realtime.configuration import build_bench_configuration, build_guard
 from svsa.runtime.realtime.loop import BenchLoop
 from svsa.signals import CHANNELS
@@ -121,7 +121,7 @@ def connect_bench(rig: RunningRig) -> BenchFile:
 
 
 def run_on_rig(
-    figure: Figure, law: Law, duration_s: float, progress: Callable[[float], None]
+    figure: Figure, law: str, duration_s: float, progress: Callable[[float], None]
 ) -> Result:
     """Run a figure with its load on the emulated rig; progress: told the share done.
 

@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from svsa.plant.effects import RIG, Effects, build_bench
+from svsa.control.call import build_call, read_estimate
+from svsa.plant.effects import MOST_DELAY_SAMPLES, RIG, Effects, build_bench
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.loop import LaneState, apply_torque, decide, observe
@@ -42,9 +43,9 @@ def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
     """Encoder counts through the discrete loop at rest at σ = `sigma`, N·m/rad.
 
     One tick is z' = A z + B n, linearised numerically from the loop's own functions, with z
-    = (x, x̂, ŵ, torque, queue of the delay) and n the noise on θ1, θ2, φ. A count of Δ and
-    white noise of standard deviation s have the variance Δ²/12 + s²; the covariance P of z
-    solves P = A P Aᵀ + B Q Bᵀ.
+    = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law) and n
+    the noise on θ1, θ2, φ. A count of Δ and white noise of standard deviation s have the variance
+    Δ²/12 + s²; the covariance P of z solves P = A P Aᵀ + B Q Bᵀ.
     """
     sensing = configuration.effects
     bench = build_bench(sensing, 0, configuration.actuator, configuration.sampling.period_s)
@@ -65,7 +66,8 @@ def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
 def linearize_tick(configuration: Configuration, sigma: float) -> tuple[np.ndarray, np.ndarray]:
     """A and B of a tick at q = 0, σ = `sigma`, at rest, by central differences.
 
-    Limits, counts, noise and friction, which have no derivative, are left out.
+    Limits, counts, noise and friction, which have no derivative, are left out, and so is what the
+    law remembers and never changes.
     """
     smooth = configuration.effects.changed(
         encoders=None, noise=None, friction=None, torque_limits=False
@@ -79,38 +81,47 @@ def linearize_tick(configuration: Configuration, sigma: float) -> tuple[np.ndarr
             loads=(),
         )
     )
-    blocks, inputs, sample = run.blocks[0], run.inputs, np.empty(len(CHANNELS))
-    rest = run.lanes[0]
+    blocks, law, inputs = run.blocks[0], run.laws[0], run.inputs
+    rest, sample = run.lanes[0], np.empty(len(CHANNELS))
 
     def tick(z: np.ndarray) -> np.ndarray:
         lane = _unpack(z)
-        reference, torque = decide(blocks, inputs, lane.known, lane.estimate, 0)
-        return _pack(apply_torque(blocks, inputs, lane, reference, torque, 0, sample))
+        call = build_call(law, lane.memory)
+        reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, 0)
+        estimate = read_estimate(call, lane.estimate)
+        return _pack(apply_torque(blocks, inputs, lane, reference, torque, estimate, 0, sample))
 
     def hear(n: np.ndarray) -> np.ndarray:
         heard = Measurement(n[0], n[1], n[2], 0.0, 0.0, 0.0)
         known, estimate = observe(blocks, rest.known, rest.estimate, rest.torque, heard)
         return _pack(rest._replace(known=known, estimate=estimate))
 
-    return _differentiate(tick, len(_pack(rest))), _differentiate(hear, 3)
+    A, B = _differentiate(tick, _pack(rest)), _differentiate(hear, np.zeros(3))
+    is_same = np.isclose(A, np.eye(len(A)), rtol=0.0, atol=1e-7)
+    is_fixed = np.all(is_same, axis=1) & np.all(B == 0.0, axis=1)
+    moving = np.flatnonzero(~is_fixed)
+    return A[np.ix_(moving, moving)], B[moving]
 
 
-def _differentiate(function, size: int) -> np.ndarray:
-    steps = _STEP * np.eye(size)
-    columns = [(function(step) - function(-step)) / (2.0 * _STEP) for step in steps]
+def _differentiate(function, at: np.ndarray) -> np.ndarray:
+    steps = _STEP * np.eye(len(at))
+    columns = [(function(at + step) - function(at - step)) / (2.0 * _STEP) for step in steps]
     return np.column_stack(columns)
 
 
 def _pack(lane: LaneState) -> np.ndarray:
-    return np.array([*lane.x, *lane.known, *lane.estimate, *lane.torque, *lane.asked])
+    parts = (lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, lane.memory)
+    return np.concatenate(parts)
 
 
 def _unpack(z: np.ndarray) -> LaneState:
-    values = z.tolist()
+    values, queue = z.tolist(), 2 * MOST_DELAY_SAMPLES + 2
     return LaneState(
         State(*values[:6]),
         State(*values[6:12]),
         Disturbance(*values[12:15]),
         Torque(*values[_TORQUES]),
-        tuple(values[17:]),
+        Torque(*values[17:19]),
+        tuple(values[19 : 19 + queue]),
+        z[19 + queue :].copy(),
     )

@@ -6,7 +6,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.plant.disturbances import PAPER_TORQUE_NM, ConstantLoad, Load, PaperLoad
 from svsa.reference.paper import FIGURE_REFERENCES, ON_BENCH
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import Configuration, Design, Law, load_prototype
+from svsa.runtime.configuration import Configuration, Design, load_prototype
 
 LOAD_TIME_S = 5.0
 DURATION_S = 20.0
@@ -26,7 +26,7 @@ class Figure(NamedTuple):
     hung: Load = PaperLoad(start_s=LOAD_TIME_S)
 
     def build_configuration(
-        self, law: Law = "ndobc", load: bool = True, design: Design | None = None
+        self, law: str = "ndobc", load: bool = True, design: Design | None = None
     ) -> Configuration:
         """The run behind the figure; load: with the paper's 3 kg at 5 s.
 

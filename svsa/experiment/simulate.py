@@ -12,7 +12,7 @@ from svsa.experiment.paper import DURATION_S, get_figure
 from svsa.experiment.result import Result, build_results
 from svsa.runtime.change import Change, build_commands
 from svsa.runtime.command import play
-from svsa.runtime.configuration import Configuration, Design, Law, read_design
+from svsa.runtime.configuration import Configuration, Design, read_design
 from svsa.runtime.run import Run
 from svsa.runtime.stepwise import Controller
 from svsa.signals import CHANNELS
@@ -23,7 +23,7 @@ MOST_STEPS = 1000
 
 def simulate(
     experiment: str | Configuration = "4a",
-    law: Law | Controller | None = None,
+    law: str | Controller | None = None,
     *,
     duration_s: float = DURATION_S,
     steps: int = 1,
@@ -33,10 +33,10 @@ def simulate(
 ) -> Result:
     """Simulate a run from rest and return everything that happened.
 
-    experiment: a figure of the paper ("4a", "4b", "5") or a `Configuration`. law:
-    "ndobc", "fl", or a function (`Controller`): time in s, `Reference`, x̂ as `State`, ŵ as
-    `Disturbance` → (u1, u2) in N·m. duration_s: s. steps: Runge–Kutta steps a control
-    period. commands: what is changed while it runs, such as
+    experiment: a figure of the paper ("4a", "4b", "5") or a `Configuration`. law: the name of one
+    that is installed ("ndobc", "fl", …), or a function (`Controller`): time in s, `Reference`, x̂
+    as `State`, ŵ as `Disturbance` → (u1, u2) in N·m. duration_s: s. steps: Runge–Kutta steps a
+    control period. commands: what is changed while it runs, such as
     `svsa.Change(at_s=5.0, law="fl")`. parameters: a parameter file, such as `svsa identify`
     writes, or its `Design`, instead of the experiment's own. changes: fields of the configuration
     to replace, e.g. position, stiffness, loads, gains, observer, limits, actuator, nominal,

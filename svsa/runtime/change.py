@@ -7,6 +7,7 @@ from pydantic import model_validator
 
 from svsa.checked import Checked, Number, check_number, quantity
 from svsa.control.gains import Gains
+from svsa.control.installed import LawName
 from svsa.errors import ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
@@ -14,7 +15,6 @@ from svsa.plant.disturbances import Load
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.command import Command, build_command
-from svsa.runtime.configuration import Law
 
 
 class Change(Checked):
@@ -25,7 +25,7 @@ class Change(Checked):
     """
 
     at_s: Number = quantity("s", "Time of the run", ge=0, le=1e6)
-    law: Law | None = quantity("", "ndobc (Eq 24) or fl (Eq 36)", default=None)
+    law: LawName | None = quantity("", "Name of a law that is installed", default=None)
     gains: Gains | None = None
     observer: ObserverBandwidth | None = None
     position: PositionReference | None = None

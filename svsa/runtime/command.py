@@ -9,6 +9,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from svsa.checked import Whole
 from svsa.control.gains import Gains
+from svsa.control.installed import LawName
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.explanation import explain
 from svsa.observer.disturbance import ObserverBandwidth
@@ -16,7 +17,7 @@ from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import Configuration, Lane, Law
+from svsa.runtime.configuration import Configuration, Lane
 from svsa.runtime.run import Run
 from svsa.signals import CHANNELS
 
@@ -36,10 +37,10 @@ KINDS: dict[str, CommandKind] = {
     "stiffness": CommandKind(
         Run.set_stiffness, TypeAdapter(StiffnessReference), "Stiffness changed"
     ),
-    "law": CommandKind(Run.set_law, TypeAdapter(Law), "Law changed"),
+    "law": CommandKind(Run.set_law, TypeAdapter(LawName), "Law changed"),
     "laws": CommandKind(
         Run.set_laws,
-        TypeAdapter(Annotated[tuple[Law, ...], Field(min_length=1)]),
+        TypeAdapter(Annotated[tuple[LawName, ...], Field(min_length=1)]),
         "Laws changed",
     ),
     "gains": CommandKind(Run.set_gains, TypeAdapter(Gains), "Gains changed"),

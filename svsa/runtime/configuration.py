@@ -4,13 +4,14 @@ import tomllib
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, Self, get_args
+from typing import Any, Self
 
 import tomli_w
 from pydantic import model_validator
 
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.control.gains import Gains
+from svsa.control.installed import PAPERS_LAW, LawName
 from svsa.errors import ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
@@ -18,10 +19,6 @@ from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference, get_range
 
-Law = Literal["ndobc", "fl"]
-LAWS: tuple[Law, ...] = get_args(Law)
-OBSERVING: frozenset[Law] = frozenset({"ndobc"})
-"""The laws that act on what the observer believes."""
 MOST_LOADS = 16
 MOST_LANES = 4
 
@@ -46,7 +43,7 @@ class Design(Checked):
 class Lane(Checked):
     """A controller with a plant of its own: same references, loads and noise as the others."""
 
-    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)")
+    law: LawName = quantity("", "Name of a law that is installed")
     gains: Gains | None = quantity("", "Its gains; left out, those of the run", default=None)
     observer: ObserverBandwidth | None = quantity(
         "", "Its observer; left out, that of the run", default=None
@@ -56,7 +53,7 @@ class Lane(Checked):
 class Configuration(Design):
     """Everything that decides a run, besides the commands given while it runs."""
 
-    law: Law = quantity("", "ndobc (Eq 24) or fl (Eq 36)", default="ndobc")
+    law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
     rivals: tuple[Lane, ...] = quantity(
         "",
         "Controllers that run beside the first, each on a plant of its own",
@@ -81,7 +78,7 @@ class Configuration(Design):
         """The run's own controller and its rivals."""
         return (Lane(law=self.law), *self.rivals)
 
-    def controlled_by(self, laws: Sequence[Law]) -> Self:
+    def controlled_by(self, laws: Sequence[str]) -> Self:
         """The first lanes with these laws, in this order; gains and observers stay theirs.
 
         Raises `ParameterError` where there are fewer lanes.

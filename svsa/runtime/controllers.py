@@ -5,8 +5,9 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from svsa.control.gains import Gains
+from svsa.control.installed import get_law
 from svsa.observer.disturbance import ObserverBandwidth
-from svsa.runtime.configuration import OBSERVING, Configuration, Lane, Law
+from svsa.runtime.configuration import Configuration, Lane
 
 BENCH_LANES = ("Bench", "Twin")
 
@@ -19,7 +20,7 @@ class Controller(NamedTuple):
     """
 
     place: str
-    law: Law
+    law: str
     gains: Gains
     observer: ObserverBandwidth | None
     copy: int
@@ -47,7 +48,7 @@ def list_controllers(
     return [found[number] for number in range(len(alone))]
 
 
-def complete_laws(laws: tuple[Law, ...], is_bench: bool) -> tuple[Law, ...]:
+def complete_laws(laws: tuple[str, ...], is_bench: bool) -> tuple[str, ...]:
     """The laws of the first lanes: a bench's twin has the law of the bench."""
     return (laws[0], laws[0], *laws[2:]) if is_bench else laws
 
@@ -58,13 +59,14 @@ def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]
     names: dict[Controller, str] = {}
     for one in every:
         alike = [other for other in every if (other.place, other.law) == (one.place, one.law)]
-        words = [one.place, one.law.upper(), *_tell_apart(one, alike)]
+        words = [one.place, get_law(one.law).title, *_tell_apart(one, alike)]
         names[one] = " ".join(filter(None, words))
     return _number_doubles(names)
 
 
 def _build(configuration: Configuration, lane: Lane, place: str) -> Controller:
-    observer = (lane.observer or configuration.observer) if lane.law in OBSERVING else None
+    is_observing = get_law(lane.law).estimate == "observer"
+    observer = (lane.observer or configuration.observer) if is_observing else None
     return Controller(place, lane.law, lane.gains or configuration.gains, observer, 1)
 
 

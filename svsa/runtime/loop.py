@@ -6,20 +6,20 @@
                        ▲                                     │
                        └────────────────── x ────────────────┘      ──▶ publish
 
-`advance` runs many ticks of it in one compiled call that does not hold the GIL.
+`advance` runs many ticks of it in one compiled call that does not hold the GIL. It is compiled
+once: the law is a compiled function that it is given.
 """
 
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.compilation import compiled
-from svsa.control.feedback_linearization import (
-    GainConstants,
-    build_gains,
-    compute_feedback_linearization,
-)
+from svsa.control.call import BoundLaw, build_call, compute_law, read_estimate
+from svsa.control.installed import get_law
+from svsa.control.law import Setting
 from svsa.control.limits import limit_torque
-from svsa.control.ndobc import compute_ndobc
 from svsa.model.domain import (
     INSIDE,
     NOT_FINITE,
@@ -49,8 +49,6 @@ from svsa.reference.transition import Stack, compute_trajectory
 from svsa.runtime.configuration import Configuration, Lane
 from svsa.signals import Disturbance, Reference, State, Torque
 
-LAWS = {"fl": 0, "ndobc": 1}
-NDOBC = LAWS["ndobc"]
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
 NO_TORQUE = Torque(0.0, 0.0)
@@ -59,16 +57,13 @@ NO_TORQUE = Torque(0.0, 0.0)
 class Blocks(NamedTuple):
     """The blocks of the diagram as constants of the compiled loop.
 
-    law: a value of `LAWS`. plant, nominal: `Actuator`. shares: of the observer,
-    see `compute_shares`. torque1_max, torque2_max: N·m, infinite where not limited. decay:
-    e^(−ωT) of the state estimator, 0 where velocities are known. period: s. steps:
-    Runge–Kutta steps a period.
+    plant, nominal: `Actuator`. shares: of the observer, see `compute_shares`. torque1_max,
+    torque2_max: N·m, infinite where not limited. decay: e^(−ωT) of the state estimator, 0 where
+    velocities are known. period: s. steps: Runge–Kutta steps a period.
     """
 
-    law: int
     plant: Actuator
     nominal: Actuator
-    gains: GainConstants
     shares: tuple[float, float, float]
     torque1_max: float
     torque2_max: float
@@ -91,18 +86,24 @@ class LaneState(NamedTuple):
     """What one lane, a controller and its plant, carries from tick to tick.
 
     x: the plant's state. known: x̂, what the controller knows of it. estimate: ŵ, N·m.
-    torque: what the motors make now, N·m. asked: the torques asked for in the last samples,
-    newest first, (u1, u2) one after the other, for the delay.
+    torque: what the motors make now, N·m. applied: the mean of what they made in the last period,
+    N·m. asked: the torques asked for in the last samples, newest first, (u1, u2) one after the
+    other, for the delay. memory: what the law remembers, see `Law.start_memory`.
     """
 
     x: State
     known: State
     estimate: Disturbance
     torque: Torque
+    applied: Torque
     asked: tuple[float, ...]
+    memory: np.ndarray
 
 
-INITIAL = LaneState(AT_REST, AT_REST, UNDISTURBED, NO_TORQUE, (0.0,) * (2 * MOST_DELAY_SAMPLES + 2))
+def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
+    """A lane at its start. memory: of its law. x: where its plant is, which is known."""
+    asked = (0.0,) * (2 * MOST_DELAY_SAMPLES + 2)
+    return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, asked, memory)
 
 
 def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: int = 1) -> Blocks:
@@ -111,10 +112,8 @@ def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: in
     limited = c.effects.torque_limits
     estimation = c.effects.estimation
     return Blocks(
-        law=LAWS[lane.law],
         plant=build_actuator(c.actuator, mu0),
         nominal=build_actuator(c.nominal, mu0),
-        gains=build_gains(lane.gains or c.gains),
         shares=compute_shares(lane.observer or c.observer, c.sampling.period_s),
         torque1_max=c.limits.torque1_nm if limited else math.inf,
         torque2_max=c.limits.torque2_nm if limited else math.inf,
@@ -126,6 +125,13 @@ def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: in
     )
 
 
+def bind_law(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
+    """The law of one lane among its blocks; compiled where it has not been before."""
+    b = blocks
+    setting = Setting(b.nominal, b.domain, b.torque1_max, b.torque2_max, b.period)
+    return get_law(lane.law).bind(lane.gains or configuration.gains, setting)
+
+
 @compiled
 def read_reference(inputs, time):
     """q_d to the 4th derivative and σ_d to the 2nd at `time` (s), as `Reference`."""
@@ -135,12 +141,9 @@ def read_reference(inputs, time):
 
 
 @compiled
-def compute_control(blocks, x, reference, estimate):
-    """The torque that the chosen law asks for, after the limits, N·m."""
-    if blocks.law == NDOBC:
-        asked = compute_ndobc(blocks.nominal, blocks.gains, x, reference, estimate)
-    else:
-        asked = compute_feedback_linearization(blocks.nominal, blocks.gains, x, reference)
+def compute_control(blocks, call, x, reference, estimate, applied):
+    """The torque that the law of this `Call` asks for, after the limits, N·m."""
+    asked = compute_law(call, x, reference, estimate, applied, blocks.period)
     return limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
 
 
@@ -152,14 +155,14 @@ def delay(bench, asked, torque):
 
 
 @compiled
-def decide(blocks, inputs, known, estimate, tick):
+def decide(blocks, call, inputs, known, estimate, applied, tick):
     """The first half of a tick: reference and controller.
 
-    known: x̂, `State`. estimate: ŵ, `Disturbance`. Returns (`Reference`, `Torque` after the
-    limits, N·m).
+    call: the law, `Call`. known: x̂, `State`. estimate: ŵ, `Disturbance`. applied: mean `Torque`
+    of the last period. Returns (`Reference`, `Torque` after the limits, N·m).
     """
     reference = read_reference(inputs, tick * blocks.period)
-    return reference, compute_control(blocks, known, reference, estimate)
+    return reference, compute_control(blocks, call, known, reference, estimate, applied)
 
 
 @compiled
@@ -182,9 +185,9 @@ def observe(blocks, known, estimate, applied, measurement):
 
 
 @compiled
-def publish(blocks, reference, lane, target, load, time, sample):
-    """Write one sample, in the order of `CHANNELS`."""
-    x, known, estimate = lane.x, lane.known, lane.estimate
+def publish(blocks, reference, lane, estimate, target, load, time, sample):
+    """Write one sample, in the order of `CHANNELS`. estimate: the ŵ that the law acts on."""
+    x, known = lane.x, lane.known
     phi = compute_deflection(x)
     mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
     sigma = compute_stiffness(mu, phi, blocks.plant.K)
@@ -224,52 +227,66 @@ def publish(blocks, reference, lane, target, load, time, sample):
 
 
 @compiled
-def advance_tick(blocks, inputs, lane, tick, sample):
+def remember(lane, memory):
+    """The lane with another memory of its law."""
+    return LaneState(
+        lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, memory
+    )
+
+
+@compiled
+def advance_tick(blocks, law, inputs, lane, tick, sample):
     """One tick of the loop: reference, controller, write, plant, read, observer, publish.
 
-    lane: `LaneState` at the start of the tick. sample: (channels,), written. Returns
-    (lane, code): at a code other than `INSIDE` nothing was done.
+    law: `BoundLaw`. lane: `LaneState` at the start of the tick, whose memory the law writes in.
+    sample: (channels,), written. Returns (lane, code): at a code other than `INSIDE` nothing else
+    was done.
     """
     code = check_domain(blocks.domain, blocks.plant, lane.x)
     if code != INSIDE:
         return lane, code
-    reference, torque = decide(blocks, inputs, lane.known, lane.estimate, tick)
+    call = build_call(law, lane.memory)
+    reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, tick)
     if not math.isfinite(torque.u1 + torque.u2):
         return lane, NOT_FINITE
-    return apply_torque(blocks, inputs, lane, reference, torque, tick, sample), INSIDE
+    estimate = read_estimate(call, lane.estimate)
+    lane = apply_torque(blocks, inputs, lane, reference, torque, estimate, tick, sample)
+    return lane, INSIDE
 
 
 @compiled
-def apply_torque(blocks, inputs, lane, reference, torque, tick, sample):
+def apply_torque(blocks, inputs, lane, reference, torque, estimate, tick, sample):
     """The tick from the controller's torque on: write, plant, read, observer, publish.
 
     lane: `LaneState` at the start of the tick. reference: `Reference` then. torque: asked
-    for, within the limits, N·m. sample: (channels,), written. Returns `LaneState` at the end.
+    for, within the limits, N·m. estimate: the ŵ behind it, `Disturbance`, N·m. sample:
+    (channels,), written. Returns `LaneState` at the end.
     """
     bench, period, time = blocks.bench, blocks.period, tick * blocks.period
     asked, target = delay(bench, lane.asked, torque)
     load = compute_plant_load(bench, inputs.loads, lane.x, tick, period, time)
-    publish(blocks, reference, lane, target, load, time, sample)
+    publish(blocks, reference, lane, estimate, target, load, time, sample)
     x = integrate_period(
         blocks.plant, bench, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
     )
     made = compute_lagged_torque(lane.torque, target, bench.lag, period)
     applied = compute_mean_torque(lane.torque, target, bench.lag, period)
     measurement = read_sensors(bench, x, tick + 1)
-    known, estimate = observe(blocks, lane.known, lane.estimate, applied, measurement)
-    return LaneState(x, known, estimate, made, asked)
+    known, observed = observe(blocks, lane.known, lane.estimate, applied, measurement)
+    return LaneState(x, known, observed, made, applied, asked, lane.memory)
 
 
 @compiled
-def advance(blocks, inputs, lane, first, samples):
+def advance(blocks, law, inputs, lane, first, samples):
     """Many ticks in one call that does not hold the GIL: one for each row of `samples`.
 
-    lane: `LaneState` at the tick `first`. samples: (ticks, channels), written. Returns
-    (lane, ticks done, code): a code other than `INSIDE` says why the lane ended at the tick
-    first + ticks done.
+    law: `BoundLaw`. lane: `LaneState` at the tick `first`, which stays as it is. samples: (ticks,
+    channels), written. Returns (lane, ticks done, code): a code other than `INSIDE` says why the
+    lane ended at the tick first + ticks done.
     """
+    lane = remember(lane, lane.memory.copy())
     for k in range(samples.shape[0]):
-        lane, code = advance_tick(blocks, inputs, lane, first + k, samples[k])
+        lane, code = advance_tick(blocks, law, inputs, lane, first + k, samples[k])
         if code != INSIDE:
             return lane, k, code
     return lane, samples.shape[0], INSIDE

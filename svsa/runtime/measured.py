@@ -8,6 +8,7 @@ import math
 from typing import NamedTuple
 
 from svsa.compilation import compiled
+from svsa.control.call import Call, read_estimate
 from svsa.model.domain import compute_deflection_limit
 from svsa.model.dynamics import ExternalLoad, compute_acceleration
 from svsa.model.lever import compute_lever_ratio
@@ -26,10 +27,11 @@ class Actuation(NamedTuple):
 
 
 class BenchConstants(NamedTuple):
-    """The constants of a bench's loop."""
+    """The constants of a bench's loop. call: its law with the memory of that."""
 
     blocks: Blocks
     actuation: Actuation
+    call: Call
 
 
 class Carried(NamedTuple):
@@ -38,7 +40,7 @@ class Carried(NamedTuple):
     Carried from tick to tick: known, estimate: x̂ and ŵ. made: what the motors make now, N·m.
     before, sent: the torques sent last but one and last, N·m. expected: x̂ a period later.
     Of this tick: measured; ages_s: of motor 1, motor 2, deflection; reference; asked: what the
-    law asks for, N·m.
+    law asks for, N·m; believed: the ŵ that it acts on.
     """
 
     known: State = AT_REST
@@ -51,6 +53,7 @@ class Carried(NamedTuple):
     ages_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
     reference: Reference = Reference(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     asked: Torque = NO_TORQUE
+    believed: Disturbance = UNDISTURBED
 
 
 @compiled
@@ -71,6 +74,12 @@ def store_state(packed, x):
 def read_disturbance(w):
     """A packed disturbance as `Disturbance`."""
     return Disturbance(w.w2, w.w4, w.w6)
+
+
+@compiled
+def store_disturbance(packed, w):
+    """`Disturbance` into a packed one."""
+    packed.w2, packed.w4, packed.w6 = w.w2, w.w4, w.w6
 
 
 @compiled
@@ -105,9 +114,10 @@ def follow_and_decide(constants, inputs, carried, tick):
     measured = Measurement(y.theta1, y.theta2, y.phi, y.dq, y.dtheta1, y.dtheta2)
     known, estimate = read_state(c.known), read_disturbance(c.estimate)
     x, w = observe(k.blocks, known, estimate, applied, measured)
-    r, asked = decide(k.blocks, inputs, x, w, tick)
+    r, asked = decide(k.blocks, k.call, inputs, x, w, applied, tick)
     store_state(c.known, x)
-    c.estimate.w2, c.estimate.w4, c.estimate.w6 = w.w2, w.w4, w.w6
+    store_disturbance(c.estimate, w)
+    store_disturbance(c.believed, read_estimate(k.call, w))
     store_torque(c.made, made)
     store_torque(c.asked, asked)
     p = c.reference
@@ -151,7 +161,7 @@ def publish_measured(blocks, carried, tick, sample):
     The true w is unknown; the residuals are filled in by whoever has the twin.
     """
     y, reference, torque = carried.measured, carried.reference, carried.sent
-    known, estimate, nothing = carried.known, carried.estimate, math.nan
+    known, estimate, nothing = carried.known, carried.believed, math.nan
     q = y.theta1 + y.phi
     mu = compute_lever_ratio(y.theta2, blocks.nominal.mu0, blocks.nominal.gamma)
     sigma = compute_stiffness(mu, y.phi, blocks.nominal.K)

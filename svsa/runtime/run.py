@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.control.gains import Gains
+from svsa.control.installed import LawName, get_law
 from svsa.errors import Fault, StateError
 from svsa.model.domain import INSIDE
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
@@ -28,9 +29,17 @@ from svsa.reference.trajectories import (
     get_range,
 )
 from svsa.reference.transition import Stack, build_stack, push_trajectory
-from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane, Law
+from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane
 from svsa.runtime.fault import build_fault
-from svsa.runtime.loop import INITIAL, Inputs, LaneState, advance, build_blocks
+from svsa.runtime.loop import (
+    AT_REST,
+    Inputs,
+    LaneState,
+    advance,
+    bind_law,
+    build_blocks,
+    build_lane_state,
+)
 from svsa.runtime.stepwise import Controller, advance_stepwise
 from svsa.signals import State
 
@@ -51,8 +60,8 @@ class Run:
     `configuration` is the present one; a change takes effect at the next tick. The run
     starts at x = 0 with the μ0 that makes σ(0) = σ_d(0); with a `start`, from there, and the
     references fade in from q and σ as they are. steps: Runge–Kutta steps a period.
-    controller: one's own in plain Python, in place of the first lane's law. `blocks` (one a
-    lane) and `inputs` are what the compiled loop is given.
+    controller: one's own in plain Python, in place of the first lane's law. `blocks`, `laws` (one
+    a lane) and `inputs` are what the compiled loop is given.
     """
 
     def __init__(
@@ -74,14 +83,16 @@ class Run:
                 compute_start_value(configuration.stiffness),
                 configuration.actuator.rotational_stiffness_nm_per_rad,
             )
-            first = INITIAL
+            x = AT_REST
             self._position = build_stack(configuration.position)
             self._stiffness = build_stack(configuration.stiffness)
         else:
             self.mu0 = start.mu0
-            first = INITIAL._replace(x=start.x, known=start.x)
+            x = start.x
             self._position, self._stiffness = _build_stacks(configuration, start)
-        self.lanes = [first for _ in configuration.lanes]
+        self.lanes = [
+            build_lane_state(get_law(lane.law).start_memory(), x) for lane in configuration.lanes
+        ]
         self._connect()
         for load in configuration.loads:
             self.add_load(load)
@@ -135,7 +146,7 @@ class Run:
         blocks, lane = self.blocks[number], self.lanes[number]
         if number == 0 and self._controller is not None:
             return advance_stepwise(blocks, self.inputs, lane, self.tick, rows, self._controller)
-        return advance(blocks, self.inputs, lane, self.tick, rows)
+        return advance(blocks, self.laws[number], self.inputs, lane, self.tick, rows)
 
     def set_position(self, reference: PositionReference) -> None:
         """Fade over to this position reference, from now on."""
@@ -148,16 +159,22 @@ class Run:
         self._stiffness = push_trajectory(self._stiffness, reference, self.time_s)
         self._configure(stiffness=reference)
 
-    def set_law(self, law: Law) -> None:
+    def set_law(self, law: LawName) -> None:
         """Control the first lane with this law from now on."""
         self.set_laws((law,))
 
-    def set_laws(self, laws: tuple[Law, ...]) -> None:
+    def set_laws(self, laws: tuple[LawName, ...]) -> None:
         """Control the first lanes with these laws from now on; their plants stay as they are.
 
-        Raises `ParameterError` where there are fewer lanes than laws.
+        A law that comes remembers nothing. Raises `ParameterError` where there are fewer lanes
+        than laws.
         """
+        before = self.configuration.lanes
         self.configuration = self.configuration.controlled_by(laws)
+        self.lanes = [
+            _follow_law(lane, old.law, new.law)
+            for lane, old, new in zip(self.lanes, before, self.configuration.lanes, strict=True)
+        ]
         self._connect()
 
     def set_gains(self, gains: Gains) -> None:
@@ -185,9 +202,12 @@ class Run:
 
         A rival that ran before goes on; a new one begins where the first lane is.
         """
-        configuration = self.configuration.changed(rivals=rivals)
-        origins = find_origins(self.configuration.rivals, rivals)
-        self.lanes = [self.lanes[origin or 0] for origin in origins]
+        before, configuration = self.configuration, self.configuration.changed(rivals=rivals)
+        origins = find_origins(before.rivals, rivals)
+        self.lanes = [
+            _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
+            for origin, lane in zip(origins, configuration.lanes, strict=True)
+        ]
         self.configuration = configuration
         self._connect()
 
@@ -230,6 +250,9 @@ class Run:
     def _connect(self) -> None:
         c = self.configuration
         self.blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
+        self.laws = [
+            bind_law(c, lane, blocks) for lane, blocks in zip(c.lanes, self.blocks, strict=True)
+        ]
         self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
 
 
@@ -246,6 +269,11 @@ def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | No
             left[origin] = None
         origins.append(origin)
     return origins
+
+
+def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:
+    """The lane under a law: what the law before remembered is no other law's."""
+    return lane if law == before else lane._replace(memory=get_law(law).start_memory())
 
 
 def _build_stacks(configuration: Configuration, start: Start) -> tuple[Stack, Stack]:

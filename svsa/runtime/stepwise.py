@@ -41,7 +41,8 @@ def advance_stepwise(
         torque = limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
         if not math.isfinite(torque.u1 + torque.u2):
             return lane, k, NOT_FINITE
-        lane = apply_torque(blocks, inputs, lane, reference, torque, tick, sample)
+        estimate = lane.estimate
+        lane = apply_torque(blocks, inputs, lane, reference, torque, estimate, tick, sample)
     return lane, len(samples), INSIDE
 
 

@@ -10,9 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
+from svsa.control.installed import get_law, list_law_names
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
 from svsa.runtime.command import KINDS, Command
-from svsa.runtime.configuration import LAWS, Configuration
+from svsa.runtime.configuration import Configuration
 from svsa.runtime.controllers import Controller, complete_laws, list_controllers
 from svsa.runtime.run import Run, find_origins
 
@@ -155,10 +156,11 @@ class Timeline:
         if controller in used:
             return used[controller]
         taken = set(used.values())
-        customary = LAWS.index(controller.law)
+        laws = list_law_names()
+        customary = laws.index(controller.law)
         if customary not in taken:
             return customary
-        free = (ink for ink in range(len(LAWS), len(LAWS) + len(taken) + 1) if ink not in taken)
+        free = (ink for ink in range(len(laws), len(laws) + len(taken) + 1) if ink not in taken)
         return next(free)
 
 
@@ -232,7 +234,7 @@ def describe_change(command: Command, before: Configuration) -> str:
     if command.kind in ("law", "laws"):
         law = command.argument if command.kind == "law" else command.argument[0]
         if law != before.law:
-            return f"{before.law.upper()} → {law.upper()}"
+            return f"{get_law(before.law).title} → {get_law(law).title}"
     return KINDS[command.kind].label
 
 

@@ -7,12 +7,13 @@ import numpy as np
 
 import svsa
 from svsa.control.feedback_linearization import build_gains
+from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
 from svsa.model.dynamics import build_actuator
 from svsa.plant.disturbances import build_load_table
 from svsa.reference.transition import build_stack
 from svsa.runtime.configuration import Configuration
-from svsa.runtime.loop import INITIAL, Inputs, advance_tick, build_blocks
+from svsa.runtime.loop import Inputs, advance_tick, bind_law, build_blocks, build_lane_state
 from svsa.runtime.run import Run
 from svsa.runtime.stepwise import Controller
 from svsa.signals import CHANNELS
@@ -53,12 +54,13 @@ def measure_single_ticks(effects: svsa.Effects) -> float:
     stacks = build_stack(configuration.position), build_stack(configuration.stiffness)
     inputs = Inputs(*stacks, build_load_table(()))
     blocks = build_blocks(configuration, configuration.lanes[0], Run(configuration).mu0)
+    law = bind_law(configuration, configuration.lanes[0], blocks)
     samples = np.empty((PYTHON_TICKS, len(CHANNELS)))
 
     def work() -> int:
-        lane = INITIAL
+        lane = build_lane_state(get_law("ndobc").start_memory())
         for tick, sample in enumerate(samples):
-            lane, _ = advance_tick(blocks, inputs, lane, tick, sample)
+            lane, _ = advance_tick(blocks, law, inputs, lane, tick, sample)
         return PYTHON_TICKS
 
     return measure(work)

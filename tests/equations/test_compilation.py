@@ -1,31 +1,51 @@
-"""What decides the name of the compiled code's cache."""
+"""What decides whether compiled code is made anew: for each file, it and what it is made of."""
 
-import ast
+import os
+import subprocess
+import sys
 from pathlib import Path
 
+import pytest
+
 import svsa
-from svsa.compilation import find_compiled_sources
+from svsa.compilation import find_sources
 
 LIBRARY = Path(svsa.__file__).parent
-SOURCES = {path.relative_to(LIBRARY).as_posix() for path in find_compiled_sources()}
+
+PACKAGE = {
+    "__init__.py": "",
+    "law.py": "from svsa.signals import Torque\nfrom .gain import compute_gain\n",
+    "gain.py": "from svsa.compilation import compiled\n\n@compiled\ndef compute_gain(x):\n    return x\n",
+}
+CALLER = """
+from svsa.compilation import compiled, is_compiled_before
+from plugged.gain import compute_gain
+
+@compiled
+def double(x):
+    return 2.0 * compute_gain(x)
+
+print(is_compiled_before(compute_gain), double(1.5))
+"""
 
 
-def test_every_file_with_a_compiled_function_counts() -> None:
-    """Read from the syntax tree, where the library itself looks at the text."""
-    decorated = {
-        path.relative_to(LIBRARY).as_posix()
-        for path in LIBRARY.rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text()))
-        if isinstance(node, ast.FunctionDef)
-        for decorator in node.decorator_list
-        if isinstance(decorator, ast.Name) and decorator.id == "compiled"
-    }
-    assert decorated
-    assert decorated <= SOURCES
+def find_names(file: str) -> set[str]:
+    sources = find_sources(LIBRARY / file)
+    return {path.relative_to(LIBRARY).as_posix() for path in sources}
 
 
-def test_what_a_compiled_file_imports_counts_too() -> None:
-    assert {"signals.py", "parameters.py", "control/gains.py"} <= SOURCES
+def test_a_file_counts_with_all_that_it_imports() -> None:
+    names = find_names("control/ndobc.py")
+    assert {"control/ndobc.py", "control/feedback_linearization.py"} <= names
+    assert {"model/linearization.py", "model/spring.py", "signals.py", "packed.py"} <= names
+
+
+def test_a_law_is_no_part_of_the_loop() -> None:
+    """So that a law that is added or changed compiles neither the loop nor another law."""
+    laws = {"control/feedback_linearization.py", "control/ndobc.py"}
+    assert not laws & find_names("runtime/loop.py")
+    assert not laws & find_names("runtime/measured.py")
+    assert "control/ndobc.py" not in find_names("control/feedback_linearization.py")
 
 
 def test_files_beside_the_equations_compile_nothing_anew() -> None:
@@ -37,4 +57,43 @@ def test_files_beside_the_equations_compile_nothing_anew() -> None:
         "runtime/command.py",
     }
     assert all((LIBRARY / name).exists() for name in beside)
-    assert not beside & SOURCES
+    assert not beside & find_names("runtime/loop.py")
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    folder = tmp_path / "plugged"
+    folder.mkdir()
+    for name, text in PACKAGE.items():
+        (folder / name).write_text(text)
+    return folder
+
+
+def test_of_a_package_outside_every_file_counts(package: Path) -> None:
+    sources = find_sources(package / "law.py")
+    assert {package / name for name in PACKAGE} <= set(sources)
+    assert LIBRARY / "signals.py" in sources
+
+
+def test_a_function_of_a_package_outside_is_cached_until_its_package_changes(
+    package: Path,
+) -> None:
+    (package / "caller.py").write_text(CALLER)
+    paths = os.pathsep.join([str(package.parent), str(LIBRARY.parent)])
+    environment = os.environ | {"PYTHONPATH": paths, "SVSA_CACHE": str(package.parent / "cache")}
+
+    def call() -> str:
+        return subprocess.run(
+            [sys.executable, "-m", "plugged.caller"],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=300,
+        ).stdout.strip()
+
+    assert call() == "False 3.0"
+    assert call() == "True 3.0"
+    changed = PACKAGE["gain.py"].replace("return x", "return 5.0 * x")
+    (package / "gain.py").write_text(changed)
+    assert call() == "False 15.0", "what was compiled of another file before is not used"

@@ -10,10 +10,10 @@ from svsa.experiment.loop_noise import choose_sensing, compute_loop_noise, linea
 from svsa.experiment.prediction import LOAD, measure_demand, predict
 from svsa.experiment.steady_error import compute_fl_steady_error
 from svsa.plant.effects import Effects, SensorNoise, StateEstimation
-from svsa.runtime.configuration import Configuration, Law
+from svsa.runtime.configuration import Configuration
 
 
-def build(law: Law, sigma: float, **changes: object) -> Configuration:
+def build(law: str, sigma: float, **changes: object) -> Configuration:
     figure = svsa.paper.get_figure("4a").build_configuration(law, load=False)
     stiffness = svsa.ConstantStiffness(stiffness_nm_per_rad=sigma)
     return figure.changed(stiffness=stiffness, **changes)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import svsa
+from svsa.control.call import build_call
 from svsa.plant.drive import compute_lagged_torque, compute_late_torque, compute_mean_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, CurrentLag, Friction, build_bench
 from svsa.plant.friction import compute_friction
@@ -16,8 +17,10 @@ from svsa.plant.integration import integrate_period
 from svsa.reference.transition import build_stack
 from svsa.runtime.loop import (
     AT_REST,
+    NO_TORQUE,
     UNDISTURBED,
     Inputs,
+    bind_law,
     build_blocks,
     compute_control,
     read_reference,
@@ -167,9 +170,12 @@ def test_in_the_loop_the_law_acts_d_samples_after_it_was_asked(law, samples):
     found = record(run, 2 * samples + 1)[:, CHANNEL_INDEX["torque1_nm"]]
     blocks = build_blocks(configuration, configuration.lanes[0], run.mu0)
     stacks = build_stack(configuration.position), build_stack(configuration.stiffness)
-    inputs = Inputs(*stacks, NO_LOADS)
+    inputs, law = Inputs(*stacks, NO_LOADS), bind_law(configuration, configuration.lanes[0], blocks)
+    call = build_call(law, run.lanes[0].memory)
     asked = [
-        compute_control(blocks, AT_REST, read_reference(inputs, k * T), UNDISTURBED).u1
+        compute_control(
+            blocks, call, AT_REST, read_reference(inputs, k * T), UNDISTURBED, NO_TORQUE
+        ).u1
         for k in range(samples + 1)
     ]
     assert np.all(found[:samples] == 0.0)

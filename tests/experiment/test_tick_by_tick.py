@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.control.call import build_call
 from svsa.control.feedback_linearization import build_gains, compute_feedback_linearization
+from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
 from svsa.model.domain import INSIDE, check_domain
 from svsa.model.dynamics import build_actuator
@@ -16,11 +18,12 @@ from svsa.plant.integration import compute_plant_load, integrate_period
 from svsa.plant.sensors import read_sensors
 from svsa.reference.transition import build_stack
 from svsa.runtime.loop import (
-    INITIAL,
     Inputs,
     LaneState,
     advance_tick,
+    bind_law,
     build_blocks,
+    build_lane_state,
     compute_control,
     delay,
     observe,
@@ -58,26 +61,34 @@ def whole(configuration):
 
 @pytest.fixture
 def parts(configuration):
-    """(blocks, inputs) of the configuration's only lane, built outside a run."""
+    """(blocks, law, inputs) of the configuration's only lane, built outside a run."""
     scheduled = tuple(
         schedule_load(number, load, 0, 0.001)
         for number, load in enumerate(configuration.loads, start=1)
     )
     stacks = build_stack(configuration.position), build_stack(configuration.stiffness)
     blocks = build_blocks(configuration, configuration.lanes[0], Run(configuration).mu0)
-    return blocks, Inputs(*stacks, build_load_table(scheduled))
+    law = bind_law(configuration, configuration.lanes[0], blocks)
+    return blocks, law, Inputs(*stacks, build_load_table(scheduled))
 
 
-def compose_tick(blocks, inputs, lane, tick, sample):
+@pytest.fixture
+def initial(configuration):
+    """The lane at its start."""
+    return build_lane_state(get_law(configuration.law).start_memory())
+
+
+def compose_tick(blocks, law, inputs, lane, tick, sample):
     """`advance_tick` written out in Python over the same compiled pieces."""
     assert check_domain(blocks.domain, blocks.plant, lane.x) == INSIDE
     bench, period, time = blocks.bench, blocks.period, tick * blocks.period
     reference = read_reference(inputs, time)
-    torque = compute_control(blocks, lane.known, reference, lane.estimate)
+    call = build_call(law, lane.memory)
+    torque = compute_control(blocks, call, lane.known, reference, lane.estimate, lane.applied)
     assert math.isfinite(torque.u1 + torque.u2)
     asked, target = delay(bench, lane.asked, torque)
     load = compute_plant_load(bench, inputs.loads, lane.x, tick, period, time)
-    publish(blocks, reference, lane, target, load, time, sample)
+    publish(blocks, reference, lane, lane.estimate, target, load, time, sample)
     x = integrate_period(
         blocks.plant, bench, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
     )
@@ -85,28 +96,28 @@ def compose_tick(blocks, inputs, lane, tick, sample):
     applied = compute_mean_torque(lane.torque, target, bench.lag, period)
     measurement = read_sensors(bench, x, tick + 1)
     known, estimate = observe(blocks, lane.known, lane.estimate, applied, measurement)
-    return LaneState(x, known, estimate, made, asked)
+    return LaneState(x, known, estimate, made, applied, asked, lane.memory)
 
 
-def test_one_call_is_what_a_run_does(parts, whole):
+def test_one_call_is_what_a_run_does(parts, initial, whole):
     """The run adds nothing to the compiled loop: no state is kept beside `LaneState`."""
     samples = np.empty_like(whole)
-    _, done, code = advance_lane(*parts, INITIAL, 0, samples)
+    _, done, code = advance_lane(*parts, initial, 0, samples)
     assert (done, code) == (TICKS, INSIDE)
     np.testing.assert_array_equal(samples, whole)
 
 
-def test_tick_by_tick_from_python_gives_the_same_bits(parts, whole):
-    samples, lane = np.empty_like(whole), INITIAL
+def test_tick_by_tick_from_python_gives_the_same_bits(parts, initial, whole):
+    samples, lane = np.empty_like(whole), initial
     for tick in range(TICKS):
         lane, code = advance_tick(*parts, lane, tick, samples[tick])
         assert code == INSIDE
     np.testing.assert_array_equal(samples, whole)
 
 
-def test_piece_by_piece_from_python_gives_the_same_bits(parts, whole):
+def test_piece_by_piece_from_python_gives_the_same_bits(parts, initial, whole):
     """Compiled alone or inlined into the loop, an equation rounds alike."""
-    samples, lane = np.empty_like(whole), INITIAL
+    samples, lane = np.empty_like(whole), initial
     for tick in range(TICKS):
         lane = compose_tick(*parts, lane, tick, samples[tick])
     np.testing.assert_array_equal(samples, whole)

@@ -9,6 +9,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from svsa.control.call import BoundLaw, build_call
+from svsa.control.installed import get_law
 from svsa.errors import StateError
 from svsa.hardware.bench import BenchFile
 from svsa.hardware.can_plant import CanPlant, Reading
@@ -71,6 +73,7 @@ class BenchLoop:
             for name in ("known", "estimate", "asked", "expected", "measured", "ages_s")
         )
         self._blocks: Blocks | None = None
+        self._called: tuple[BoundLaw, np.ndarray] | None = None
         self._constants = np.empty(0)
         self._forget()
 
@@ -78,6 +81,7 @@ class BenchLoop:
         """Know nothing of the state: the next measurement is where it begins."""
         self._is_known = False
         self._carried[:] = _NOTHING
+        self.run.lanes[0].memory[:] = get_law(self.run.configuration.law).start_memory()
 
     def load(self, configuration: Configuration) -> None:
         """Use this configuration from the next start on; raises `StateError` in motion."""
@@ -147,12 +151,18 @@ class BenchLoop:
             self._is_known = True
         run = self.run
         if run.blocks[0] is not self._blocks:
-            self._blocks = run.blocks[0]
-            self._constants = pack(BenchConstants(self._blocks, self._actuation))
+            self._connect()
         self._measured[:], self._ages[:] = y, ages_s
         follow_and_decide(self._constants, run.inputs, self._carried, run.tick)
         known, estimate, asked = self._known, self._estimate, self._asked
         return State(*known.tolist()), Disturbance(*estimate.tolist()), Torque(*asked.tolist())
+
+    def _connect(self) -> None:
+        """Pack what is constant as the run has it now, its law with the memory of that."""
+        run = self.run
+        self._blocks, self._called = run.blocks[0], (run.laws[0], run.lanes[0].memory)
+        call = build_call(*self._called)
+        self._constants = pack(BenchConstants(self._blocks, self._actuation, call))
 
     def _publish(self, sent: Torque, row: np.ndarray) -> None:
         publish_and_foresee(self._constants, self._carried, sent.u1, sent.u2, self.run.tick, row)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from svsa.model.domain import INSIDE
-from svsa.runtime.configuration import Configuration, Lane, Law
+from svsa.runtime.configuration import Configuration, Lane
 from svsa.runtime.controllers import complete_laws
 from svsa.runtime.realtime.memory import LoopMemory
 from svsa.runtime.run import Run, Start, find_origins
@@ -67,7 +67,7 @@ class BenchRun(Run):
         rows[ticks:] = np.nan
         rows[ticks:, 0] = (self.tick + np.arange(ticks, len(rows))) * self.period_s
 
-    def set_laws(self, laws: tuple[Law, ...]) -> None:
+    def set_laws(self, laws: tuple[str, ...]) -> None:
         """As `Run.set_laws`; the twin has the law of the bench."""
         super().set_laws(complete_laws(laws, is_bench=True))
 

@@ -1,0 +1,101 @@
+"""What a control law is: all that the lab knows of one, said by the law itself."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from svsa.checked import Checked
+from svsa.control.call import BoundLaw, bind
+from svsa.errors import ParameterError, Violation
+from svsa.model.domain import Domain
+from svsa.model.dynamics import Actuator
+from svsa.packed import pack
+
+EstimateSource = Literal["none", "observer", "own"]
+
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}", re.ASCII)
+_ESTIMATE = ("w2", "w4", "w6")
+
+
+class Setting(NamedTuple):
+    """What a law is set into. nominal: of the model. domain: where it holds.
+
+    torque1_max, torque2_max: N·m, infinite where nothing limits. period: T, s.
+    """
+
+    nominal: Actuator
+    domain: Domain
+    torque1_max: float
+    torque2_max: float
+    period: float
+
+
+class Nothing(NamedTuple):
+    """The constants of a law without parameters, the memory of one that remembers nothing."""
+
+    nothing: float = 0.0
+
+
+class NoParameters(Checked):
+    """The parameters of a law that has none."""
+
+
+@dataclass(frozen=True)
+class Law:
+    """A control law. The loop calls it once a period, after x̂ and ŵ, before the limits.
+
+    name: letters, digits and _, as in files and on the wire. title: as in a legend. summary: what
+    it does, in a sentence. equation: KaTeX. source: number of the paper's equation, or a DOI.
+    parameters: checked values, each with unit, bound and meaning; those without a default cannot
+    be left out. build: the constants of `control` from them, a named tuple of numbers and of
+    tuples of numbers. control: a compiled function
+
+        control(nominal, constants, memory, x, reference, estimate, applied, period) → `Torque`
+
+    of the nominal model (`Actuator`), the constants, the memory, x̂ (`State`), `Reference`, ŵ
+    (`Disturbance`, N·m), the mean torque that really acted in the last period (`Torque`, N·m) and
+    T (s); nominal, constants and memory are read by name, and memory is written. It keeps nothing
+    elsewhere. memory: a named tuple of numbers with defaults, which are what it remembers at the
+    start of a run and after another law. estimate: whether it acts on no ŵ, on that of the
+    loop's observer, or brings its own, which stands in w2, w4, w6 at the front of its memory and
+    is what is shown. Raises `ParameterError` for what is no law.
+    """
+
+    name: str
+    title: str
+    summary: str
+    equation: str
+    source: str
+    control: Any
+    parameters: type[Checked] = NoParameters
+    build: Callable[[Any, Setting], tuple[Any, ...]] = lambda parameters, setting: Nothing()
+    memory: type[tuple[Any, ...]] = Nothing
+    estimate: EstimateSource = "none"
+
+    def __post_init__(self) -> None:
+        if not _NAME.fullmatch(self.name):
+            bound = "a small letter, then up to 39 small letters, digits or _"
+            raise ParameterError(Violation("name", self.name, "", bound))
+        if self.estimate == "own" and self._start.dtype.names[:3] != _ESTIMATE:  # pyright: ignore[reportOptionalSubscript]
+            bound = "w2, w4, w6 at the front for a law with an estimate of its own"
+            raise ParameterError(
+                Violation("memory", list(self._start.dtype.names or ()), "", bound)
+            )
+
+    @cached_property
+    def _start(self) -> np.ndarray:
+        return pack(self.memory())
+
+    def start_memory(self) -> np.ndarray:
+        """What it remembers at the start, as words of 64 bits."""
+        return self._start.view(np.float64).copy()
+
+    def bind(self, parameters: Checked, setting: Setting) -> BoundLaw:
+        """The law as the compiled loop calls it; compiled where it has not been before."""
+        constants = pack(self.build(parameters, setting))
+        is_own = self.estimate == "own"
+        return bind(self.control, pack(setting.nominal), constants, self._start, is_own)
