@@ -1490,11 +1490,8 @@ export interface components {
          * @description Everything that is set.
          */
         ConfigurationState: {
-            /**
-             * Law
-             * @enum {string}
-             */
-            law: "ndobc" | "fl";
+            /** Law */
+            law: string;
             /** Position */
             position: components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"] | components["schemas"]["StepsPosition"] | components["schemas"]["MinimumJerkPosition"] | components["schemas"]["ChirpPosition"] | components["schemas"]["SeriesPosition"];
             /** Stiffness */
@@ -1754,11 +1751,10 @@ export interface components {
             figure: "4a" | "4b" | "5";
             /**
              * Law
-             * @description ndobc (Eq 24) or fl (Eq 36)
+             * @description Name of a law that is installed
              * @default ndobc
-             * @enum {string}
              */
-            law: "ndobc" | "fl";
+            law: string;
             /**
              * Load
              * @description With the paper's 3 kg load at 5 s
@@ -2025,10 +2021,9 @@ export interface components {
         Lane: {
             /**
              * Law
-             * @description ndobc (Eq 24) or fl (Eq 36)
-             * @enum {string}
+             * @description Name of a law that is installed
              */
-            law: "ndobc" | "fl";
+            law: string;
             /** @description Its gains; left out, those of the run */
             gains?: components["schemas"]["Gains"] | null;
             /** @description Its observer; left out, that of the run */
@@ -2064,11 +2059,8 @@ export interface components {
              * @description Its own for the whole run: a lane keeps it where lanes before it are taken away, and none gets that of a lane that went
              */
             id: number;
-            /**
-             * Law
-             * @enum {string}
-             */
-            law: "ndobc" | "fl";
+            /** Law */
+            law: string;
             /**
              * Name
              * @description Of who controls it now
@@ -2098,16 +2090,15 @@ export interface components {
         LawRequest: {
             /**
              * Law
-             * @description ndobc (Eq 24) or fl (Eq 36)
-             * @enum {string}
+             * @description Name of a law that is installed
              */
-            law: "ndobc" | "fl";
+            law: string;
             /**
              * Rival Laws
              * @description Laws of the lanes beside, from the first on; those left out keep theirs
              * @default []
              */
-            rival_laws: ("ndobc" | "fl")[];
+            rival_laws: string[];
         };
         /**
          * Limits
@@ -3262,11 +3253,10 @@ export interface components {
             figure: "4a" | "4b" | "5";
             /**
              * Law
-             * @description ndobc (Eq 24) or fl (Eq 36)
+             * @description Name of a law that is installed
              * @default ndobc
-             * @enum {string}
              */
-            law: "ndobc" | "fl";
+            law: string;
             /**
              * Load
              * @description With the paper's 3 kg load at 5 s
