@@ -15,7 +15,8 @@ LIBRARY = Path(svsa.__file__).parent
 PACKAGE = {
     "__init__.py": "",
     "law.py": "from svsa.signals import Torque\nfrom .gain import compute_gain\n",
-    "gain.py": "from svsa.compilation import compiled\n\n@compiled\ndef compute_gain(x):\n    return x\n",
+    "gain.py": "from svsa.compilation import compiled\n\n"
+    "@compiled\ndef compute_gain(x):\n    return x\n",
 }
 CALLER = """
 from svsa.compilation import compiled, is_compiled_before

@@ -30,7 +30,7 @@ export function Compare({ state }: { state: SessionState }) {
         onClick={() => void toggleCompare(state)}
       >
         <span class="compare-track" aria-hidden="true" />
-        <span class="compare-words">{text.compare.with(text.controller[rival])}</span>
+        <span class="compare-words">{text.compare.with(rival.toUpperCase())}</span>
         {present && <Swatch look={inkOf(present.ink)} />}
       </button>
       <span class="visually-hidden" id={id}>
