@@ -75,6 +75,6 @@ class BenchState(BaseModel):
     operator_required: bool = Field(description="Somebody must watch while it runs")
     dead_man: bool = Field(
         description="It runs only while somebody holds the switch: any message on the stream of"
-        " whoever may command, every 0.1 s"
+        " whoever may command, every 0.1 s or as the bench file says"
     )
     loop: LoopState

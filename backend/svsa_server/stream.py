@@ -3,8 +3,8 @@
 Messages and the batch's header are described in `stream_schemas`, and from there in `/docs`.
 A change is told before the samples that it made, which have the lanes that it told of.
 
-Every message of the client holds the dead-man's switch of a bench for 0.1 s, as long as the
-client may command: it is in control, or nobody is.
+Every message of the client holds the dead-man's switch of a bench for `operator_s` (0.1 s), as
+long as the client may command: it is in control, or nobody is.
 """
 
 import asyncio

@@ -109,8 +109,13 @@ class SafetySettings(Checked):
     stale_zero_s: Number = quantity("s", "Feedback older: zero torque", gt=0, le=1, default=0.005)
     stale_fault_s: Number = quantity("s", "Feedback older: fault", gt=0, le=1, default=0.020)
     missed_ticks: Whole = quantity("ticks", "Missed in a row: fault", ge=1, le=1000, default=20)
+    loop_s: Number = quantity(
+        "s", "Loop silent: the supervisor stops the drives", ge=0.005, le=1, default=0.020
+    )
     supervisor_s: Number = quantity("s", "Supervisor silent: fault", gt=0, le=5, default=0.05)
-    dead_man: Flag = quantity("", "The operator holds a switch; 0.1 s without: ramp", default=False)
+    server_s: Number = quantity("s", "Server silent: ramp to zero", ge=0.1, le=60, default=1.0)
+    dead_man: Flag = quantity("", "It runs only while the operator holds a switch", default=False)
+    operator_s: Number = quantity("s", "Switch not held: ramp to zero", ge=0.05, le=2, default=0.1)
     needs_watcher: Flag = quantity("", "Runs only while a stream of it is open", default=True)
 
 
@@ -124,9 +129,15 @@ class DesignSettings(Checked):
 
 
 class EmulatorSettings(Checked):
-    """Where an emulated rig is told what happens to it."""
+    """Where an emulated rig is told what happens to it, and whose time it has."""
 
     control_port: Whole = quantity("", "Its control port", ge=1, le=65535)
+    lockstep: Flag = quantity(
+        "",
+        "The rig (`svsa rig --lockstep`) waits for the loop: a busy machine makes both slow, not"
+        " late",
+        default=False,
+    )
 
 
 class BenchFile(Checked):

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import tomli_w
 
-from svsa.checked import Checked, Whole, quantity
+from svsa.checked import Checked, Flag, Whole, quantity
 from svsa.errors import ParameterError, Violation
 from svsa.hardware.bench import BenchFile
 
@@ -27,7 +27,7 @@ class Calibration(Checked):
     by: str = quantity("", "Who made it", min_length=1, max_length=100)
     fingerprint: str = quantity("", "Of the bench file that it was made for")
     deflection_zero_counts: Whole = quantity("counts", "Of the deflection encoder at φ = 0")
-    signs_confirmed: bool = quantity("", "Every sign was seen to be right")
+    signs_confirmed: Flag = quantity("", "Every sign was seen to be right")
 
 
 def compute_fingerprint(bench: BenchFile) -> str:

@@ -169,8 +169,7 @@ class CanPlant:
 
         known: x̂. estimate: ŵ, N·m. missed: ticks lost before this one.
         """
-        fresh = max(self._sensing.ages_s) <= self._bench.safety.stale_zero_s
-        self._guard.counts = self._sensing.counts if fresh else None
+        self._guard.counts = self._sensing.find_new_counts()
         torque = self._machine.update(self._find_conditions(missed), asked, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
         try:

@@ -47,6 +47,10 @@ class BenchClock(Protocol):
         """The time of a frame in this clock's, from its timestamp; arrival: when it was read."""
         ...
 
+    def find_lateness(self, deadline: float) -> float:
+        """How long ago, by the clock on the wall, this deadline was due, s."""
+        ...
+
 
 class _Timespec(ctypes.Structure):
     _fields_ = (("seconds", ctypes.c_long), ("nanoseconds", ctypes.c_long))
@@ -84,6 +88,10 @@ class WallClock:
         while self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, ctypes.byref(wanted), None):
             if time.monotonic() >= deadline:
                 return
+
+    def find_lateness(self, deadline: float) -> float:
+        """How long ago this deadline was due, s."""
+        return time.monotonic() - deadline
 
     def take_frames(self) -> list[can.Message]:
         """None: they wait at the bus."""
@@ -140,9 +148,19 @@ class LockstepClock:
         self._bus.send(ask)
         while (message := self._bus.recv(_ECHO_S)) is not None:
             if message.is_extended_id and message.arbitration_id == ADVANCE_ID:
-                return decode_time(message.data)
+                return self._check(decode_time(message.data), time_us)
             self._frames.append(message)
         raise ClockError(f"The rig did not go on within {_ECHO_S:g} s: is it in lockstep?")
+
+    @staticmethod
+    def _check(told_us: int, asked_us: int) -> int:
+        """A rig whose time goes on by itself has not come as far as it is asked to."""
+        if told_us < asked_us:
+            raise ClockError(
+                f"The rig is at {told_us * 1e-6:g} s and was asked to go on to"
+                f" {asked_us * 1e-6:g} s: start it with --lockstep."
+            )
+        return told_us
 
     def take_frames(self) -> list[can.Message]:
         """Frames of the bus that came while waiting."""
@@ -152,3 +170,7 @@ class LockstepClock:
     def convert(self, timestamp: float, arrival: float) -> float:
         """The rig stamps its frames with its own time."""
         return timestamp
+
+    def find_lateness(self, deadline: float) -> float:
+        """Nothing is late where time waits."""
+        return 0.0

@@ -5,7 +5,7 @@ import math
 from svsa.hardware.bench import BenchFile, MotorSettings
 from svsa.hardware.conversion import build_motor_scale
 from svsa.hardware.faults import Alarm
-from svsa.hardware.standstill import Standstill
+from svsa.hardware.standstill import NewCounts, Standstill
 from svsa.hardware.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.model.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
 from svsa.model.dynamics import Actuator
@@ -94,7 +94,7 @@ class Guard:
         self.motor1 = MotorGuard("motor1", bench.motor1, torque_max[0], rate)
         self.motor2 = MotorGuard("motor2", bench.motor2, torque_max[1], rate)
         self.motors = (self.motor1, self.motor2)
-        self.counts: tuple[int, int, int] | None = None
+        self.counts: NewCounts | None = None
         self._standstill = Standstill(bench.safety.standstill_max_nm)
         self._vibrations = (Vibration(self._period), Vibration(self._period))
         check_packed_domain(self._bounds, _STILL)  # compiled here, not in the first tick that runs

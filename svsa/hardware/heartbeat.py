@@ -11,8 +11,6 @@ from typing import Literal, Self
 import numpy as np
 
 Slot = Literal["loop", "supervisor", "server", "operator", "stopping"]
-SILENT_S = 0.020
-"""A loop that has not beaten for so long is silent: the supervisor stops the drives."""
 SLOTS: tuple[Slot, ...] = ("loop", "supervisor", "server", "operator", "stopping")
 
 

@@ -14,12 +14,10 @@ from svsa.errors import Fault, StateError
 from svsa.hardware.bench import BenchFile
 from svsa.hardware.faults import Alarm
 from svsa.hardware.guard import Guard
-from svsa.hardware.heartbeat import SILENT_S
 from svsa.hardware.homing import Homing
 from svsa.hardware.phase import Phase
 from svsa.signals import Disturbance, State, Torque
 
-OPERATOR_S = 0.1
 NO_TORQUE = Torque(0.0, 0.0)
 AXES = ("motor1", "motor2", "deflection")
 
@@ -103,7 +101,7 @@ class Machine:
             raise StateError(f"The bench is {self.status}: it starts from READY; arm it first.")
         if self.homing.next_step is not None:
             raise StateError(f"The zero mark of {self.homing.next_step} is not confirmed yet.")
-        if self._safety.dead_man and operator_age_s > OPERATOR_S:
+        if self._safety.dead_man and operator_age_s > self._safety.operator_s:
             raise StateError("The dead-man's switch is not held: hold it, then start.")
         self.status, self._share, self._tick = BenchStatus.RUN, 1.0, 0
         self._guard.begin()
@@ -140,11 +138,11 @@ class Machine:
             self.fail(alarm)
         if self.status in ARMING:
             self.status = SEQUENCE.get(conditions.phase, self.status)
-        silent = self._safety.dead_man and conditions.operator_age_s > OPERATOR_S
+        silent = self._safety.dead_man and conditions.operator_age_s > self._safety.operator_s
         if self.status is BenchStatus.RUN and silent:
             self.status = BenchStatus.RAMP
         if self.status is BenchStatus.RAMP:
-            self._share -= self._period / self._safety.ramp_s
+            self._share -= (1 + conditions.missed) * self._period / self._safety.ramp_s
             if self._share <= 0.0:
                 self.status = BenchStatus.READY
         if self.status not in MOVING:
@@ -160,7 +158,7 @@ class Machine:
         if self.status in (BenchStatus.OFF, BenchStatus.FAULT):
             return None
         if conditions.late_s is not None:
-            return _describe_lateness(conditions.late_s)
+            return _describe_lateness(conditions.late_s, self._safety.loop_s)
         supervisor_age_s = conditions.supervisor_age_s
         if self.status not in ARMING and supervisor_age_s > self._safety.supervisor_s:
             return _describe_lost_supervisor(supervisor_age_s)
@@ -186,14 +184,14 @@ class Machine:
         return self._guard.find_overload()
 
 
-def _describe_lateness(late_s: float) -> Alarm:
+def _describe_lateness(late_s: float, waits_s: float) -> Alarm:
     """The supervisor's own frames have stopped the drives: nobody else's."""
-    late_s = max(late_s, SILENT_S)
+    late_s = max(late_s, waits_s)
     words = (
         f"The control loop was {1e3 * late_s:.0f} ms late. The supervisor, which waits"
-        f" {1e3 * SILENT_S:g} ms, has set both drives to zero current and reset them."
+        f" {1e3 * waits_s:g} ms, has set both drives to zero current and reset them."
     )
-    return Alarm("loop_late", words, {"late_s": late_s, "supervisor_waits_s": SILENT_S})
+    return Alarm("loop_late", words, {"late_s": late_s, "supervisor_waits_s": waits_s})
 
 
 def _describe_lost_supervisor(age_s: float) -> Alarm:

@@ -17,9 +17,13 @@ from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.faults import Alarm
 from svsa.hardware.phase import Phase
 from svsa.hardware.robomodule import LENGTH
+from svsa.hardware.standstill import NewCounts
 from svsa.signals import Measurement, State
 
 MOST_FRAMES_A_TICK = 200
+NEW_PERIODS = 2
+FRESH_PERIODS = 5
+"""What is older says nothing of the present: x̂ goes on by its model alone."""
 UNHEARD = (math.inf, math.inf, math.inf)
 
 
@@ -66,6 +70,8 @@ class Sensing:
         self._settings = bench.bus
         self._stamped = bench.bus.timestamps == "bus"
         self._wait = 0.5 * bench.timing.period_s  # on average, where nothing stamps a frame
+        self._new_s = NEW_PERIODS * bench.timing.period_s
+        self._fresh_s = FRESH_PERIODS * bench.timing.period_s
         self._age, self._oldest = bench.timing.feedback_age_s, bench.safety.stale_fault_s
         self._alarm: Alarm | None = None
         self._early: list[can.Message] = []
@@ -97,9 +103,9 @@ class Sensing:
         if max(self.ages_s) <= self._oldest:
             phi = (counts[2] - self._zero) * self._deflection_scale
             measurement = Measurement(
-                counts[0] * self._angles[0] + known.dtheta1 * age1,
-                counts[1] * self._angles[1] + known.dtheta2 * age2,
-                phi + (known.dq - known.dtheta1) * age3,
+                self._bridge(counts[0] * self._angles[0], known.dtheta1, age1, known.theta1),
+                self._bridge(counts[1] * self._angles[1], known.dtheta2, age2, known.theta2),
+                self._bridge(phi, known.dq - known.dtheta1, age3, known.q - known.theta1),
                 known.dq,
                 known.dtheta1,
                 known.dtheta2,
@@ -110,6 +116,25 @@ class Sensing:
         )
         self._measurement = measurement
         return Reading(measurement, self.current_a, self.ages_s, counts)
+
+    def _bridge(self, angle: float, velocity: float, age: float, known: float) -> float:
+        """An angle (rad) of that age now, or, where that is too long ago, what is known of it.
+
+        With it moved on for longer, an error of the velocity would come back as a greater one.
+        """
+        if age > self._fresh_s and self._measurement is not None:
+            return known
+        return angle + velocity * age
+
+    def find_new_counts(self) -> NewCounts | None:
+        """Those of this tick; None where one is too old for x̂ to follow it."""
+        if max(self.ages_s) > self._fresh_s:
+            return None
+        one, two, three = (
+            counts if age <= self._new_s else None
+            for counts, age in zip(self.counts, self.ages_s, strict=True)
+        )
+        return one, two, three
 
     def find_angle(self, step: str) -> float:
         """How far an axis (a step of the homing) is from zero, rad; 0 where it is unknown."""

@@ -8,6 +8,9 @@ controller asks for, long before it is greater than any load.
 from svsa.hardware.faults import Alarm
 from svsa.signals import Disturbance
 
+NewCounts = tuple[int | None, int | None, int | None]
+"""Of motor 1, motor 2, deflection; None where nothing new was heard of one in this tick."""
+
 _AXES = (("motor1", "w4"), ("motor2", "w6"), ("deflection", "w2"))
 
 
@@ -23,27 +26,29 @@ class Standstill:
         self._counts: list[int | None] = [None, None, None]
         self._torques = [0.0, 0.0, 0.0]
 
-    def check(self, counts: tuple[int, int, int] | None, estimate: Disturbance) -> Alarm | None:
-        """The axis whose encoder must be wrong, or None.
+    def check(self, counts: NewCounts | None, estimate: Disturbance) -> Alarm | None:
+        """The axis whose encoder must be wrong, or None: what is late is not frozen.
 
-        counts: of motor 1, motor 2, deflection; None where they are too old to say anything.
-        estimate: ŵ, N·m.
+        counts: None where they are too old for x̂ to follow them. estimate: ŵ, N·m.
         """
         if counts is None:
             self.reset()
             return None
         for number, (axis, channel) in enumerate(_AXES):
             torque: float = getattr(estimate, channel)
-            if counts[number] != self._counts[number]:
-                self._counts[number], self._torques[number] = counts[number], torque
+            new = counts[number]
+            if new is None:
+                continue
+            if new != self._counts[number]:
+                self._counts[number], self._torques[number] = new, torque
                 continue
             change = torque - self._torques[number]
             if abs(change) > self._most:
                 words = (
-                    f"The encoder of {axis} stands still at {counts[number]} counts, although the"
+                    f"The encoder of {axis} stands still at {new} counts, although the"
                     f" torque on its axis has changed by {change:.3g} N·m since: its limit is"
                     f" {self._most:g} N·m. It is frozen or not connected, or the axis is jammed."
                 )
-                values = {f"{axis}_counts": float(counts[number]), f"{axis}_change_nm": change}
+                values = {f"{axis}_counts": float(new), f"{axis}_change_nm": change}
                 return Alarm("encoder_frozen", words, values)
         return None

@@ -3,8 +3,8 @@
     python -m svsa.hardware.supervisor BENCH HEARTBEATS
 
 The drives hold their last current for ever. When the loop, once begun, has not beaten for
-20 ms, both drives are told zero current and every drive is reset, again and again until it
-beats. It ends at SIGTERM, or by itself when its parent is gone and the loop silent.
+`loop_s` (20 ms), both drives are told zero current and every drive is reset, again and again
+until it beats. It ends at SIGTERM, or by itself when its parent is gone and the loop silent.
 """
 
 import math
@@ -19,7 +19,7 @@ from svsa.errors import SvsaError
 from svsa.hardware.bench import BenchFile, read_bench
 from svsa.hardware.bus import DELIVERY_S, open_bus, take_waiting
 from svsa.hardware.drive import build_broadcast_resets, build_zero_currents
-from svsa.hardware.heartbeat import SILENT_S, Heartbeats
+from svsa.hardware.heartbeat import Heartbeats
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
 
 DEAF_S = 0.25
@@ -35,6 +35,7 @@ class Supervisor:
         self._bus, self._beats = bus, beats
         self._settings = bench.supervisor_bus or bench.bus
         self._frames = [*build_zero_currents(bench), *build_broadcast_resets(bench)]
+        self._loop_s = bench.safety.loop_s
         self._heard_s = -math.inf
         self.silenced = False
 
@@ -49,7 +50,7 @@ class Supervisor:
         if now - self._heard_s <= DEAF_S:
             self._beats.beat("supervisor")
         age = self._beats.age_s("loop")
-        if age == math.inf or age <= SILENT_S:
+        if age == math.inf or age <= self._loop_s:
             self.silenced = False
             return
         if not self.silenced:

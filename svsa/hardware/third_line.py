@@ -16,11 +16,12 @@ from typing import NamedTuple
 from svsa.errors import SvsaError
 from svsa.hardware.bench import BenchFile
 from svsa.hardware.bus import BUS_TROUBLE, open_bus, prepare_bus
-from svsa.hardware.heartbeat import SILENT_S, Heartbeats
+from svsa.hardware.heartbeat import Heartbeats
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_priority
 from svsa.hardware.supervisor import PERIOD_S, Supervisor
 
-STILL_S = 0.1
+STILL = 5.0
+"""So many times `loop_s`: a supervisor that lives has acted by then."""
 LOOKS = 5
 """So often in a row both stand still: this process was awake, and they were not."""
 RETRY_S = 0.05
@@ -48,6 +49,7 @@ class ThirdLine:
     ) -> None:
         self._bench, self._beats = bench, beats
         self._loop, self._supervisor = loop, supervisor
+        self._loop_s = bench.safety.loop_s
         self._ended = threading.Event()
         self._looks = 0
         self.intervention: Intervention | None = None
@@ -70,12 +72,13 @@ class ThirdLine:
     def _is_needed(self) -> bool:
         """Whether neither is left. A loop that has not begun, or ended in order, is not missed."""
         silent_s = self._beats.age_s("loop")
-        if math.isinf(silent_s) or silent_s <= SILENT_S:
+        if math.isinf(silent_s) or silent_s <= self._loop_s:
             self._looks = 0
             return False
         if self._loop.poll() is not None and self._supervisor.poll() is not None:
             return True
-        still = silent_s > STILL_S and self._beats.age_s("supervisor") > STILL_S
+        longest_s = STILL * self._loop_s
+        still = silent_s > longest_s and self._beats.age_s("supervisor") > longest_s
         self._looks = self._looks + 1 if still else 0
         return self._looks >= LOOKS
 

@@ -15,6 +15,13 @@ def rig(
     lockstep: Annotated[
         bool, typer.Option("--lockstep", help="Time goes on only when a client asks for it.")
     ] = False,
+    real_time: Annotated[
+        bool | None,
+        typer.Option(
+            "--real-time/--ordinary-time",
+            help="Ask for real-time priority; left out, not in lockstep.",
+        ),
+    ] = None,
     file: Annotated[
         Path | None, typer.Option(help="What the rig is made of (TOML); else the prototype.")
     ] = None,
@@ -52,7 +59,7 @@ def rig(
         f" control {host}:{control.port} ({mode})",
         flush=True,
     )
-    if not lockstep:
+    if real_time if real_time is not None else not lockstep:
         request_real_time(RIG_PRIORITY)  # hardware does not wait for other programs
     try:
         process.run()

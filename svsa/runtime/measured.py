@@ -136,6 +136,24 @@ def publish_and_foresee(constants, carried, u1, u2, tick, sample):
 
 
 @compiled
+def pass_ticks(constants, carried, count):
+    """`count` periods in which the loop did not run: x̂ goes on with ŵ and the torque last sent.
+
+    A state that stood still meanwhile would take all that the axes have moved since for what
+    they moved in one period, and so for a velocity.
+    """
+    k, c = constants[0], carried[0]
+    w = read_disturbance(c.estimate)
+    for _ in range(count):
+        made, applied = find_late_torque(k, c)
+        known = read_state(c.known)
+        store_state(c.known, predict_state(k.blocks.nominal, known, w, applied, k.blocks.period))
+        store_torque(c.made, made)
+        store_torque(c.before, c.sent)
+    store_state(c.expected, foresee(k, c))
+
+
+@compiled
 def foresee(constants, carried):
     """X̂ as it is expected a period later, with the velocities of half the ages before.
 

@@ -239,6 +239,10 @@ class Session:
             case _:
                 self._log(kind, describe_change(command, before))
 
+    def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
+        """`change` to what `build` makes of the configuration as it is then."""
+        self.change(kind, build(self.run.configuration))
+
     def _take(self, command: Command) -> Command:
         """The command with the tick at which it holds: here, at once."""
         return command

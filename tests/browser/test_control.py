@@ -2,21 +2,19 @@
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
-from svsa.rig.launch import start_rig
 from tests.browser.test_page import open_page
-from tests.hardware.live_bench import write_bench
+from tests.hardware.live_bench import start_live_rig, write_bench
 from tests.lab import Lab, run_lab
-from tests.service.test_bench_session import BenchLab
+from tests.service.bench_lab import BenchLab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
 CONTROL_S = "2"
-ATTEMPTS = 8
+ATTEMPTS = 3
 
 
 @pytest.fixture(scope="module")
@@ -126,10 +124,10 @@ def test_the_name_is_asked_once(two_pages: tuple[Page, Page]) -> None:
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
     """The emulated rig with a dead-man's switch."""
-    with start_rig(lockstep=False) as rig:
-        path: Path = write_bench(tmp_path_factory.mktemp("bench"), rig)
-        written = path.read_text(encoding="utf-8")
-        path.write_text(written.replace("dead_man = false", "dead_man = true"), encoding="utf-8")
+    with start_live_rig(lockstep=True) as rig:
+        path = write_bench(
+            tmp_path_factory.mktemp("bench"), rig, lockstep=True, dead_man=True, operator_s=1.0
+        )
         with run_lab("--bench", str(path), control_s=CONTROL_S) as lab:
             yield BenchLab(lab, rig)
 
@@ -147,9 +145,7 @@ def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
 def hold_through(page: Page, bench: BenchLab) -> bool:
     """Run with D held, and on with the pointer; whether it ran until then.
 
-    A page that is too slow once to be heard every 0.1 s ends the run, as it should. Beside a
-    browser on two cores motor 1 was once too fast as well, why is not known: that ends an
-    attempt too.
+    A page that is once too busy to be heard in a whole second ends the run, as it should.
     """
     row = page.get_by_role("region", name="Dead-man's switch")
     button = row.get_by_role("button", name="Hold to run")
@@ -170,8 +166,7 @@ def runs_on(page: Page, bench: BenchLab) -> bool:
     for _ in range(30):
         page.wait_for_timeout(50)
         if bench.status != "run":
-            fault = bench.read()["fault"]
-            assert fault is None or fault["code"] == "overspeed", bench.describe()
+            assert bench.read()["fault"] is None, bench.describe()
             page.keyboard.up("d")
             page.mouse.up()
             bench.make_ready()

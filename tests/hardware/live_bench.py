@@ -1,35 +1,41 @@
-"""The bench file of a rig on the wall clock, on a machine that may be busy."""
+"""The bench file of a rig that is a process of its own, on a machine that may be busy."""
 
+import contextlib
 import tomllib
 from pathlib import Path
 from typing import Any
 
 import tomli_w
 
-from svsa.rig.launch import RunningRig
+from svsa.rig.launch import RunningRig, start_rig
 
 from .wired_bench import RIG_BENCH
 
-PATIENT = {
-    "stale_zero_s": 0.9,
-    "stale_fault_s": 1.0,
-    "missed_ticks": 900,
-    "supervisor_s": 2.0,
-    "standstill_max_nm": 1000.0,
-    "disturbance_max_nm": 1000.0,
-}
-"""A rig that is not let run for a moment looks like encoders that are frozen or wrong."""
+PATIENT = {"loop_s": 1.0, "supervisor_s": 2.0, "server_s": 20.0}
+"""How long the processes of a bench wait for one another."""
+LATE = {"stale_zero_s": 0.9, "stale_fault_s": 1.0, "missed_ticks": 900}
+"""Beside these, against the clock only: a rig that is not let run, or a loop. It has to stand
+still meanwhile: what moves on feedback this old is soon as fast as it may be."""
 
 
-def write_bench(folder: Path, rig: RunningRig, **safety: Any) -> Path:
+def start_live_rig(lockstep: bool) -> contextlib.AbstractContextManager[RunningRig]:
+    """A rig beside a loop in real time, with the loop's own claim to the processor.
+
+    lockstep: it waits for the loop, so that nothing of it is late on a busy machine. Against the
+    clock it goes on without a loop, which a test needs that takes the loop away.
+    """
+    return start_rig(lockstep, 120.0, "--real-time")
+
+
+def write_bench(folder: Path, rig: RunningRig, lockstep: bool, **safety: Any) -> Path:
     """The rig's bench file with this rig's ports, and its calibration record beside it.
 
-    safety: what differs from `PATIENT`.
+    lockstep: as the rig was started. safety: what differs from the patience that it needs.
     """
     bench: dict[str, Any] = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
     bench["bus"]["options"]["port"] = rig.port
-    bench["emulator"]["control_port"] = rig.control_port
-    bench["safety"] |= PATIENT | safety
+    bench["emulator"] = {"control_port": rig.control_port, "lockstep": lockstep}
+    bench["safety"] |= PATIENT | ({} if lockstep else LATE) | safety
     path = folder / "bench.toml"
     path.write_text(tomli_w.dumps(bench), encoding="utf-8")
     record = RIG_BENCH.with_name("bench.calibration.toml")

@@ -5,8 +5,11 @@ import time
 import can
 import pytest
 
+from svsa.hardware.bench import read_bench
 from svsa.hardware.clock import DRIFT, SPIN_S, ClockError, LockstepClock, WallClock
 from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
+from svsa.hardware.paced_clock import CATCH_UP_S, PacedClock, choose_clock
+from tests.hardware.wired_bench import RIG_BENCH
 
 
 class Adapter:
@@ -106,3 +109,65 @@ def test_a_rig_that_does_not_answer_is_an_error() -> None:
         LockstepClock().wait_until(1.0)
     with pytest.raises(ClockError, match="lockstep"):
         LockstepClock().bind(Adapter(answers=False))  # pyright: ignore[reportArgumentType]
+
+
+class Wall:
+    """The clock on the wall, which goes on when it is waited for and when a test says so."""
+
+    def __init__(self) -> None:
+        self.time = 500.0
+
+    def now(self) -> float:
+        return self.time
+
+    def wait_until(self, deadline: float) -> None:
+        self.time = max(self.time, deadline)
+
+
+def tick(clock: PacedClock, ticks: int) -> list[float]:
+    """So many periods of 1 ms; how late each was on the wall."""
+    late, deadline = [], clock.now()
+    for _ in range(ticks):
+        deadline += 0.001
+        clock.wait_until(deadline)
+        assert clock.now() == pytest.approx(deadline), "the rig is never ahead of the loop"
+        late.append(clock.find_lateness(deadline))
+    return late
+
+
+def test_a_paced_rig_keeps_step_with_the_wall_and_waits_for_a_late_loop() -> None:
+    clock, wall = PacedClock(), Wall()
+    clock._wall = wall  # pyright: ignore[reportAttributeAccessIssue]
+    clock.bind(Adapter())  # pyright: ignore[reportArgumentType]
+    assert tick(clock, 100) == pytest.approx([0.0] * 100, abs=1e-9)
+    assert wall.time == pytest.approx(500.1)
+    wall.time += 0.02
+    late = tick(clock, 40)
+    assert late[0] == pytest.approx(0.019)
+    assert late[-1] == pytest.approx(0.0, abs=1e-9)
+    assert wall.time == pytest.approx(500.14), "20 ms are made up for"
+    wall.time += 1.0
+    assert max(tick(clock, 200)) == pytest.approx(CATCH_UP_S)
+    assert clock.now() == pytest.approx(0.34)
+    assert wall.time == pytest.approx(501.34 - CATCH_UP_S, abs=0.002), "the rest is lost to both"
+
+
+def test_the_bench_file_says_whether_the_rig_waits() -> None:
+    bench = read_bench(RIG_BENCH)
+    assert isinstance(choose_clock(bench), WallClock)
+    assert bench.emulator is not None
+    waits = bench.changed(emulator=bench.emulator.changed(lockstep=True))
+    assert isinstance(choose_clock(waits), PacedClock)
+    assert isinstance(choose_clock(bench.changed(emulator=None)), WallClock)
+
+
+def test_a_rig_whose_time_goes_by_itself_is_no_lockstep() -> None:
+    bus = Adapter()
+    clock = LockstepClock()
+    clock.bind(bus)  # pyright: ignore[reportArgumentType]
+    bus.asked = []
+    bus.send = lambda _: bus._waiting.append(  # pyright: ignore[reportAttributeAccessIssue]
+        can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(3000))
+    )
+    with pytest.raises(ClockError, match=r"is at 0.003 s .* on to 1 s: start it with --lockstep"):
+        clock.wait_until(1.0)

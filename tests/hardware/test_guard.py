@@ -19,6 +19,7 @@ BENCH = read_bench(RIG_BENCH)
 CALM = (0.0, 0.0)
 NM_PER_A = (50.0 * 0.9 * 0.0396, 50.0 * 0.9 * 0.0234)
 FULL = Torque(100.0, -100.0)
+NO_TORQUE = Torque(0.0, 0.0)
 
 
 def build(**safety: float) -> Guard:
@@ -145,3 +146,24 @@ def test_a_torque_that_no_load_makes_ends_the_run(axis: int, sign: float) -> Non
     assert alarm is not None
     assert alarm.code == "implausible"
     assert ("link", "motor1", "motor2")[axis] in alarm.message
+
+
+def test_counts_that_are_late_are_not_frozen() -> None:
+    guard = build()
+    guard.counts = (100, 200, 300)
+    assert guard.check(NO_TORQUE, AT_REST, UNDISTURBED) is None
+    changed = Disturbance(0.0, 1.1, 0.0)
+    guard.counts = (None, 200, 300)
+    assert guard.check(NO_TORQUE, AT_REST, changed) is None
+    guard.counts = (101, 200, 300)
+    assert guard.check(NO_TORQUE, AT_REST, changed) is None
+    guard.counts = None
+    assert guard.check(NO_TORQUE, AT_REST, UNDISTURBED) is None
+    guard.counts = (101, 200, 300)
+    assert guard.check(NO_TORQUE, AT_REST, UNDISTURBED) is None
+    guard.counts = (None, 200, 300)
+    assert guard.check(NO_TORQUE, AT_REST, changed) is None
+    guard.counts = (101, 200, 300)
+    frozen = guard.check(NO_TORQUE, AT_REST, changed)
+    assert frozen is not None
+    assert (frozen.code, frozen.values["motor1_change_nm"]) == ("encoder_frozen", 1.1)

@@ -219,3 +219,13 @@ def test_a_fault_has_the_time_of_its_run() -> None:
 def test_every_fault_of_a_bench_has_words_for_a_mark() -> None:
     assert FAULTS.keys() <= FAULT_LABELS.keys()
     assert all(0 < len(label) < 26 and "_" not in label for label in FAULT_LABELS.values())
+
+
+def test_the_ramp_takes_its_time_whatever_ticks_are_missed() -> None:
+    machine = bring(BenchStatus.RAMP, missed_ticks=1000)
+    update(machine, missed=199)
+    assert machine.status is BenchStatus.RAMP, "0.2 of 0.3 s"
+    update(machine, missed=98)
+    assert machine.status is BenchStatus.RAMP
+    update(machine)
+    assert machine.status is BenchStatus.READY

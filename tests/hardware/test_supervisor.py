@@ -100,6 +100,18 @@ def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
     assert not supervisor.silenced
 
 
+def test_how_long_it_waits_is_said_in_the_bench_file() -> None:
+    bench, ages = read_bench(RIG_BENCH), Ages()
+    bench = bench.changed(safety=bench.safety.changed(loop_s=0.3))
+    supervisor = Supervisor(bench, RecordingBus(), ages)  # pyright: ignore[reportArgumentType]
+    ages.loop_s = 0.299
+    supervisor.watch()
+    assert not supervisor.silenced
+    ages.loop_s = 0.301
+    supervisor.watch()
+    assert supervisor.silenced
+
+
 def test_beats_only_while_it_hears_the_bus(
     watched: tuple[Supervisor, RecordingBus, Ages], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -11,10 +11,12 @@ from pathlib import Path
 
 import pytest
 
+from svsa.hardware.bench import read_bench
 from svsa.rig.launch import RunningRig, start_rig
 
 from .live_bench import write_bench
 from .survivors import PATIENCE_S, measure
+from .wired_bench import RIG_BENCH
 
 pytestmark = pytest.mark.wall_clock
 
@@ -28,8 +30,13 @@ CASES = [
     (KILL, ("supervisor", "server"), ()),
     (STOP, ("loop",), ("loop_silent", "loop_late")),
     (STOP, ("supervisor",), ("supervisor_lost",)),
+    (STOP, ("server",), ()),
     (STOP, ("loop", "supervisor"), ("loop_and_supervisor_lost",)),
 ]
+
+_SAFETY = read_bench(RIG_BENCH).safety
+WAITS = {name: getattr(_SAFETY, name) for name in ("loop_s", "supervisor_s", "server_s")}
+"""The processes wait for one another as long as they do on a bench: that is what is measured."""
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +57,8 @@ def test_whoever_is_left_stops_the_drives(
     victims: tuple[str, ...],
     codes: tuple[str, ...],
 ) -> None:
-    outcome = measure(rig, write_bench(tmp_path, rig, supervisor_s=1.0), victims, number, codes)
+    bench = write_bench(tmp_path, rig, lockstep=False, **WAITS)
+    outcome = measure(rig, bench, victims, number, codes)
     what = f"{number.name} {' + '.join(victims)}"
     sys.stdout.write(f"{what}: {1e3 * outcome.zero_s:.1f} ms to zero current")
     assert all(outcome.before_ma), "both drives held a current"

@@ -160,12 +160,12 @@ class WiredBench:
             self.clock.collect()
         return sent
 
-    def drive(self, loop: BenchLoop, count: int = 1) -> None:
-        """So many periods of the bench's own loop."""
+    def drive(self, loop: BenchLoop, count: int = 1, missed: int = 0) -> None:
+        """So many periods of the bench's own loop; missed: ticks lost before each."""
         for _ in range(count):
             self._tick += 1
             self.clock.wait_until(self._tick * self.bench.timing.period_s)
-            loop.tick(self.now)
+            loop.tick(self.now, missed)
             self.clock.collect()
 
     def skip(self, seconds: float) -> None:

@@ -102,7 +102,7 @@ def set_gains(
     ],
 ) -> SessionState:
     """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
-    session.change("gains", request.apply_to(session.run.configuration.gains))
+    session.patch("gains", lambda configuration: request.apply_to(configuration.gains))
     return build_state(session)
 
 
@@ -124,7 +124,7 @@ def change_actuator(
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
     """Change parameters of the true plant."""
-    session.change("actuator", _apply(patch, session.run.configuration.actuator))
+    session.patch("actuator", lambda configuration: _apply(patch, configuration.actuator))
     return build_state(session)
 
 
@@ -134,7 +134,7 @@ def change_nominal(
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
 ) -> SessionState:
     """Change parameters of the model that controller and observer believe in."""
-    session.change("nominal", _apply(patch, session.run.configuration.nominal))
+    session.patch("nominal", lambda configuration: _apply(patch, configuration.nominal))
     return build_state(session)
 
 

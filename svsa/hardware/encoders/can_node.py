@@ -2,7 +2,7 @@
 
 import can
 
-from svsa.checked import Checked, Whole, quantity
+from svsa.checked import Checked, Flag, Whole, quantity
 from svsa.errors import ParameterError, Violation
 
 
@@ -10,11 +10,11 @@ class CanNodeSettings(Checked):
     """Where in which frame the counts lie."""
 
     id: Whole = quantity("", "Identifier of the frame", ge=0, le=0x1FFFFFFF)
-    extended: bool = quantity("", "A 29-bit identifier", default=False)
+    extended: Flag = quantity("", "A 29-bit identifier", default=False)
     offset: Whole = quantity("byte", "First byte of the counts", ge=0, le=7, default=0)
     width: Whole = quantity("bit", "16, 24 or 32", ge=16, le=32, default=32)
-    big_endian: bool = quantity("", "Highest byte first", default=True)
-    signed: bool = quantity("", "Two's complement", default=True)
+    big_endian: Flag = quantity("", "Highest byte first", default=True)
+    signed: Flag = quantity("", "Two's complement", default=True)
 
 
 class CanNode:

@@ -5,7 +5,7 @@ import re
 import can
 import serial
 
-from svsa.checked import Checked, Whole, quantity
+from svsa.checked import Checked, Flag, Whole, quantity
 from svsa.hardware.encoders.source import EncoderError
 
 _LONGEST_LINE = 64
@@ -19,7 +19,7 @@ class SerialLineSettings(Checked):
 
     port: str = quantity("", "Serial port, as /dev/ttyUSB0 or COM3")
     baudrate: Whole = quantity("bit/s", "Rate", ge=1200, le=12_000_000, default=1_000_000)
-    binary: bool = quantity(
+    binary: Flag = quantity(
         "",
         "Words of 0xA5, int32 (lowest byte first) and the sum of its bytes (mod 256); else lines"
         " of decimal counts",

@@ -24,6 +24,7 @@ from svsa.runtime.measured import (
     BenchConstants,
     Carried,
     follow_and_decide,
+    pass_ticks,
     publish_and_foresee,
 )
 from svsa.runtime.run import Run, Start
@@ -96,7 +97,7 @@ class BenchLoop:
         The references fade in from the measured position and stiffness, and ŵ begins at
         zero, so that the first torque is about zero.
         """
-        if not self._is_known:
+        if self.plant.status is BenchStatus.READY and not self._is_known:
             raise StateError("The bench has not been read yet: arm it and wait until READY.")
         self.plant.start(now)
         known = State(*self._known.tolist())
@@ -120,12 +121,15 @@ class BenchLoop:
     def warm_up(self) -> None:
         """Have every compiled piece loaded before time counts."""
         self._decide(Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        pass_ticks(self._constants, self._carried, 1)
         self._publish(NO_TORQUE, self._scratch)
         self._forget()
 
     def tick(self, now: float, missed: int = 0) -> None:
         """One period. now: time of the plant's clock, s. missed: ticks lost before it."""
         plant = self.plant
+        if missed and self._is_known:
+            pass_ticks(self._constants, self._carried, missed)
         reading = self.reading = plant.read(now, State(*self._foreseen.tolist()))
         measurement = reading.measurement
         if measurement is None:

@@ -9,6 +9,7 @@ gone, and leaves the drives at zero current.
 import dataclasses
 import gc
 import sys
+import time
 from typing import Any
 
 from svsa.compilation import watch_compilation
@@ -16,9 +17,10 @@ from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.hardware.bench import read_bench
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant
-from svsa.hardware.clock import WallClock
+from svsa.hardware.clock import BenchClock, ClockError
 from svsa.hardware.heartbeat import Heartbeats
 from svsa.hardware.machine import BenchStatus
+from svsa.hardware.paced_clock import choose_clock
 from svsa.hardware.schedule import LOOP_PRIORITY, request_real_time
 from svsa.runtime.configuration import Configuration
 from svsa.runtime.realtime.configuration import build_guard
@@ -26,7 +28,6 @@ from svsa.runtime.realtime.link import Link, LinkClosedError
 from svsa.runtime.realtime.loop import MOVING, STATUSES, BenchLoop
 from svsa.runtime.realtime.memory import LoopMemory, add_to_histogram
 
-SERVER_SILENT_S = 2.0
 FIRST_MESSAGE_S = 10.0
 LISTEN_S = 0.00015
 """So long before a tick is due its frames are fetched: what comes later is read in the tick."""
@@ -36,11 +37,17 @@ class LoopProcess:
     """One bench, its loop, and the link to the server."""
 
     def __init__(
-        self, loop: BenchLoop, clock: WallClock, link: Link, memory: LoopMemory, beats: Heartbeats
+        self,
+        loop: BenchLoop,
+        clock: BenchClock,
+        server_s: float,
+        link: Link,
+        memory: LoopMemory,
+        beats: Heartbeats,
     ) -> None:
         self._loop, self._plant, self._clock = loop, loop.plant, clock
         self._link: Link | None = link
-        self._fields, self._beats = memory.fields, beats
+        self._fields, self._beats, self._server_s = memory.fields, beats, server_s
         self._told: tuple[Any, ...] = ()
         self._ending = False
 
@@ -53,11 +60,12 @@ class LoopProcess:
             self._clock.wait_until(deadline - LISTEN_S)
             self._plant.listen()
             self._clock.wait_until(deadline)
-            begin = self._clock.now()
+            begin, lateness = self._clock.now(), self._clock.find_lateness(deadline)
+            begin_s = time.monotonic()
             missed = int((begin - deadline) / period)
             self._loop.tick(begin, missed)
             self._beats.beat("loop")
-            self._note(begin - deadline, self._clock.now() - begin, missed)
+            self._note(lateness, time.monotonic() - begin_s, missed)
             deadline += missed * period
             if self._fields["quick_stop"]:
                 self._fields["quick_stop"] = 0
@@ -90,7 +98,8 @@ class LoopProcess:
         except LinkClosedError:
             self._link, self._ending = None, True
             self._stop("the server is gone")
-        if self._plant.status is BenchStatus.RUN and self._beats.age_s("server") > SERVER_SILENT_S:
+        is_silent = self._beats.age_s("server") > self._server_s
+        if self._plant.status is BenchStatus.RUN and is_silent:
             self._stop("the server has not been heard of")
 
     def _stop(self, reason: str) -> None:
@@ -99,7 +108,7 @@ class LoopProcess:
 
     def _answer(self, message: dict[str, Any]) -> dict[str, Any]:
         try:
-            if self._clock.now() > message["until"]:
+            if time.monotonic() > message["until"]:
                 raise SvsaError("The command came too late, and was not carried out.")
             return self._do(message["do"], message.get("argument"))
         except ParameterError as error:
@@ -178,7 +187,8 @@ def main(arguments: list[str]) -> int:
     tell = Progress(link)
     try:
         tell("opening the bus")
-        bench, clock = read_bench(path), WallClock()
+        bench = read_bench(path)
+        clock = choose_clock(bench)
         plant = CanPlant(bench, find_calibration(bench), clock, build_guard(bench), beats)
         plant.open()
     except SvsaError as error:
@@ -192,9 +202,12 @@ def main(arguments: list[str]) -> int:
             loop.warm_up()
         tell("asking for real time")
         link.send({"event": "ready", "notes": request_real_time(LOOP_PRIORITY)})
-        LoopProcess(loop, clock, link, memory, beats).run()
+        LoopProcess(loop, clock, bench.safety.server_s, link, memory, beats).run()
     except LinkClosedError:
         pass
+    except ClockError as error:
+        sys.stderr.write(f"Loop: {error}\n")
+        return 1
     finally:
         plant.close()
         beats.end("loop")

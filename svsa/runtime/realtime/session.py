@@ -1,7 +1,9 @@
 """A session whose first lane is a bench, seen from the server."""
 
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
@@ -25,6 +27,7 @@ from svsa.runtime.session import Session, Status
 from svsa.signals import State
 
 UNWATCHED_S = 1.0
+CHANGING_S = 0.001
 UNKNOWN_S = 0.25
 """So long after the last tick it may not be known yet who stops the drives."""
 
@@ -302,11 +305,21 @@ class BenchSession(Session):
             if event["event"] == "state":
                 self._take_state(event)
 
+    def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
+        """As `Session.patch`, once the loop has answered to every change before."""
+        self._wait_for_changes()
+        super().patch(kind, build)
+
+    def _wait_for_changes(self) -> None:
+        while self._changing:
+            self._rest(CHANGING_S)
+
     def _take(self, command: Command) -> Command:
         """The command at the tick at which the loop has taken it."""
         if command.kind in ("position", "stiffness") and self.status == "running":
             check_takes_no_time(command.argument)
         if command.kind == "rivals":
+            self._wait_for_changes()
             twin = Lane(law=self.run.configuration.law)
             others = tuple(lane for lane in command.argument if lane != twin)
             command = build_command(command.tick, "rivals", (twin, *others))

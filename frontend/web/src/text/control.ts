@@ -35,7 +35,7 @@ export const controlText = {
       running: "It runs. Let go, and the torque goes to zero.",
       dropped: "The torque goes to zero, unless somebody else holds it.",
       letGo: "You let go: the bench has gone to zero torque. Hold again and press Run to go on.",
-      late: "This page was too busy to be heard every 0.1 s: the bench has gone to zero torque. Press Run to go on.",
+      late: "This page was too busy to be heard in time: the bench has gone to zero torque. Press Run to go on.",
     },
     unheard: "No connection: nothing that is held here is heard.",
     other: (name: string) => `${name} is in control: only what ${name} holds counts.`,

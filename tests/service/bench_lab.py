@@ -1,0 +1,129 @@
+"""A lab with a bench: `svsa serve --bench` and an emulated rig, as processes.
+
+What the rig's drives were told is read from the rig itself, and every wait is generous.
+"""
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from svsa.rig.launch import RunningRig
+from tests.hardware.live_bench import start_live_rig, write_bench
+from tests.lab import Lab, run_lab
+from tests.processes import find_child
+
+PATIENCE_S = 20.0
+
+
+class BenchLab:
+    """A lab that drives the emulated rig."""
+
+    def __init__(self, lab: Lab, rig: RunningRig) -> None:
+        self.lab, self.rig = lab, rig
+
+    def read(self) -> dict[str, Any]:
+        return self.lab.read()
+
+    @property
+    def status(self) -> str:
+        return self.read()["bench"]["status"]
+
+    def ask(self, path: str, json: Any = None, method: str = "POST") -> dict[str, Any]:
+        answer = self.lab.client.request(method, self.lab.session + path, json=json)
+        assert answer.is_success, answer.text
+        return answer.json()
+
+    def refuse(self, path: str, json: Any = None, method: str = "POST") -> str:
+        """Ask for something that is refused for the state that the bench is in; why."""
+        answer = self.lab.client.request(method, self.lab.session + path, json=json)
+        assert answer.status_code == 409, answer.text
+        return answer.json()["message"]
+
+    def read_drives(self) -> list[tuple[int | None, int]]:
+        """Mode and commanded current, mA, of both drives, as the rig has them."""
+        drives = self.rig.control.read_state()["drives"].values()
+        return [(drive["mode"], drive["commanded_ma"]) for drive in drives]
+
+    def is_at_zero(self) -> bool:
+        return all(mode is None or current == 0 for mode, current in self.read_drives())
+
+    def wait_for(self, status: str) -> None:
+        wait_until(lambda: self.status == status, self.describe)
+
+    def describe(self) -> str:
+        """What to look at where it does not do what it should."""
+        state = self.read()
+        return f"{state['fault']} {state['bench']}"
+
+    def make_ready(self) -> None:
+        """Armed and at home, from wherever it is: the rig is set to its marks while OFF."""
+        if self.status != "off":
+            self.ask("/quick-stop")
+            self.wait_for("fault")
+            self.ask("/bench/clear")
+            self.wait_for("off")
+        self.rig.control.home()
+        self.ask("/bench/arm")
+        self.wait_for("ready")
+        for step in ("link", "motor1", "motor2"):
+            self.ask("/bench/home", {"step": step, "by": "a test"})
+
+    def wait_for_ticks(self, ticks: int = 300) -> dict[str, Any]:
+        """The state once so many more ticks have been done."""
+        begin = self.read()["tick"]
+        wait_until(lambda: self.read()["tick"] >= begin + ticks, self.describe)
+        return self.read()
+
+    @contextlib.contextmanager
+    def watched(self) -> Iterator[None]:
+        """Somebody has a stream of it open, and reads it."""
+        with connect(self.lab.stream_url, proxy=None, max_size=None) as stream:
+            stream.recv(timeout=PATIENCE_S)
+            thread = threading.Thread(target=read_stream, args=(stream,))
+            thread.start()
+            yield
+        thread.join(PATIENCE_S)
+
+    @contextlib.contextmanager
+    def running(self) -> Iterator[None]:
+        """Ready, watched, and begun."""
+        self.make_ready()
+        with self.watched():
+            self.ask("/start")
+            self.wait_for("run")
+            yield
+
+    def find_process(self, module: str) -> int:
+        """The process of this lab that runs a module."""
+        return find_child(self.lab.process.pid, module)
+
+
+def read_stream(stream: Any) -> None:
+    with contextlib.suppress(ConnectionClosed):
+        while True:
+            stream.recv()
+
+
+def wait_until(
+    done: Callable[[], bool], describe: Callable[[], str] = str, longest_s: float = PATIENCE_S
+) -> None:
+    end = time.monotonic() + longest_s
+    while not done():
+        assert time.monotonic() < end, describe()
+        time.sleep(0.02)
+
+
+@contextlib.contextmanager
+def run_bench_lab(folder: Path, lockstep: bool) -> Iterator[BenchLab]:
+    """lockstep: see `start_live_rig`."""
+    with (
+        start_live_rig(lockstep) as rig,
+        run_lab("--bench", str(write_bench(folder, rig, lockstep))) as lab,
+    ):
+        yield BenchLab(lab, rig)
