@@ -128,3 +128,43 @@ def test_losing_the_last_watcher_stops_it(bench: BenchLab) -> None:
     bench.wait_for("ready")
     assert bench.is_at_zero()
     assert bench.read()["fault"] is None
+
+
+def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: BenchLab) -> None:
+    bench.make_ready()
+    run_id = bench.ask("/recording", {"name": "A push"})["recording"]["run_id"]
+    with bench.watched():
+        bench.ask("/position", {"kind": "constant", "position_rad": 0.0}, "PUT")
+        bench.ask("/start")
+        bench.wait_for("run")
+        for torque in (0.4, 0.8, 1.2):
+            push = {"kind": "push", "torque_nm": [torque, 0.0, 0.0], "hold_s": 2.0}
+            (load,) = bench.ask("/loads", push)["loads"]
+            assert load["id"] == 1, "told again it is the same"
+            bench.wait_for_ticks(500)
+            assert bench.rig.control.read_state()["loads"] == 1
+        assert bench.read()["sample"]["estimate_link_nm"] == pytest.approx(1.2, abs=0.3)
+        wait_until(lambda: not bench.read()["loads"][0]["active"], bench.describe)
+        wait_until(lambda: bench.rig.control.read_state()["loads"] == 0)
+        state = bench.wait_for_ticks(1000)
+        assert state["fault"] is None
+        assert state["sample"]["estimate_link_nm"] == pytest.approx(0.0, abs=0.3)
+        events = {event["kind"]: event for event in state["events"]}
+        assert [event["kind"][:4] for event in state["events"]].count("load") == 2
+        bench.ask("/pause")
+        bench.wait_for("ready")
+    bench.ask("/recording", method="DELETE")
+    client, run = bench.lab.client, f"/api/v1/runs/{run_id}"
+    wait_until(lambda: client.get(run).json()["state"] != "recording")
+    told = client.get(run).json()["commands"]
+    pushes = [each for each in told if each["command"]["kind"] == "load"]
+    assert [each["command"]["argument"]["torque_nm"][0] for each in pushes] == [0.4, 0.8, 1.2]
+    end_tick = events["load_off"]["tick"]
+    assert events["load_on"]["tick"] == pushes[0]["tick"]
+    assert end_tick == pushes[-1]["tick"] + 2000
+    stretch = {"channels": "estimate_link_nm", "start_s": 1e-3 * end_tick - 0.5}
+    seen = client.get(f"{run}/samples", params=stretch).raise_for_status().json()
+    bench_lane, twin = (lane["estimate_link_nm"] for lane in seen["lanes"].values())
+    for estimates in (bench_lane, twin):
+        assert estimates[0] == pytest.approx(1.2, abs=0.3)
+        assert estimates[-1] == pytest.approx(0.0, abs=0.3)
