@@ -1303,7 +1303,7 @@ export interface components {
             operator_required: boolean;
             /**
              * Dead Man
-             * @description It runs only while somebody holds the switch: any message on the stream of whoever may command, every 0.1 s
+             * @description It runs only while somebody holds the switch: any message on the stream of whoever may command, every 0.1 s or as the bench file says
              */
             dead_man: boolean;
             loop: components["schemas"]["LoopState"];
