@@ -4,12 +4,9 @@ them, from when on, under which name and in which ink.
 
 from collections.abc import Sequence
 
-from svsa.errors import SvsaError
-from svsa.runtime.controllers import name_controllers
 from svsa.runtime.recording.reader import Record
-from svsa.runtime.resimulation import read_origin
 from svsa.runtime.session import KEPT_S, Session
-from svsa.runtime.timeline import Stretch, Timeline, Window, read_timeline
+from svsa.runtime.timeline import Stretch, Timeline, Window, name_stretches
 from svsa_server.lane_schemas import StretchState, WindowState
 
 MOST_STRETCHES = 200
@@ -20,18 +17,6 @@ def list_session_stretches(session: Session) -> list[list[StretchState]]:
     period_s = session.run.period_s
     first_tick = session.run.tick - KEPT_S / period_s
     return _build(session.timeline.list_stretches(first_tick, MOST_STRETCHES), period_s)
-
-
-def trace_record(record: Record) -> Timeline | None:
-    """The timeline of a recorded run; None where its commands do not tell its lanes."""
-    try:
-        configuration, commands = read_origin(record)
-        ticks = record.first_tick, record.first_tick + record.tick_count
-        is_bench = record.header.plant != "simulated"
-        timeline = read_timeline(configuration, commands, ticks, is_bench)
-    except SvsaError:
-        return None
-    return timeline if len(timeline.lanes) == len(record.header.lanes) else None
 
 
 def list_record_stretches(record: Record, timeline: Timeline | None) -> list[list[StretchState]]:
@@ -65,8 +50,7 @@ def build_window(window: Window, period_s: float) -> WindowState:
 
 
 def _build(lanes: Sequence[Sequence[Stretch]], period_s: float) -> list[list[StretchState]]:
-    every = sorted((one for lane in lanes for one in lane), key=lambda one: one.number)
-    names = name_controllers(one.controller for one in every)
+    names = name_stretches(lanes)
     return [
         [
             StretchState(

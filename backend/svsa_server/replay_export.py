@@ -5,15 +5,17 @@ from typing import Any
 
 import numpy as np
 
-from svsa.plant.disturbances import PushLoad, ScheduledLoad, follow_loads, get_hung_mass
-from svsa.runtime.command import Command
+from svsa.fault_labels import label_fault
+from svsa.plant.disturbances import PushLoad, get_hung_mass
+from svsa.runtime.command import Command, list_loads
 from svsa.runtime.configuration import Configuration
+from svsa.runtime.measured_window import find_measured_window, trace_record
 from svsa.runtime.recording.reader import Record
 from svsa.runtime.resimulation import read_origin
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay import build_replay_html
 from svsa_server.lane_schemas import StretchState
-from svsa_server.lanes import list_record_stretches, name_lanes, trace_record
+from svsa_server.lanes import list_record_stretches, name_lanes
 
 
 def build_replay(record: Record) -> str:
@@ -38,9 +40,11 @@ def build_replay(record: Record) -> str:
             "plant": header.plant,
             "notes": header.notes,
             "configuration": header.configuration,
-            "commands": list_marks(*read_origin(record)),
+            "fault": "" if record.fault is None else record.fault.message,
+            "commands": [*list_marks(*read_origin(record)), *_mark_fault(record)],
         },
         first_tick=record.first_tick,
+        window=find_measured_window(record),
         stretches=[[_place(record, one) for one in lane] for lane in stretches],
     )
 
@@ -54,18 +58,23 @@ def _place(record: Record, stretch: StretchState) -> LaneStretch:
     return LaneStretch(stretch.name, stretch.ink, stretch.number, first, end)
 
 
+def _mark_fault(record: Record) -> list[dict[str, Any]]:
+    fault = record.fault
+    return [] if fault is None else [{"tick": fault.tick, "label": label_fault(fault.code)}]
+
+
 def compute_hung_mass(record: Record) -> np.ndarray:
     """The mass on the link at every tick of the record, kg, (ticks,)."""
     ticks = np.arange(record.first_tick, record.first_tick + record.tick_count)
     mass = np.zeros(len(ticks))
-    for _, load, start, end in _follow_loads(*read_origin(record)):
+    for _, load, start, end in list_loads(*read_origin(record)):
         mass[(ticks >= start) & (ticks < end)] += get_hung_mass(load)
     return mass
 
 
 def list_marks(configuration: Configuration, commands: Sequence[Command]) -> list[dict[str, Any]]:
     """The commands of a run as it tells them: a push is one mark on and one off."""
-    loads = _follow_loads(configuration, commands)
+    loads = list_loads(configuration, commands)
     pushes = {load.number: load for load in loads if isinstance(load.load, PushLoad)}
     told = [
         command.to_json()
@@ -79,8 +88,3 @@ def list_marks(configuration: Configuration, commands: Sequence[Command]) -> lis
         told.append({"tick": push.start_tick, "label": "Push on"})
         told.append({"tick": push.end_tick, "label": "Push off"})
     return sorted(told, key=lambda mark: mark["tick"])
-
-
-def _follow_loads(configuration: Configuration, commands: Sequence[Command]) -> list[ScheduledLoad]:
-    changes = [(one.tick, one.argument) for one in commands if one.kind in ("load", "unload")]
-    return follow_loads(configuration.loads, changes, configuration.sampling.period_s)

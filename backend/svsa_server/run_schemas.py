@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from svsa.checked import Checked, quantity
 from svsa.errors import ParameterError, Violation
 from svsa.runtime.catalogue.entry import RunState
+from svsa.runtime.measured_window import MeasuredWindow
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.recording.header import (
     LONGEST_NAME,
@@ -55,6 +56,15 @@ class BranchOrigin(BaseModel):
     )
 
 
+class RunFault(BaseModel):
+    """The fault that a run ended in."""
+
+    code: str
+    label: str = Field(description="In a few words")
+    message: str = Field(description="In a sentence, with the values that it was about")
+    time_s: float = Field(description="Time of the run")
+
+
 class RunSummary(BaseModel):
     """A run in the list."""
 
@@ -81,7 +91,12 @@ class RunSummary(BaseModel):
     ticks: int
     duration_s: float
     bytes: int
-    metrics: list[Metrics] | None = Field(description="Of every lane, over the whole run")
+    metrics: list[Metrics] | None = Field(description="Of every lane in `window`")
+    window: MeasuredWindow | None = Field(
+        description="What `metrics` are of: the window of the last load, or the last window; in it"
+        " nothing was changed. Null as long as the run is recorded, and where that is not known"
+    )
+    fault: RunFault | None = Field(description="What the run ended in; null where nobody wrote it")
     deleted: str | None = Field(description="When it went into the trash, UTC")
 
 
@@ -137,6 +152,10 @@ class RunMetrics(BaseModel):
 
     start_s: float
     end_s: float
+    windows: list[WindowState] = Field(
+        description="The windows that it reaches into: where there is more than one, the numbers"
+        " are of what was before and after a change or a load; empty where that is not known"
+    )
     lanes: dict[str, Metrics | None] = Field(description="null where samples are no numbers")
 
 

@@ -35,10 +35,10 @@ def open_run(run: str | Path) -> Result:
     """A recorded run as `simulate` would have returned it; its lanes as `rivals`.
 
     run: its id, or its folder. The samples are those of the record, bit for bit; commands are
-    those given while it was recorded or before. A record does not hold why it ended: `fault` is
-    None. On a bench the true disturbance is unknown (NaN). Raises `RecordError` for a record
-    that cannot be read, of other channels, or of a configuration that this version does not
-    know, `UnknownRunError` for an id that is not there.
+    those given while it was recorded or before; `fault` is None also for a record of a version
+    that did not write it. On a bench the true disturbance is unknown (NaN). Raises `RecordError`
+    for a record that cannot be read, of other channels, or of a configuration that this version
+    does not know, `UnknownRunError` for an id that is not there.
     """
     record = find_record(run)
     header = record.header
@@ -58,7 +58,7 @@ def open_run(run: str | Path) -> Result:
     if len(laws) != len(samples):
         laws = header.lanes
     return build_results(
-        configuration, samples, laws, None, tuple(commands), header.name or header.run_id
+        configuration, samples, laws, record.fault, tuple(commands), header.name or header.run_id
     )
 
 

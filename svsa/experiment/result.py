@@ -54,7 +54,10 @@ class Result(Channels):
 
     @property
     def metrics(self) -> Metrics:
-        """The metrics of the whole run; raises `StateError` where it has no samples."""
+        """The metrics of the whole run, whichever laws controlled; see `measure`.
+
+        Raises `StateError` where it has no samples.
+        """
         return compute_metrics(self.samples, self.configuration.sampling.period_s)
 
     def measure(self, start_s: float, end_s: float) -> Metrics:
@@ -128,7 +131,8 @@ class Result(Channels):
         """The run in two lines: what it is, and how it went."""
         period = self.configuration.sampling.period_s
         beside = f" beside {', '.join(_name(r.law) for r in self.rivals)}" if self.rivals else ""
-        laws = " → ".join(_name(law) for law, _ in self.list_stretches())
+        stretches = self.list_stretches()
+        laws = " → ".join(_name(law) for law, _ in stretches)
         called = f"{self.name}: " if self.name else ""
         first = (
             f"{called}{laws}{beside}, {len(self.samples) * period:g} s at"
@@ -137,9 +141,11 @@ class Result(Channels):
         if not len(self.samples):
             second = "no samples"
         else:
-            m = self.metrics
+            law, rows = stretches[-1]
+            m = compute_metrics(self.samples[rows], period)
+            since = f"{_name(law)} since {self.time_s[rows.start]:g} s: " if rows.start else ""
             second = (
-                f"position error {math.degrees(m.rms_position_error_rad):.4g}° rms,"
+                f"{since}position error {math.degrees(m.rms_position_error_rad):.4g}° rms,"
                 f" {math.degrees(m.peak_position_error_rad):.4g}° peak; stiffness error"
                 f" {m.rms_stiffness_error_nm_per_rad:.4g} N·m/rad rms; |u| up to"
                 f" {m.peak_torque1_nm:.4g} and {m.peak_torque2_nm:.4g} N·m"

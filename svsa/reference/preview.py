@@ -10,6 +10,8 @@ STILL_S = 1.0
 DURATION = 4
 """Which of a chirp's numbers is its duration, s."""
 PERIODS = 2.0
+LONGEST_S = 1e6
+"""As long as any run may be."""
 
 
 def sample_reference(reference: Trajectory, points: int = 400) -> tuple[np.ndarray, np.ndarray]:
@@ -24,11 +26,13 @@ def sample_reference(reference: Trajectory, points: int = 400) -> tuple[np.ndarr
 
 
 def find_duration(reference: Trajectory) -> float:
-    """How long a reference moves, s; of a sine two periods, of what stands still 1 s."""
+    """How long a reference moves, s, 10⁶ at most; of a sine two periods, of what is still 1 s."""
     shape = reference.get_shape()
     if shape.curve is not None:
         return float(shape.curve.breaks[-1]) or STILL_S
     if shape.kind == CHIRP:
         return shape.numbers[DURATION]
     omega = shape.numbers[2] if shape.kind == SINE and shape.numbers[1] else 0.0
-    return PERIODS * 2.0 * np.pi / omega if omega else STILL_S
+    if not omega:
+        return STILL_S
+    return min(PERIODS * 2.0 * np.pi / max(omega, 1.0 / LONGEST_S), LONGEST_S)

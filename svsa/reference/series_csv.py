@@ -51,8 +51,14 @@ def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
 
     Raises `ParameterError` that names the row (the head is row 1), value, unit and bound.
     """
-    lines = csv.reader(io.StringIO(text.removeprefix("\ufeff")))
-    rows = [(lines.line_num, row) for row in lines if any(cell.strip() for cell in row)]
+    lines = csv.reader(io.StringIO(text.removeprefix("\ufeff"), newline=""))
+    try:
+        rows = [(lines.line_num, row) for row in lines if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        found = f"{error} in row {lines.line_num + 1}"
+        raise ParameterError(
+            Violation("the CSV", text[:80], "", "a table", finding=found)
+        ) from None
     head = [cell.strip() for cell in rows[0][1]] if rows else []
     names = [name for name in head if name in COLUMNS]
     if len(head) != 2 or TIME not in head or len(names) != 1:

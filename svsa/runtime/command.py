@@ -14,7 +14,7 @@ from svsa.errors import ParameterError, StateError, Violation
 from svsa.explanation import explain
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
-from svsa.plant.disturbances import Load
+from svsa.plant.disturbances import Load, ScheduledLoad, follow_loads
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.configuration import Configuration, Lane
@@ -121,6 +121,12 @@ def play(run: Run, commands: Iterable[Command], end_tick: int) -> Iterator[tuple
             return
         samples = np.empty((len(run.lanes), end - run.tick, len(CHANNELS)))
         yield run, samples[:, : run.advance(samples)]
+
+
+def list_loads(configuration: Configuration, commands: Iterable[Command]) -> list[ScheduledLoad]:
+    """Every load of a run, with the ticks at which it came and went."""
+    changes = [(one.tick, one.argument) for one in commands if one.kind in ("load", "unload")]
+    return follow_loads(configuration.loads, changes, configuration.sampling.period_s)
 
 
 def build_run_at(configuration: Configuration, commands: Iterable[Command], tick: int) -> Run:

@@ -27,6 +27,8 @@ class Metrics:
     integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
     recovery_time_s: from the start of the stretch until the position error has stayed within
     2 % of its peak for 0.5 s; None while it has not. What comes later does not change it.
+    settled_position_error_rad: the steady error, rms over the last 0.5 s; None for a stretch
+    shorter than 1 s.
     """
 
     duration_s: float
@@ -39,10 +41,11 @@ class Metrics:
     integral_position_error_rad_s: float
     effort_n2m2_s: float
     recovery_time_s: float | None
+    settled_position_error_rad: float | None
 
 
 class RunningMetrics:
-    """Metrics that grow with the samples; nothing is kept but sums and peaks."""
+    """Metrics that grow with the samples; kept are sums, peaks and the last 0.5 s."""
 
     def __init__(self, period_s: float) -> None:
         self._period = period_s
@@ -53,6 +56,7 @@ class RunningMetrics:
         self._last_outside = 0
         self._recovered: int | None = None
         self._settled = math.ceil(SETTLED_S / period_s - 1e-9)
+        self._newest = np.empty(0)
 
     def update(self, samples: np.ndarray) -> None:
         """Take in more rows of samples (ticks, channels), in the order of time."""
@@ -70,6 +74,7 @@ class RunningMetrics:
         self._error_sum += float(np.sum(sizes[:, 0]))
         self._peaks = np.maximum(self._peaks, sizes.max(axis=0))
         self._count += len(values)
+        self._newest = np.concatenate([self._newest, sizes[:, 0]])[-self._settled :]
 
     def _find_recovery(self, outside: np.ndarray, count: int) -> None:
         """Look for the first time inside that is long enough; outside: rows of the next `count`."""
@@ -96,7 +101,13 @@ class RunningMetrics:
             integral_position_error_rad_s=self._error_sum * self._period,
             effort_n2m2_s=float(self._squares[2] + self._squares[3]) * self._period,
             recovery_time_s=None if self._recovered is None else self._recovered * self._period,
+            settled_position_error_rad=self._measure_settled(),
         )
+
+    def _measure_settled(self) -> float | None:
+        if self._count < 2 * self._settled:
+            return None
+        return float(np.sqrt(np.mean(self._newest**2)))
 
 
 def compute_metrics(samples: np.ndarray, period_s: float) -> Metrics:

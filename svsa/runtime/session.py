@@ -266,6 +266,12 @@ class Session:
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
         self.version += 1
 
+    def _tell_fault(self, fault: Fault, ends_run: bool = True) -> None:
+        """A fault is an event, and the end of the recording of a run that it ends."""
+        if ends_run and self.recorder is not None:
+            self.recorder.write_fault(fault)
+        self._log("fault", label_fault(fault.code))
+
     def _advance(self, ticks: int) -> None:
         """Run `ticks` ticks, in stretches that end where a load comes or goes."""
         end = self.run.tick + ticks
@@ -280,7 +286,7 @@ class Session:
             self.metrics.update(samples[:, :done])
             if self.run.fault is not None:
                 self.clock.stop()
-                self._log("fault", label_fault(self.run.fault.code))
+                self._tell_fault(self.run.fault)
 
     def _log_loads(self) -> None:
         for _, load, start, end in self.run.loads:

@@ -6,7 +6,7 @@ its commands.
 
 import itertools
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
@@ -14,7 +14,12 @@ from svsa.control.installed import get_law, list_law_names
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
 from svsa.runtime.command import KINDS, Command
 from svsa.runtime.configuration import Configuration
-from svsa.runtime.controllers import Controller, complete_laws, list_controllers
+from svsa.runtime.controllers import (
+    Controller,
+    complete_laws,
+    list_controllers,
+    name_controllers,
+)
 from svsa.runtime.run import Run, find_origins
 
 MOST_WINDOWS = 1000
@@ -118,6 +123,15 @@ class Timeline:
             for lane in self.lanes
         ]
 
+    def list_windows(self, first_tick: int, end_tick: int) -> list[Window]:
+        """Those that reach into the ticks first … end − 1."""
+        return [
+            window
+            for window in self.windows
+            if window.first_tick < end_tick
+            and (window.end_tick is None or window.end_tick > first_tick)
+        ]
+
     def _begin(self, kind: Literal["load", "unload", "change"], label: str, tick: int) -> None:
         last = self.window
         if last.kind == "start" and tick == 0 and kind == "change":
@@ -162,6 +176,12 @@ class Timeline:
             return customary
         free = (ink for ink in range(len(laws), len(laws) + len(taken) + 1) if ink not in taken)
         return next(free)
+
+
+def name_stretches(lanes: Sequence[Sequence[Stretch]]) -> dict[Controller, str]:
+    """A name for everybody who controlled a lane, in the order in which they came."""
+    every = sorted((one for lane in lanes for one in lane), key=lambda one: one.number)
+    return name_controllers(one.controller for one in every)
 
 
 def read_timeline(

@@ -10,6 +10,7 @@ from pathlib import Path
 from svsa.runtime.catalogue.database import Database
 from svsa.runtime.catalogue.entry import RunEntry
 from svsa.runtime.catalogue.runs import Catalogue
+from svsa.runtime.measured_window import MeasuredWindow
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.recording.settings import RunSettings
 
@@ -17,7 +18,8 @@ RUNS = 10_000
 PAGE = 20
 REPEATS = 30
 MARK_MS = 20.0
-METRICS = Metrics(60.0, 1e-3, 2e-3, 1e-2, 2e-2, 3.0, 0.4, 0.05, 120.0, 1.25)
+METRICS = Metrics(60.0, 1e-3, 2e-3, 1e-2, 2e-2, 3.0, 0.4, 0.05, 120.0, 1.25, 1e-4)
+WINDOW = MeasuredWindow("load", "3 kg load", 5000, 20_000, 5.0, 20.0, False, ("NDOBC", "FL"))
 
 
 def build_settings(number: int) -> RunSettings:
@@ -64,6 +66,7 @@ def fill(folder: Path) -> None:
                 name=f"Group {number % 40} attempt {number}" if number % 2 else "",
                 settings=build_settings(number),
                 metrics=(dataclasses.replace(METRICS, peak_position_error_rad=number * 1e-6),) * 2,
+                window=WINDOW,
                 tags=("class", f"group-{number % 40}"),
             )
             for number in range(RUNS)

@@ -237,12 +237,13 @@ def test_runs_are_laid_over_one_another_from_their_load_on(
     for title in ("Position error", "Stiffness error"):
         plot = page.get_by_role("region", name=title, exact=True)
         expect(plot.locator("canvas")).to_be_visible()
-    rows = page.get_by_role("table", name="Since the load came on").get_by_role("rowheader")
+    rows = page.get_by_role("table", name="Each in the window named").get_by_role("rowheader")
     expect(rows).to_have_text([f"{BOTH} · NDOBC", f"{BOTH} · FL", STIFF])
     metrics = own_lab.client.get(f"/api/v1/runs/{runs[0]}/metrics?start_s=5").json()["lanes"]
     peak = metrics["lane2"]["peak_position_error_rad"] * 57.29578
     row = page.get_by_role("row", name=f"{BOTH} · FL")
-    expect(row.get_by_role("cell").nth(1)).to_have_text(f"{peak:.1f}")
+    expect(row.get_by_role("cell").nth(2)).to_have_text(f"{peak:.1f}")
+    expect(row.get_by_role("cell").nth(0)).to_have_text(re.compile(r"3 kg load, 5\.00–"))
     differing = page.get_by_role("table", name="Settings that differ")
     expect(differing.get_by_role("row", name="σ_d")).to_contain_text("N·m/rad1560")
     expect(differing.get_by_role("row", name="Beside it")).to_contain_text("FLnothing")

@@ -26,8 +26,16 @@ CREATE TABLE runs (
 );
 CREATE TABLE tags (tag TEXT, run TEXT, trash INTEGER, PRIMARY KEY (tag, run)) WITHOUT ROWID;
 INSERT INTO runs SELECT id, '', '', '', 0, 0, 'complete', 0, '' FROM entries;
-UPDATE entries SET entry = json_remove(entry, '$.settings', '$.branch_of');
+UPDATE entries SET entry = json_remove(entry, '$.settings', '$.branch_of', '$.window', '$.fault');
 PRAGMA user_version = 1;
+"""
+
+FORMAT_2 = """
+UPDATE entries SET entry = json_remove(
+    json_set(entry, '$.metrics[0].peak_position_error_rad', 9.0),
+    '$.window', '$.fault', '$.metrics[0].settled_position_error_rad'
+);
+PRAGMA user_version = 2;
 """
 
 
@@ -63,7 +71,7 @@ def varied(catalogue: Catalogue) -> Catalogue:
     """run-1 … run-4, of which people named only the last."""
     add_figure(catalogue, "run-1", "4b", rivals=(Lane(law="fl"),), load=True)
     add_figure(catalogue, "run-2", "4a", law="fl")
-    changed = [(10, {"kind": "law", "argument": "fl"})]
+    changed = [(10, {"tick": 10, "kind": "law", "argument": "fl"})]
     add_figure(catalogue, "run-3", "5", commands=changed)
     add_figure(catalogue, "run-4", "4a", name="Mine", tags=("class",))
     return catalogue
@@ -200,6 +208,21 @@ def test_a_catalogue_of_the_older_format_is_opened_and_filled_in(varied: Catalog
     assert [again.list(sort="name").runs, again.list(trash=True).runs] == before
     assert list_ids(again, law="ndobc", figure="4b") == ["run-1"]
     assert again.list_tags() == {"class": 1}
+
+
+def test_metrics_that_an_older_version_took_of_whole_runs_are_measured_anew(
+    varied: Catalogue,
+) -> None:
+    before = varied.get("run-3")
+    assert before.window is not None
+    connection = sqlite3.connect(varied.folder / "catalogue.sqlite")
+    connection.executescript(FORMAT_2)
+    connection.close()
+    again = Catalogue(varied.folder)
+    assert again.get("run-3").settings == before.settings
+    assert again.get("run-3").metrics is None, "a number without its window is not shown"
+    again.describe_older()
+    assert again.get("run-3") == before
 
 
 def test_a_run_that_cannot_be_read_stays_while_the_others_are_filled_in(varied: Catalogue) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.reference.preview import sample_reference
 from svsa.reference.series import MOST_ROWS
 from svsa.reference.series_csv import parse_series
 from svsa.reference.trajectories import compute_start_value, get_range
@@ -159,6 +160,28 @@ def test_a_bad_csv_is_refused_with_row_value_unit_and_bound(text, words):
         parse_series(text)
     for word in words:
         assert word in str(refused.value)
+
+
+def test_a_csv_of_any_line_ends_is_read():
+    rows = ["time_s,position_deg", "0,0", "0.5,30"]
+    assert parse_series("\r".join(rows)) == parse_series("\r\n".join(rows))
+
+
+@pytest.mark.parametrize("text", ["a" * 140_000, "time_s,position_deg\n0," + "1" * 140_000])
+def test_a_csv_that_is_none_is_refused_in_words(text):
+    with pytest.raises(svsa.ParameterError, match=r"the CSV: field larger than .* in row"):
+        parse_series(text)
+
+
+@pytest.mark.parametrize("frequency_hz", [5e-324, 1e-300, 1e-9, 0.0])
+def test_a_preview_of_a_sine_however_slow_is_of_numbers(frequency_hz):
+    slow = svsa.SineStiffness(
+        offset_nm_per_rad=20.0, amplitude_nm_per_rad=2.0, frequency_hz=frequency_hz
+    )
+    times, values = sample_reference(slow)
+    assert np.all(np.isfinite(times))
+    assert np.all(np.isfinite(values))
+    assert 0.0 < times[-1] <= 1e6
 
 
 def test_a_bad_reference_is_refused_by_name():

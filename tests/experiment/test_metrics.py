@@ -123,3 +123,18 @@ def test_taken_in_pieces_the_metrics_are_those_of_the_whole(cuts, rate):
     numbers, expected = dict(vars(found)), dict(vars(whole))
     assert numbers.pop("recovery_time_s") == expected.pop("recovery_time_s")
     assert numbers == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_settled_error_is_that_of_the_end_however_the_samples_come():
+    """4 for 2 s, then 3 sin of whole periods for the last 0.5 s: 3/√2, and none under 1 s."""
+    t = np.arange(500) * T
+    errors = np.concatenate([np.full(2000, 4.0), 3.0 * np.sin(2.0 * np.pi * 10.0 * t)])
+    samples = build_samples(2500, position_error_rad=errors)
+    running = RunningMetrics(T)
+    for rows in np.array_split(samples, [1, 990, 2004, 2490]):
+        running.update(rows)
+    assert running.summarize() == compute_metrics(samples, T)
+    settled = running.summarize().settled_position_error_rad
+    assert settled == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-12)
+    assert compute_metrics(samples[:999], T).settled_position_error_rad is None
+    assert compute_metrics(samples[:1000], T).settled_position_error_rad == pytest.approx(4.0)

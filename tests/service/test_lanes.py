@@ -9,9 +9,10 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.plant.disturbances import PaperLoad
 from svsa.runtime.command import build_command
 from svsa.runtime.configuration import Lane
+from svsa.runtime.measured_window import trace_record
 from svsa.runtime.recording.reader import Record, build_record
 from svsa.runtime.session import Session
-from svsa_server.lanes import list_record_stretches, name_lanes, trace_record
+from svsa_server.lanes import list_record_stretches, name_lanes
 from svsa_server.state import build_state
 
 from ..contract.records import build_header, build_samples
@@ -72,6 +73,14 @@ def test_what_was_tried_before_the_recording_takes_no_ink_from_what_is_in_it() -
     assert list_stretches(record) == [[("FL", 1, 150, None)]]
     again = record_lanes(1, [], [(100, "observer", FASTER), (205, "law", "fl")])
     assert list_stretches(again) == [[("NDOBC", 0, 100, 205), ("FL", 1, 205, None)]]
+
+
+def test_a_stretch_over_several_windows_says_so() -> None:
+    timeline = trace_record(record_lanes(1, [], [(205, "law", "fl")]))
+    assert timeline is not None
+    stretches = ((200, 210), (205, 210), (200, 205))
+    told = [[one.label for one in timeline.list_windows(*ticks)] for ticks in stretches]
+    assert told == [["", "NDOBC → FL"], ["NDOBC → FL"], [""]]
 
 
 def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lanes() -> None:

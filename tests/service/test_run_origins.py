@@ -51,7 +51,8 @@ def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> No
         query = {"start_s": ONSET_S, "end_s": 3.5}
         answer = lab.client.get(f"/api/v1/runs/{run}/metrics", params=query).raise_for_status()
         told = answer.json()
-        whole = lab.client.get(f"/api/v1/runs/{run}/metrics").json()["lanes"]
+        whole = lab.client.get(f"/api/v1/runs/{run}/metrics").json()
+        under_load = lab.client.get(f"/api/v1/runs/{run}/metrics?start_s={ONSET_S}").json()
         entry = lab.client.get(f"/api/v1/runs/{run}").json()
         refused = lab.client.get(f"/api/v1/runs/{run}/metrics", params={"start_s": 2, "end_s": 1})
     assert (told["start_s"], told["end_s"]) == (ONSET_S, 3.5)
@@ -60,7 +61,10 @@ def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> No
         expected = compute_metrics(samples[:, number], 0.001)
         assert metrics["rms_position_error_rad"] == pytest.approx(expected.rms_position_error_rad)
         assert metrics["peak_torque1_nm"] == expected.peak_torque1_nm
-    for metrics, listed in zip(whole.values(), entry["metrics"], strict=True):
+    assert [window["label"] for window in whole["windows"]] == ["", "3 kg load"]
+    assert [window["label"] for window in under_load["windows"]] == ["3 kg load"]
+    assert (entry["window"]["label"], entry["window"]["start_s"]) == ("3 kg load", ONSET_S)
+    for metrics, listed in zip(under_load["lanes"].values(), entry["metrics"], strict=True):
         assert metrics["rms_position_error_rad"] == pytest.approx(listed["rms_position_error_rad"])
     assert refused.status_code == 422
 

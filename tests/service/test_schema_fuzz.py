@@ -88,7 +88,12 @@ def test_what_may_be_refused_exists_and_says_so(lab: Lab) -> None:
         assert "422" in paths[path][method.lower()]["responses"], label
 
 
-def probe(lab: Lab, operation: schemathesis.APIOperation, mode: GenerationMode) -> int:
+def probe(
+    lab: Lab,
+    operation: schemathesis.APIOperation,
+    mode: GenerationMode,
+    examples: settings = SETTINGS,
+) -> int:
     """Send the operation what its schema allows, or forbids; returns how many requests."""
     checks = [*CHECKS]
     if operation.label != WEBSOCKET:
@@ -103,7 +108,7 @@ def probe(lab: Lab, operation: schemathesis.APIOperation, mode: GenerationMode) 
     )
     tried = 0
 
-    @SETTINGS
+    @examples
     @given(case=cases)
     def send(case: schemathesis.Case) -> None:
         nonlocal tried

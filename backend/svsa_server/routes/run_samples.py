@@ -10,10 +10,12 @@ from fastapi import APIRouter, Query
 from fastapi.responses import Response
 
 from svsa.errors import ParameterError, Violation
+from svsa.runtime.measured_window import trace_record
 from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runtime.recording.decimation import decimate
 from svsa.runtime.recording.reader import Record
 from svsa.signals import PLOTTED
+from svsa_server.lanes import build_window
 from svsa_server.routes.depends import RunId, Runs
 from svsa_server.run_schemas import RunMetrics, RunSamples
 
@@ -71,10 +73,13 @@ def read_metrics(
     record = runs.open(run_id)
     start, stop = _choose_rows(record, start_s, end_s)
     measured = record.read_channels(MEASURED, start, stop)
-    period = record.header.period_s
+    period, first = record.header.period_s, record.first_tick + start
+    timeline = trace_record(record)
+    windows = timeline.list_windows(first, first + len(measured)) if timeline else []
     return RunMetrics(
-        start_s=(record.first_tick + start) * period,
-        end_s=(record.first_tick + start + len(measured)) * period,
+        start_s=first * period,
+        end_s=(first + len(measured)) * period,
+        windows=[build_window(window, period) for window in windows],
         lanes={
             lane: _measure(measured[:, number], period)
             for number, lane in enumerate(record.header.lanes)

@@ -5,6 +5,8 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 
+from svsa.errors import Fault
+from svsa.fault_labels import label_fault
 from svsa.runtime.catalogue.entry import (
     LONGEST_SEARCH,
     MOST_PAGE_SIZE,
@@ -14,13 +16,15 @@ from svsa.runtime.catalogue.entry import (
 )
 from svsa.runtime.catalogue.entry import Query as RunQuery
 from svsa.runtime.catalogue.runs import Catalogue
-from svsa_server.lanes import build_window, list_record_stretches, name_lanes, trace_record
+from svsa.runtime.measured_window import trace_record
+from svsa_server.lanes import build_window, list_record_stretches, name_lanes
 from svsa_server.routes import run_difference, run_files, run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
 from svsa_server.run_schemas import (
     RunCommand,
     RunDetails,
+    RunFault,
     RunList,
     RunPatch,
     RunSummary,
@@ -64,7 +68,7 @@ def list_runs(
         str,
         Query(
             description="A column; - before it turns it round. What is not known comes last;"
-            " errors are those of the first lane.",
+            " errors are those of the first lane in its `window`.",
             json_schema_extra={"enum": [f"{sign}{name}" for name in SORTS for sign in ("", "-")]},
             examples=["-created"],
         ),
@@ -129,6 +133,12 @@ def restore_run(runs: Runs, run_id: RunId) -> RunSummary:
     return RunSummary(**_tell(runs, runs.restore(run_id)))
 
 
+def _tell_fault(fault: Fault) -> RunFault:
+    return RunFault(
+        code=fault.code, label=label_fault(fault.code), message=fault.message, time_s=fault.time_s
+    )
+
+
 def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:
     (values,) = _list_values(runs, entry)
     return values
@@ -139,6 +149,10 @@ def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
     origins = runs.find(entry.branch_of.run_id for entry in entries if entry.branch_of)
     return [
         {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}
-        | {"title": entry.title, "branch_of": name_origin(entry.branch_of, origins)}
+        | {
+            "title": entry.title,
+            "branch_of": name_origin(entry.branch_of, origins),
+            "fault": entry.fault and _tell_fault(entry.fault),
+        }
         for entry in entries
     ]

@@ -8,6 +8,7 @@ import html
 import json
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.runtime.measured_window import MeasuredWindow
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay_curves import compute_metrics, list_events, pack_curves
 from svsa_scene.replay_motion import POSE_CHANNELS, record_motion
@@ -48,6 +50,7 @@ def build_replay_html(
     *,
     first_tick: int = 0,
     stretches: Sequence[Sequence[LaneStretch]] | None = None,
+    window: MeasuredWindow | None = None,
 ) -> str:
     """The run as a page of HTML.
 
@@ -58,8 +61,8 @@ def build_replay_html(
     lanes, channels), SI. load_mass_kg: mass hung on the link at every tick, (ticks,), kg; None is
     no mass. details: what the page says about the run (JSON); `version` and other plain values
     stand in its header, `commands` ({"tick", "label" or "kind", …} or (tick, {…})) are marked on
-    the plots. first_tick: tick of the first sample, as the commands count; the page's time begins
-    there at 0.
+    the plots. window: in which the page measures; left out, the whole run. first_tick:
+    tick of the first sample, as the commands count; the page's time begins there at 0.
 
     Takes some seconds and starts viser on a loopback port meanwhile: call it in a thread. Raises
     `ParameterError` for arrays that do not fit, `ReplayError` where the page was not built.
@@ -74,6 +77,10 @@ def build_replay_html(
     if stretches is None:
         whole = len(samples)
         stretches = [[LaneStretch(name, i, i + 1, 0, whole)] for i, name in enumerate(lanes)]
+    if window is None:
+        end = first_tick + len(samples)
+        times = first_tick * period_s, end * period_s
+        window = MeasuredWindow("start", "", first_tick, end, *times, True, tuple(lanes))
     motion = record_motion(samples, channels, stretches, period_s, mass, pack)
     events = list_events(mass, details, first_tick)
     run = {
@@ -84,13 +91,27 @@ def build_replay_html(
         "stretches": [[_write_stretch(one, period_s) for one in lane] for lane in stretches],
         "details": details,
         "events": [{"time_s": tick * period_s, "label": label} for tick, label in events],
-        "metrics": compute_metrics(samples, channels),
+        "window": _write_window(window, period_s, first_tick),
+        "metrics": compute_metrics(
+            samples[window.first_tick - first_tick : window.end_tick - first_tick],
+            channels,
+            period_s,
+            window,
+        ),
         "curves": curves,
         "motion": motion.content,
         "arrays": pack.export(),
         "scene": motion.html,
     }
     return _fill(template, title, _write_json(run))
+
+
+def _write_window(window: MeasuredWindow, period_s: float, first_tick: int) -> dict[str, Any]:
+    """In the page's time, which begins at 0."""
+    return asdict(window) | {
+        "start_s": (window.first_tick - first_tick) * period_s,
+        "end_s": (window.end_tick - first_tick) * period_s,
+    }
 
 
 def _write_stretch(stretch: LaneStretch, period_s: float) -> dict[str, Any]:

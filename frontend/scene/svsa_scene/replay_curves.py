@@ -2,12 +2,15 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from svsa.runtime.command import KINDS
+from svsa.runtime.measured_window import MeasuredWindow, summarize
+from svsa.runtime.metrics import MEASURED, RunningMetrics
 from svsa.signals import PLOTTED
 from svsa_scene.replay_packing import ArrayPack
 
@@ -84,18 +87,19 @@ def pack_curves(
     }
 
 
-def compute_metrics(samples: Array, channels: Sequence[str]) -> list[dict[str, float | None]]:
-    """For each lane, rms and peak of both errors over the whole run, from every sample, in SI."""
-    lanes: list[dict[str, float | None]] = [{} for _ in range(samples.shape[1])]
-    for name in ("position_error_rad", "stiffness_error_nm_per_rad"):
-        if name not in channels:
-            continue
-        errors = samples[:, :, channels.index(name)]
-        for lane, row in enumerate(lanes):
-            known = errors[np.isfinite(errors[:, lane]), lane]
-            row[f"{name}_rms"] = float(np.sqrt(np.mean(known**2))) if known.size else None
-            row[f"{name}_peak"] = float(np.max(np.abs(known))) if known.size else None
-    return lanes
+def compute_metrics(
+    samples: Array, channels: Sequence[str], period_s: float, window: MeasuredWindow
+) -> list[dict[str, float | None]]:
+    """For each lane its metrics over these samples of a window, in SI, as
+    `svsa.runtime.metrics.Metrics`; none without the channels for it, or without numbers.
+    """
+    if not set(MEASURED) <= set(channels):
+        return []
+    columns = [channels.index(name) for name in MEASURED]
+    lanes = [RunningMetrics(period_s) for _ in range(samples.shape[1])]
+    for lane, running in enumerate(lanes):
+        running.update_measured(samples[:, lane, columns])
+    return [asdict(metrics) for metrics in summarize(lanes, window) or ()]
 
 
 def list_events(

@@ -16,7 +16,10 @@ const details = (change: object) =>
   }) as unknown as RunDetails;
 let readPlace: typeof ReadPlace;
 let writePlace: typeof WritePlace;
-let findLoad: (run: RunDetails) => { start_s: number } | null;
+let describeMeasured: typeof import("../src/runs/measured").describeMeasured;
+let explainSettled: typeof import("../src/runs/measured").explainSettled;
+let overlay: typeof import("../src/runs/overlaid").overlay;
+let areAlike: typeof import("../src/runs/metricstable").areAlike;
 let drawSpark: typeof import("../src/runs/spark").drawSpark;
 let findWords: typeof import("../src/runs/found").findWords;
 let excerpt: typeof import("../src/runs/found").excerpt;
@@ -38,7 +41,9 @@ beforeAll(async () => {
     addEventListener: () => undefined,
   });
   ({ readPlace, writePlace } = await import("../src/runs/place"));
-  ({ findLoad } = await import("../src/runs/onset"));
+  ({ describeMeasured, explainSettled } = await import("../src/runs/measured"));
+  ({ overlay } = await import("../src/runs/overlaid"));
+  ({ areAlike } = await import("../src/runs/metricstable"));
   ({ drawSpark } = await import("../src/runs/spark"));
   ({ findWords, excerpt } = await import("../src/runs/found"));
   ({ formatSetting } = await import("../src/runs/difference"));
@@ -66,31 +71,40 @@ describe("a place in the address", () => {
   });
 });
 
-describe("the window of the load", () => {
-  const window = (kind: string, start: number, end: number | null) => ({
-    kind,
-    label: "",
-    start_tick: start,
-    start_s: start / 1000,
-    end_tick: end,
-    end_s: end === null ? null : end / 1000,
+describe("the window of a run's numbers", () => {
+  const window = {
+    ...{ kind: "load", label: "3 kg load", first_tick: 2000, end_tick: 5000 },
+    ...{ start_s: 2, end_s: 5, is_whole: false, lanes: ["FL"], load_ended: false },
+  } as const;
+  const samples = { time_s: [2, 5], lanes: {} } as never;
+
+  it("is named with its ends, and with the law where others controlled before or after", () => {
+    const measured = { ...window, lanes: [...window.lanes] };
+    expect(describeMeasured(measured)).toBe("3 kg load, 2.00–5.00 s");
+    expect(describeMeasured(measured, true)).toBe("FL: 3 kg load, 2.00–5.00 s");
+    expect(describeMeasured({ ...measured, is_whole: true })).toBe("Whole run");
+    expect(describeMeasured({ ...measured, label: "" })).toBe("From the start, 2.00–5.00 s");
   });
 
-  it("is that of the first load while it was recorded, up to the next change", () => {
-    const windows = [
-      window("start", 0, 2000),
-      window("load", 2000, 5000),
-      window("change", 5000, 7000),
-      window("load", 7000, null),
-    ];
-    expect(findLoad(details({ windows }))).toMatchObject({ start_s: 2, end_s: 5 });
-    expect(findLoad(details({ windows, first_tick: 4000 }))).toMatchObject({ start_s: 7 });
+  it("has a steady error where its load stays, and is long enough", () => {
+    const measured = { ...window, lanes: [] };
+    expect(explainSettled(measured)).toMatch(/last 0.5 s/);
+    expect(explainSettled({ ...measured, load_ended: true })).toMatch(/ended by itself/);
+    expect(explainSettled({ ...measured, end_s: 2.9 })).toMatch(/shorter than 1 s/);
   });
 
-  it("is none where the record holds none", () => {
-    expect(findLoad(details({ windows: [window("start", 0, null)] }))).toBeNull();
-    const windows = [window("load", 2000, null)];
-    expect(findLoad(details({ windows, first_tick: 4000 }))).toBeNull();
+  it("begins at 0 of an overlay, which says where it ends and whose numbers those are", () => {
+    const run = details({ title: "A", lane_names: ["NDOBC → FL"], window, metrics: [{}] });
+    const [curve] = overlay(run, samples);
+    expect(curve).toMatchObject({ hasOnset: true, changedS: 3, measuredLane: "FL" });
+    expect([...(curve?.time ?? [])]).toEqual([0, 3]);
+    const whole = { ...window, kind: "start", end_tick: 10_000, end_s: 10 };
+    const later = overlay(details({ ...run, first_tick: 1500, ticks: 8500 }), samples);
+    expect(later[0]?.window).toMatchObject({ start_s: 0.5, end_s: 3.5 });
+    const [other] = overlay(details({ ...run, window: whole }), samples);
+    expect(other).toMatchObject({ hasOnset: false, changedS: null });
+    expect(areAlike([curve, other] as never)).toBe(false);
+    expect(areAlike([curve, curve] as never)).toBe(true);
   });
 });
 

@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 import msgspec
 
-from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.errors import Fault, ParameterError, SvsaError, Violation
+from svsa.runtime.measured_window import MeasuredWindow
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.recording.header import BranchPoint, PlantKind
 from svsa.runtime.recording.settings import RunSettings, name_figure
@@ -23,6 +24,7 @@ SORTS = (
     "realism",
     "plant",
     "peak_position_error_rad",
+    "settled_position_error_rad",
     "rms_position_error_rad",
     "duration_s",
     "bytes",
@@ -48,7 +50,8 @@ class RunEntry:
 
     state: complete, or still recording, or failed (it ended early, `message` says why; what
     was recorded is there), damaged (it cannot be read) or missing (its folder is gone).
-    metrics: per lane, of the whole record; None where there are none, or no finite ones.
+    metrics: per lane, of `window`; None where there are none, or no finite ones. fault: what the
+    run ended in.
     settings: None while it is recorded, and where they cannot be read. branch_of: where it
     went on from.
     """
@@ -70,6 +73,8 @@ class RunEntry:
     duration_s: float = 0.0
     bytes: int = 0
     metrics: tuple[Metrics, ...] | None = None
+    window: MeasuredWindow | None = None
+    fault: Fault | None = None
     deleted: str | None = None
     settings: RunSettings | None = None
     branch_of: BranchPoint | None = None
@@ -162,26 +167,26 @@ def write_entry(entry: RunEntry) -> str:
 
 
 def read_entry(text: str) -> RunEntry:
-    """An entry from `write_entry`; without metrics that are not those of this version."""
+    """An entry from `write_entry`; without metrics of a window that nobody wrote down."""
     written = json.loads(text)
     for name in ("tags", "lanes"):
         written[name] = tuple(written[name])
-    try:
-        lanes = written["metrics"]
-        written["metrics"] = None if lanes is None else tuple(Metrics(**lane) for lane in lanes)
-    except TypeError:
+    written["settings"] = _read(RunSettings, written.get("settings"))
+    written["window"] = _read(MeasuredWindow, written.get("window"))
+    written["fault"] = _read(Fault, written.get("fault"))
+    written["metrics"] = _read(tuple[Metrics, ...], written["metrics"])
+    if written["window"] is None:
         written["metrics"] = None
-    written["settings"] = _read_settings(written.get("settings"))
     if branch := written.get("branch_of"):
         written["branch_of"] = BranchPoint(**branch)
     return RunEntry(**written)
 
 
-def _read_settings(written: dict[str, Any] | None) -> RunSettings | None:
+def _read(kind: Any, written: Any) -> Any:
     if written is None:
         return None
     try:
-        return msgspec.convert(written, RunSettings)
+        return msgspec.convert(written, kind)
     except msgspec.ValidationError:
         return None
 

@@ -10,14 +10,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from svsa.errors import SvsaError
 from svsa.runtime.catalogue.database import Database
 from svsa.runtime.catalogue.entry import RunEntry, UnknownRunError
+from svsa.runtime.measured_window import MeasuredWindow, find_measured_window, summarize
 from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runtime.recording.header import STREAM_FILE, RecordError, is_run_id, read_header
-from svsa.runtime.recording.parquet import measure_bytes, read_commands
+from svsa.runtime.recording.parquet import measure_bytes
 from svsa.runtime.recording.reader import Record, open_record, recover
 from svsa.runtime.recording.settings import describe_settings
 
@@ -68,19 +67,16 @@ def recover_runs(database: Database, runs: Path, trash: Path) -> Recovery:
 
 
 def describe_older(database: Database, places: tuple[Path, ...]) -> None:
-    """Give the runs their settings that were entered before the catalogue held any.
+    """Give the runs what older versions did not enter: settings, metrics of a named window, fault.
 
-    Only headers and commands are read, no samples; what cannot be read stays without. It
-    leaves half the time to others, so that thousands of runs hold up no loop beside it.
+    What cannot be read stays without. It leaves half the time to others, so that thousands of runs
+    hold up no loop beside it.
     """
     for run_id in database.list_undescribed():
         begin = time.perf_counter()
         for folder in (place / run_id for place in places):
             with contextlib.suppress(RecordError, OSError, UnknownRunError):
-                entry = database.get(run_id)
-                header, (commands, _) = read_header(folder), read_commands(folder)
-                settings = describe_settings(header, commands, entry.first_tick, entry.ticks)
-                database.change(run_id, {"settings": settings})
+                database.change(run_id, _describe(open_record(folder)))
         time.sleep(time.perf_counter() - begin)
 
 
@@ -123,32 +119,40 @@ def describe(folder: Path) -> dict[str, Any]:
             "ticks": record.tick_count,
             "duration_s": record.duration_s,
             "bytes": measure_bytes(folder),
-            "metrics": measure(record),
-            "settings": describe_settings(
-                record.header, record.commands, record.first_tick, record.tick_count
-            ),
+            **_describe(record),
         }
     except (RecordError, OSError) as error:
         return {"state": "damaged", "message": str(error)}
 
 
-def measure(record: Record) -> tuple[Metrics, ...] | None:
-    """The metrics of every lane, a stretch at a time.
+def _describe(record: Record) -> dict[str, Any]:
+    """What is read from the record itself: how it was set, how well it did, and in which window."""
+    window = find_measured_window(record)
+    return {
+        "window": window,
+        "metrics": None if window is None else measure(record, window),
+        "settings": describe_settings(
+            record.header, record.commands, record.first_tick, record.tick_count
+        ),
+        "fault": record.fault,
+    }
 
-    None without samples, without the channels for it, or with samples that are no numbers.
+
+def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | None:
+    """The metrics of every lane in the window, a stretch at a time.
+
+    None without the channels for it, or with samples that are no numbers.
     """
     names = record.header.channel_names
-    if not record.tick_count or not set(MEASURED) <= set(names):
+    if not set(MEASURED) <= set(names):
         return None
     places = [names.index(name) for name in MEASURED]
     lanes = [RunningMetrics(record.header.period_s) for _ in record.header.lanes]
-    for _, samples in record.iterate():
+    for tick, samples in record.iterate():
+        rows = samples[max(0, window.first_tick - tick) : max(0, window.end_tick - tick)]
         for lane, running in enumerate(lanes):
-            running.update_measured(samples[:, lane, places])
-    metrics = [running.summarize() for running in lanes]
-    found = tuple(lane for lane in metrics if lane is not None)
-    numbers = [value for lane in found for value in vars(lane).values() if value is not None]
-    return found if np.all(np.isfinite(numbers)) else None
+            running.update_measured(rows[:, lane, places])
+    return summarize(lanes, window)
 
 
 def build_entry(folder: Path) -> RunEntry:

@@ -182,7 +182,7 @@ class Catalogue:
         return recover_runs(self._database, self._runs, self._trash)
 
     def describe_older(self) -> None:
-        """Read the settings of runs that a version without them has entered; once for each.
+        """Read of older runs what the version that entered them did not; once for each.
 
         It takes some milliseconds a run, and is harmless beside everything else.
         """

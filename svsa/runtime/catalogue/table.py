@@ -1,13 +1,14 @@
 """The tables of the catalogue: columns to sort and filter by, and the entries as they are.
 
-Format 2. A catalogue of format 1, which knew no settings, is written anew from its entries;
-`describe_older` then reads the settings from the folders of the runs.
+Format 3. A catalogue of format 1, which knew no settings, or of 2, whose metrics were of whole
+records, is written anew from its entries; `describe_older` then reads the rest from the folders.
 """
 
 import re
 import sqlite3
 from typing import Any
 
+from svsa.fault_labels import label_fault
 from svsa.runtime.catalogue.entry import (
     SORTS,
     CatalogueError,
@@ -18,8 +19,8 @@ from svsa.runtime.catalogue.entry import (
     write_entry,
 )
 
-VERSION = 2
-_REBUILT = (0, 1)
+VERSION = 3
+_REBUILT = (0, 1, 2)
 _COLUMNS = {
     "id": "TEXT PRIMARY KEY",
     "created": "TEXT NOT NULL",
@@ -37,6 +38,7 @@ _COLUMNS = {
     "realism": "TEXT",
     "plant": "TEXT NOT NULL",
     "peak_position_error_rad": "REAL",
+    "settled_position_error_rad": "REAL",
     "rms_position_error_rad": "REAL",
     "branch_run": "TEXT",
     "search": "TEXT NOT NULL",
@@ -141,7 +143,7 @@ def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
         "bytes": entry.bytes,
         "state": entry.state,
         "trash": trash,
-        "described": int(settings is not None),
+        "described": int(settings is not None and entry.window is not None),
         "figure": _order(settings.figure) if settings else None,
         "laws": _order(settings.laws) if settings else None,
         "stiffness_nm_per_rad": settings.stiffness_nm_per_rad if settings else None,
@@ -149,6 +151,7 @@ def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
         "realism": _order(settings.realism) if settings else None,
         "plant": entry.plant,
         "peak_position_error_rad": first.peak_position_error_rad if first else None,
+        "settled_position_error_rad": first.settled_position_error_rad if first else None,
         "rms_position_error_rad": first.rms_position_error_rad if first else None,
         "branch_run": entry.branch_of.run_id if entry.branch_of else None,
     }
@@ -162,6 +165,7 @@ def _order(text: str) -> str | None:
 def _build_search(connection: sqlite3.Connection, entry: RunEntry) -> str:
     """What a row of the list shows of the run, a line each, so that no word spans two."""
     texts = [entry.title, *entry.tags, entry.notes, entry.message]
+    texts += [label_fault(entry.fault.code)] if entry.fault else []
     if settings := entry.settings:
         stiffness = f"σ {settings.stiffness}" if settings.stiffness else ""
         texts += [entry.figure or settings.motion, settings.laws, stiffness, settings.load]

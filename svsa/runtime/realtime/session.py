@@ -7,7 +7,6 @@ from typing import Any
 
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
-from svsa.fault_labels import label_fault
 from svsa.hardware.bench import read_bench
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.homing import Axis
@@ -191,8 +190,11 @@ class BenchSession(Session):
         answer = self._ask("start")
         configuration = self.run.configuration
         start = Start(answer["mu0"], State(*answer["x"]))
-        if self.recorder is not None and self.recorder.status.ticks:
-            self.stop_recording()
+        if self.recorder is not None:
+            if self.recorder.status.ticks:
+                self.stop_recording()
+            else:
+                self.recorder.write_fault(None)
         self._begin(BenchRun(configuration, start, self.memory))
 
     def pause(self) -> None:
@@ -264,13 +266,13 @@ class BenchSession(Session):
         self._hands.hang(tuple(load.load for load in on))
 
     def _take_state(self, event: dict) -> None:
-        self._told_status = BenchStatus(event["status"])
         self.problems, self.homing_step = event["problems"], event["homing_step"]
         fault, is_loss = event["fault"], self._fault is not None and self._fault.code in LOSSES
         if fault is None:
             self._fault = self._fault if is_loss else None
         elif self._fault is None or is_loss:
             self._latch(Fault(**fault))
+        self._told_status = BenchStatus(event["status"])
         self.version += 1
 
     def _look_for_loss(self) -> None:
@@ -292,7 +294,7 @@ class BenchSession(Session):
         self._fault = fault
         self.version += 1
         if not is_known:
-            self._log("fault", label_fault(fault.code))
+            self._tell_fault(fault, ends_run=self._told_status in MOVING)
 
     def _ask(self, wanted: str, argument: object = None) -> dict:
         """Have the loop do it; what it says of its state is known when this returns."""

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
+from svsa.errors import Fault
+from svsa.runtime.recording.fault import read_fault
 from svsa.runtime.recording.header import (
     PARQUET_FILE,
     STREAM_FILE,
@@ -40,8 +42,9 @@ ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator[pa.RecordBatch
 class Record:
     """A recorded run. Sample k is that of tick `first_tick` + k.
 
-    commands: (tick, command) in the order they were given. Samples are read when asked
-    for; reading them raises `RecordError` where they are damaged.
+    commands: (tick, command) in the order they were given. fault: what the run ended in; None
+    where it ended otherwise, and where an older version recorded. Samples are read when asked for;
+    reading them raises `RecordError` where they are damaged.
     """
 
     header: RecordHeader
@@ -49,6 +52,7 @@ class Record:
     first_tick: int
     tick_count: int
     _read: ReadBatches = field(repr=False)
+    fault: Fault | None = None
 
     @cached_property
     def samples(self) -> np.ndarray:
@@ -118,19 +122,19 @@ def open_record(folder: Path) -> Record:
     """
     if not folder.is_dir():
         raise RecordError(f"There is no record {folder.name}.")
-    header, (commands, _) = read_header(folder), read_commands(folder)
+    header, (commands, _), fault = read_header(folder), read_commands(folder), read_fault(folder)
     if not (folder / PARQUET_FILE).exists() and (folder / STREAM_FILE).exists():
         batches = list(_explain(read_stream(folder / STREAM_FILE, header), folder))
         first = batches[0].column("tick")[0].as_py() if batches else 0
         count = sum(batch.num_rows for batch in batches)
-        return Record(header, commands, first, count, _read_from(batches))
+        return Record(header, commands, first, count, _read_from(batches), fault)
     with open_parquet(folder) as file:
         count = file.metadata.num_rows
         if not file.schema_arrow.equals(build_schema(header)):
             raise RecordError(f"{PARQUET_FILE} of record {folder.name} has other columns.")
     read = _read_from_parquet(folder)
     ticks = [batch.column("tick")[0].as_py() for batch in read(["tick"], 0, min(1, count))]
-    return Record(header, commands, ticks[0] if ticks else 0, count, read)
+    return Record(header, commands, ticks[0] if ticks else 0, count, read, fault)
 
 
 def recover(folder: Path) -> Finished | None:

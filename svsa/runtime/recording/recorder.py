@@ -14,6 +14,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from svsa.errors import Fault
+from svsa.runtime.recording.fault import write_fault
 from svsa.runtime.recording.header import RecordError, RecordHeader
 from svsa.runtime.recording.parquet import ROWS_A_GROUP, measure_bytes, write_command
 from svsa.runtime.recording.writer import RecordWriter
@@ -37,8 +39,8 @@ class RecordStatus:
 class Recorder:
     """A recording into a new folder; raises `RecordError` where that cannot be made.
 
-    `write_command` and `write_samples` never wait and never raise: see `status`. Both are
-    for one thread, that of the run.
+    `write_command`, `write_samples` and `write_fault` never wait and never raise: see `status`.
+    They are for one thread, that of the run.
     """
 
     def __init__(self, folder: Path, header: RecordHeader) -> None:
@@ -50,6 +52,8 @@ class Recorder:
         self._ticks = 0
         self._bytes = 0
         self._next_tick: int | None = None
+        self._fault: Fault | None = None
+        self._written_fault: Fault | None = None
         self._queue: deque[tuple[int, bytes | np.ndarray, int]] = deque()
         self._bytes_in = 0
         self._bytes_out = 0
@@ -88,6 +92,11 @@ class Recorder:
             self._next_tick = first_tick + len(samples)
             copy = np.array(samples, dtype=np.float64)
             self._hand_over(first_tick, copy, copy.nbytes)
+
+    def write_fault(self, fault: Fault | None) -> None:
+        """The run has ended in this fault; None: the fault was cleared before a run began."""
+        if self._failure is None and not self._close_asked.is_set():
+            self._fault = fault
 
     def close(self, wait_s: float = LONGEST_CLOSE_S) -> RecordStatus:
         """End the recording and finish its file; waits at most `wait_s`.
@@ -155,3 +164,7 @@ class Recorder:
                 samples = parts[0] if len(parts) == 1 else np.concatenate(parts)
                 self._bytes += self._writer.write_samples(first, samples)
                 self._ticks += rows
+        fault = self._fault
+        if fault != self._written_fault:
+            write_fault(self.folder, fault)
+            self._written_fault = fault

@@ -5,7 +5,6 @@ import type {
   RunDetails,
   RunDifference,
   RunList,
-  RunMetrics,
   RunOrigin,
   RunPatch,
   RunSamples,
@@ -59,12 +58,6 @@ export function readSamples(
 ): Promise<RunSamples> {
   const query = new URLSearchParams({ channels: channels.join(","), points: String(points) });
   return request("get", pathOf(run, `/samples?${query}`)) as Promise<RunSamples>;
-}
-
-export function readMetrics(run: string, startS: number, endS: number | null): Promise<RunMetrics> {
-  const query = new URLSearchParams({ start_s: String(startS) });
-  if (endS !== null) query.set("end_s", String(endS));
-  return request("get", pathOf(run, `/metrics?${query}`)) as Promise<RunMetrics>;
 }
 
 /** The run that the page's session is on. */

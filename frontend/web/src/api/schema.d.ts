@@ -2298,12 +2298,48 @@ export interface components {
             arm_m: number;
         };
         /**
+         * MeasuredWindow
+         * @description Ticks first … end − 1 of a recorded run, as far as they are in the record.
+         *
+         *     kind, label: what began it, as of a `Window`. is_whole: nothing was changed in all of the
+         *     record, and no load came on. lanes: who controlled each lane. load_ended: the load that began
+         *     it ended by itself, so that what is left of the error in the end is not that under the load.
+         */
+        MeasuredWindow: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "start" | "load" | "unload" | "change";
+            /** Label */
+            label: string;
+            /** First Tick */
+            first_tick: number;
+            /** End Tick */
+            end_tick: number;
+            /** Start S */
+            start_s: number;
+            /** End S */
+            end_s: number;
+            /** Is Whole */
+            is_whole: boolean;
+            /** Lanes */
+            lanes: string[];
+            /**
+             * Load Ended
+             * @default false
+             */
+            load_ended: boolean;
+        };
+        /**
          * Metrics
          * @description Metrics of a stretch of samples; SI units as named, over `duration_s`.
          *
          *     integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
          *     recovery_time_s: from the start of the stretch until the position error has stayed within
          *     2 % of its peak for 0.5 s; None while it has not. What comes later does not change it.
+         *     settled_position_error_rad: the steady error, rms over the last 0.5 s; None for a stretch
+         *     shorter than 1 s.
          */
         Metrics: {
             /** Duration S */
@@ -2326,6 +2362,8 @@ export interface components {
             effort_n2m2_s: number;
             /** Recovery Time S */
             recovery_time_s: number | null;
+            /** Settled Position Error Rad */
+            settled_position_error_rad: number | null;
         };
         /**
          * MinimumJerkPosition
@@ -2790,9 +2828,13 @@ export interface components {
             bytes: number;
             /**
              * Metrics
-             * @description Of every lane, over the whole run
+             * @description Of every lane in `window`
              */
             metrics: components["schemas"]["Metrics"][] | null;
+            /** @description What `metrics` are of: the window of the last load, or the last window; in it nothing was changed. Null as long as the run is recorded, and where that is not known */
+            window: components["schemas"]["MeasuredWindow"] | null;
+            /** @description What the run ended in; null where nobody wrote it */
+            fault: components["schemas"]["RunFault"] | null;
             /**
              * Deleted
              * @description When it went into the trash, UTC
@@ -2848,6 +2890,29 @@ export interface components {
             differences: components["schemas"]["SettingDifference"][];
         };
         /**
+         * RunFault
+         * @description The fault that a run ended in.
+         */
+        RunFault: {
+            /** Code */
+            code: string;
+            /**
+             * Label
+             * @description In a few words
+             */
+            label: string;
+            /**
+             * Message
+             * @description In a sentence, with the values that it was about
+             */
+            message: string;
+            /**
+             * Time S
+             * @description Time of the run
+             */
+            time_s: number;
+        };
+        /**
          * RunList
          * @description A page of runs.
          */
@@ -2889,6 +2954,11 @@ export interface components {
             start_s: number;
             /** End S */
             end_s: number;
+            /**
+             * Windows
+             * @description The windows that it reaches into: where there is more than one, the numbers are of what was before and after a change or a load; empty where that is not known
+             */
+            windows: components["schemas"]["WindowState"][];
             /**
              * Lanes
              * @description null where samples are no numbers
@@ -3082,9 +3152,13 @@ export interface components {
             bytes: number;
             /**
              * Metrics
-             * @description Of every lane, over the whole run
+             * @description Of every lane in `window`
              */
             metrics: components["schemas"]["Metrics"][] | null;
+            /** @description What `metrics` are of: the window of the last load, or the last window; in it nothing was changed. Null as long as the run is recorded, and where that is not known */
+            window: components["schemas"]["MeasuredWindow"] | null;
+            /** @description What the run ended in; null where nobody wrote it */
+            fault: components["schemas"]["RunFault"] | null;
             /**
              * Deleted
              * @description When it went into the trash, UTC
@@ -7583,8 +7657,8 @@ export interface operations {
                 figure?: string | null;
                 /** @description simulated, emulated or bench */
                 plant?: string | null;
-                /** @description A column; - before it turns it round. What is not known comes last; errors are those of the first lane. */
-                sort?: "created" | "-created" | "name" | "-name" | "figure" | "-figure" | "laws" | "-laws" | "stiffness_nm_per_rad" | "-stiffness_nm_per_rad" | "load" | "-load" | "realism" | "-realism" | "plant" | "-plant" | "peak_position_error_rad" | "-peak_position_error_rad" | "rms_position_error_rad" | "-rms_position_error_rad" | "duration_s" | "-duration_s" | "bytes" | "-bytes" | "session" | "-session";
+                /** @description A column; - before it turns it round. What is not known comes last; errors are those of the first lane in its `window`. */
+                sort?: "created" | "-created" | "name" | "-name" | "figure" | "-figure" | "laws" | "-laws" | "stiffness_nm_per_rad" | "-stiffness_nm_per_rad" | "load" | "-load" | "realism" | "-realism" | "plant" | "-plant" | "peak_position_error_rad" | "-peak_position_error_rad" | "settled_position_error_rad" | "-settled_position_error_rad" | "rms_position_error_rad" | "-rms_position_error_rad" | "duration_s" | "-duration_s" | "bytes" | "-bytes" | "session" | "-session";
                 page?: number;
                 page_size?: number;
                 /** @description What was deleted instead */

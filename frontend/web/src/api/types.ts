@@ -51,12 +51,12 @@ export type Body<M extends Method, P extends SessionPath> =
     : [];
 
 export type RunSummary = Schemas["RunSummary"];
+export type MeasuredWindow = Schemas["MeasuredWindow"];
 export type RunDetails = Schemas["RunDetails"];
 export type RunDifference = Schemas["RunDifference"];
 export type RunList = Schemas["RunList"];
 export type RunPatch = Schemas["RunPatch"];
 export type RunSamples = Schemas["RunSamples"];
-export type RunMetrics = Schemas["RunMetrics"];
 export type RunOrigin = Schemas["RunOrigin"];
 export type ExportName =
   paths["/api/v1/runs/{run_id}/export"]["get"]["parameters"]["query"]["kind"];

@@ -1,5 +1,7 @@
 /** The run inside the page: JSON, and arrays of numbers packed into one compressed text. */
+import type { Metrics } from "../api/types";
 import { type Mark, markOf } from "../layout/plantmark";
+import type { Measured } from "../runs/measured";
 import { type Packed, unpack } from "./packing";
 
 export interface Track {
@@ -47,7 +49,10 @@ export interface Run {
   stretches: LaneStretch[][];
   details: Record<string, unknown>;
   events: RunEvent[];
-  metrics: Record<string, number | null>[];
+  /** In which the metrics were measured, in the time of the page. */
+  window: Measured;
+  /** Of every lane; none where samples are no numbers. */
+  metrics: Metrics[];
   /** Of `stride` samples one is drawn, with the peaks between. */
   curves: { step_s: number; stride: number; channels: Record<string, number[]> };
   motion: Motion;

@@ -1,4 +1,5 @@
 import { inkOf } from "../plots/inks";
+import { describeMeasured, explainSettled } from "../runs/measured";
 import { text } from "../text/replay";
 import { formatNumber, toDegrees } from "../units";
 import { isPlaying, seek } from "./clock";
@@ -11,21 +12,20 @@ function degrees(rad: number | null | undefined): string {
   return formatNumber(rad == null ? rad : toDegrees(rad), 3, 4);
 }
 
-/** Of all who controlled the lane. */
-const inksOf = ({ stretches }: Run, lane: number): number[] => [
-  ...new Set(stretches[lane]?.map(({ ink }) => ink)),
-];
+/** Of who controlled the lane in the window. */
+const inkIn = ({ stretches, window }: Run, lane: number): number =>
+  stretches[lane]?.filter(({ start_s: start }) => start <= window.start_s).at(-1)?.ink ?? lane;
 
 function Metrics({ run }: { run: Run }) {
   return (
     <table class="metrics">
-      <caption title={numbers.hint}>{numbers.heading}</caption>
+      <caption title={numbers.hint}>{numbers.heading(describeMeasured(run.window))}</caption>
       <thead>
         <tr>
           <th scope="col" rowSpan={2}>
             <span class="visually-hidden">{numbers.lane}</span>
           </th>
-          <th scope="colgroup" colSpan={2}>
+          <th scope="colgroup" colSpan={3}>
             {numbers.position} <span class="unit">{numbers.degrees}</span>
           </th>
           <th scope="colgroup" colSpan={2}>
@@ -33,31 +33,29 @@ function Metrics({ run }: { run: Run }) {
           </th>
         </tr>
         <tr>
-          {[0, 1].map((group) => [
-            <th key={`rms${group}`} scope="col">
-              {numbers.rms}
-            </th>,
-            <th key={`peak${group}`} scope="col">
-              {numbers.peak}
-            </th>,
-          ])}
+          <th scope="col">{numbers.rms}</th>
+          <th scope="col">{numbers.peak}</th>
+          <th scope="col" title={explainSettled(run.window)}>
+            {numbers.settled}
+          </th>
+          <th scope="col">{numbers.rms}</th>
+          <th scope="col">{numbers.peak}</th>
         </tr>
       </thead>
       <tbody>
-        {run.lanes.map((lane, index) => {
-          const row = run.metrics[index] ?? {};
+        {run.window.lanes.map((lane, index) => {
+          const row = run.metrics[index];
           return (
             <tr key={`${index}.${lane}`}>
               <th scope="row">
-                {inksOf(run, index).map((ink) => (
-                  <Swatch key={ink} curve={inkOf(ink)} />
-                ))}
+                <Swatch curve={inkOf(inkIn(run, index))} />
                 <span class="legend-name">{lane}</span>
               </th>
-              <td>{degrees(row.position_error_rad_rms)}</td>
-              <td>{degrees(row.position_error_rad_peak)}</td>
-              <td>{formatNumber(row.stiffness_error_nm_per_rad_rms, 3, 4)}</td>
-              <td>{formatNumber(row.stiffness_error_nm_per_rad_peak, 3, 4)}</td>
+              <td>{degrees(row?.rms_position_error_rad)}</td>
+              <td>{degrees(row?.peak_position_error_rad)}</td>
+              <td>{degrees(row?.settled_position_error_rad)}</td>
+              <td>{formatNumber(row?.rms_stiffness_error_nm_per_rad, 3, 4)}</td>
+              <td>{formatNumber(row?.peak_stiffness_error_nm_per_rad, 3, 4)}</td>
             </tr>
           );
         })}

@@ -4,9 +4,12 @@ import type { RunSummary } from "../api/types";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { Marked } from "./marked";
+import { describeMeasured, explainSettled, shiftToRecord } from "./measured";
 import { formatDuration, formatMoment, formatMomentShort } from "./words";
 
 const words = text.runs;
+/** Stands between the laws of a lane, one after the other. */
+const CHANGED = "→";
 
 export interface Column {
   key: string;
@@ -14,7 +17,8 @@ export interface Column {
   hint?: string;
   /** Said before the value where there is no head of a table. */
   label?: string;
-  sort: string;
+  /** The server's name for the order by it; left out where there is none. */
+  sort?: string;
   /** Whether the first press shows the greatest first. */
   isDownFirst?: boolean;
   isNumber?: boolean;
@@ -24,12 +28,36 @@ export interface Column {
   hintOf?: (run: RunSummary) => string | undefined;
 }
 
-type Measure = "peak_position_error_rad" | "rms_position_error_rad";
+type Measure = "peak_position_error_rad" | "settled_position_error_rad" | "rms_position_error_rad";
+
+/** Of whom, too, where the laws were not the same throughout. */
+function windowOf(run: RunSummary): string | null {
+  const isNamed = run.settings?.laws.includes(CHANGED) ?? false;
+  return run.window && describeMeasured(shiftToRecord(run.window, run), isNamed);
+}
 
 const degrees = (run: RunSummary, measure: Measure): string | null =>
   run.metrics === null || run.metrics.length === 0
     ? null
-    : run.metrics.map((lane) => `${formatNumber(toDegrees(lane[measure]), 2, 4)}°`).join(" / ");
+    : run.metrics.map((lane) => formatDegrees(lane[measure])).join(" / ");
+
+const formatDegrees = (rad: number | null): string =>
+  rad === null ? formatNumber(null) : `${formatNumber(toDegrees(rad), 2, 4)}°`;
+
+const measureOf = (
+  key: string,
+  measure: Measure,
+  heading: Pick<Column, "name" | "hint" | "label">,
+) => ({
+  ...heading,
+  key,
+  sort: measure,
+  isDownFirst: true,
+  isNumber: true,
+  show: (run: RunSummary) => degrees(run, measure),
+});
+
+const namesOf = ({ window }: RunSummary): string | undefined => window?.lanes.join(" / ");
 
 const setting = (read: (settings: NonNullable<RunSummary["settings"]>) => string) => ({
   show: (run: RunSummary) => run.settings && <Marked>{read(run.settings)}</Marked>,
@@ -84,26 +112,35 @@ export const COLUMNS: readonly Column[] = [
     ...setting(({ realism, own }) => [realism, own && words.own(own)].filter(Boolean).join(", ")),
   },
   {
-    key: "peak",
-    name: words.columns.peak,
-    hint: words.columns.peakHint,
-    label: words.peak,
-    sort: "peak_position_error_rad",
-    isDownFirst: true,
-    isNumber: true,
-    show: (run) => degrees(run, "peak_position_error_rad"),
-    hintOf: (run) => run.settings?.laws,
+    key: "window",
+    name: words.columns.window,
+    hint: words.columns.windowHint,
+    show: windowOf,
+    hintOf: (run) => windowOf(run) ?? undefined,
   },
   {
-    key: "rms",
-    name: words.columns.rms,
-    hint: words.columns.rmsHint,
-    label: words.rms,
-    sort: "rms_position_error_rad",
-    isDownFirst: true,
-    isNumber: true,
-    show: (run) => degrees(run, "rms_position_error_rad"),
-    hintOf: (run) => run.settings?.laws,
+    ...measureOf("peak", "peak_position_error_rad", {
+      name: words.columns.peak,
+      hint: words.columns.peakHint,
+      label: words.peak,
+    }),
+    hintOf: namesOf,
+  },
+  {
+    ...measureOf("settled", "settled_position_error_rad", {
+      name: words.columns.settled,
+      hint: words.columns.settledHint,
+      label: words.settled,
+    }),
+    hintOf: (run) => (run.window === null ? undefined : explainSettled(run.window)),
+  },
+  {
+    ...measureOf("rms", "rms_position_error_rad", {
+      name: words.columns.rms,
+      hint: words.columns.rmsHint,
+      label: words.rms,
+    }),
+    hintOf: namesOf,
   },
   {
     key: "duration",

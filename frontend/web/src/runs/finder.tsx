@@ -42,7 +42,9 @@ function FilterChoice({ filter }: { filter: Filter }) {
 
 /** The columns' order for windows in which the table has no head. */
 function SortChoice() {
-  const columns = [{ name: words.columns.name, sort: NAME_SORT }, ...COLUMNS];
+  const columns = [{ name: words.columns.name, sort: NAME_SORT }, ...COLUMNS].filter(
+    ({ sort: order }) => order !== undefined,
+  );
   return (
     <label class="runs-sort">
       <span class="visually-hidden">{words.sort}</span>

@@ -3,6 +3,7 @@ import { bestOf } from "../layout/best";
 import { Swatch } from "../plots/legend";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
+import { describeMeasured } from "./measured";
 import { nameCurve, type Overlaid } from "./overlaid";
 
 const words = text.overlay;
@@ -24,6 +25,11 @@ const COLUMNS: readonly Column[] = [
     unit: words.degrees,
     read: (metrics) => toDegrees(metrics.peak_position_error_rad),
   },
+  {
+    name: words.settledError,
+    unit: words.degrees,
+    read: ({ settled_position_error_rad: rad }) => (rad === null ? null : toDegrees(rad)),
+  },
   { name: words.recovery, unit: words.secondsUnit, read: (metrics) => metrics.recovery_time_s },
   {
     name: words.rmsStiffness,
@@ -33,10 +39,27 @@ const COLUMNS: readonly Column[] = [
   { name: words.peakTorque, unit: words.torqueUnit, read: (metrics) => metrics.peak_torque1_nm },
 ];
 
-/** Whose value is clearly the smallest is marked; a run that never came back is no winner. */
+/** Whether the numbers are of windows that began in the same way. */
+export function areAlike(curves: readonly Overlaid[]): boolean {
+  const begins = curves.map(({ window }) => window && `${window.kind} ${window.label}`);
+  return !begins.includes(null) && new Set(begins).size === 1;
+}
+
+/**
+ * Whose value is clearly the smallest is marked, where the windows are alike; a run that never came
+ * back is no winner.
+ */
 function readColumn(curves: readonly Overlaid[], { read }: Column) {
   const values = curves.map(({ metrics }) => (metrics === null ? null : read(metrics)));
-  return { values, best: bestOf(values.map((value) => value ?? Number.POSITIVE_INFINITY)) };
+  const best = bestOf(values.map((value) => value ?? Number.POSITIVE_INFINITY));
+  return { values, best: areAlike(curves) ? best : -1 };
+}
+
+/** Named by who controlled in it, where the curve is of several. */
+function windowOf({ window, lane, measuredLane }: Overlaid): string {
+  return window === null
+    ? formatNumber(null)
+    : describeMeasured({ ...window, lanes: [measuredLane] }, lane !== measuredLane);
 }
 
 /** The curves of an overlay in numbers. */
@@ -46,10 +69,16 @@ export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
     <section class="overlay-table" tabIndex={0} aria-label={words.table}>
       <table>
-        <caption>{words.table}</caption>
+        <caption>
+          {words.table}
+          {!areAlike(curves) && <small class="unit"> {words.unequal}</small>}
+        </caption>
         <thead>
           <tr>
             <th scope="col">{words.run}</th>
+            <th scope="col" title={words.windowHint}>
+              {words.window}
+            </th>
             {columns.map((column) => (
               <th key={column.name} scope="col">
                 {column.name} <span class="unit">{column.unit}</span>
@@ -64,6 +93,7 @@ export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
                 <Swatch look={curve.ink} />
                 {nameCurve(curve)}
               </th>
+              <td class="overlay-window">{windowOf(curve)}</td>
               {columns.map((column) => (
                 <td key={column.name} class={row === column.best ? "is-best" : ""}>
                   {row === column.best && (

@@ -1,11 +1,11 @@
-/** Several runs on one axis of time, on which 0 is the load's onset. */
-import { readMetrics, readRun, readSamples } from "../api/runs";
-import type { Metrics, RunSamples } from "../api/types";
+/** Several runs on one axis of time, on which 0 is where the window of their numbers begins. */
+import { readRun, readSamples } from "../api/runs";
+import type { MeasuredWindow, Metrics, RunDetails, RunSamples } from "../api/types";
 import type { Ink } from "../plots/definitions";
 import { inkOf } from "../plots/inks";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
-import { findLoad } from "./onset";
+import { shiftToRecord } from "./measured";
 
 export const CHANNELS = ["position_error_rad", "stiffness_error_nm_per_rad"] as const;
 export type OverlayChannel = (typeof CHANNELS)[number];
@@ -21,15 +21,19 @@ export interface Overlaid {
   run: string;
   runName: string;
   lane: string;
+  /** Who controlled it in the window. */
+  measuredLane: string;
   isAlone: boolean;
   hasOnset: boolean;
-  /** When something was changed after the load, s after it: the numbers are of before. */
+  /** In which the numbers were measured; null where that is not known. */
+  window: MeasuredWindow | null;
+  /** When something was changed after that window's beginning, s after it; null: never. */
   changedS: number | null;
   ink: Ink;
-  /** s after the onset. */
+  /** s after the window's beginning. */
   time: Float64Array;
   values: Record<OverlayChannel, (number | null)[]>;
-  /** From the onset to the next change or the end; null where samples are no numbers. */
+  /** Of that window; null where samples are no numbers. */
   metrics: Metrics | null;
 }
 
@@ -48,25 +52,28 @@ function readLane(samples: RunSamples, lane: string): Overlaid["values"] {
 }
 
 async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
-  const run = await readRun(id);
-  const load = findLoad(run);
-  const zero = load?.start_s ?? run.first_tick * run.period_s;
-  const [samples, metrics] = await Promise.all([
-    readSamples(id, CHANNELS, POINTS),
-    readMetrics(id, zero, load?.end_s ?? null),
-  ]);
+  const [run, samples] = await Promise.all([readRun(id), readSamples(id, CHANNELS, POINTS)]);
+  return overlay(run, samples);
+}
+
+export function overlay(run: RunDetails, samples: RunSamples): Omit<Overlaid, "ink">[] {
+  const { id, window } = run;
+  const zero = window?.start_s ?? run.first_tick * run.period_s;
+  const isCut = window !== null && window.end_tick < run.first_tick + run.ticks;
   const time = Float64Array.from(samples.time_s, (seconds) => seconds - zero);
   return run.lanes.map((lane, index) => ({
     key: `${id}.${lane}`,
     run: id,
     runName: run.title,
     lane: run.lane_names[index] ?? lane,
+    measuredLane: window?.lanes[index] ?? lane,
     isAlone: run.lanes.length === 1,
-    hasOnset: load !== null,
-    changedS: load?.end_s == null ? null : load.end_s - zero,
+    hasOnset: window?.kind === "load",
+    window: window && shiftToRecord(window, run),
+    changedS: isCut ? window.end_s - zero : null,
     time,
     values: readLane(samples, lane),
-    metrics: metrics.lanes[lane] ?? null,
+    metrics: run.metrics?.[index] ?? null,
   }));
 }
 

@@ -1,4 +1,4 @@
-/** One uPlot of an overlay: curves with times of their own, a line where the load came on. */
+/** One uPlot of an overlay: curves with times of their own, a line where their window begins. */
 import uPlot from "uplot";
 import { plainAxis, valueAxis } from "../plots/axes";
 import { palette } from "../plots/palette";
@@ -45,7 +45,7 @@ export class OverlayChart {
           valueAxis(),
         ],
         series: [{}, ...curves.map(drawn)],
-        hooks: { drawClear: [drawOnset], setScale: [followTime] },
+        hooks: { drawClear: [(plot) => drawEdges(plot, curves)], setScale: [followTime] },
       },
       uPlot.join(tables),
       host,
@@ -82,13 +82,22 @@ function followTime(plot: uPlot, scale: string): void {
   }
 }
 
-function drawOnset(plot: uPlot): void {
+/** Where the windows of the numbers begin, and in its colour where that of a curve ends. */
+function drawEdges(plot: uPlot, curves: readonly Overlaid[]): void {
+  drawEdge(plot, 0, palette.peek().mark);
+  curves.forEach(({ changedS, ink }, index) => {
+    const isShown = plot.series[index + 1]?.show === true;
+    if (changedS !== null && isShown) drawEdge(plot, changedS, palette.peek()[ink.colour]);
+  });
+}
+
+function drawEdge(plot: uPlot, timeS: number, colour: string): void {
   const { ctx: context, bbox } = plot;
   const { min = 0, max = 0 } = plot.scales.x as uPlot.Scale;
-  if (min > 0 || max < 0) return;
-  const x = Math.round(plot.valToPos(0, "x", true));
+  if (min > timeS || max < timeS) return;
+  const x = Math.round(plot.valToPos(timeS, "x", true));
   context.save();
-  context.strokeStyle = palette.peek().mark;
+  context.strokeStyle = colour;
   context.lineWidth = devicePixelRatio;
   context.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
   context.beginPath();

@@ -66,6 +66,10 @@ interface LegendProps {
   onToggle: (key: string) => void;
 }
 
+/** What time 0 is of a run whose numbers are of no load. */
+const beginningOf = ({ window }: Overlaid): string =>
+  window?.label ? words.fromChange(window.label) : words.fromStart;
+
 function OverlayLegend({ curves, hidden, onToggle }: LegendProps) {
   return (
     <div class="overlay-legend">
@@ -80,14 +84,17 @@ function OverlayLegend({ curves, hidden, onToggle }: LegendProps) {
         >
           <Swatch look={curve.ink} />
           {nameCurve(curve)}
-          {!curve.hasOnset && <small class="unit"> {words.unaligned}</small>}
+          {!curve.hasOnset && <small class="unit"> {beginningOf(curve)}</small>}
+          {curve.changedS !== null && (
+            <small class="unit"> {words.measured(curve.changedS.toFixed(2))}</small>
+          )}
         </button>
       ))}
     </div>
   );
 }
 
-/** Runs over one another, from the moment at which each of them was loaded. */
+/** Runs over one another, from where the window of the numbers of each begins: its last load. */
 export function OverlayPage({ runs }: { runs: readonly string[] }) {
   const [curves, setCurves] = useState<readonly Overlaid[] | null>(null);
   const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());

@@ -30,6 +30,13 @@ function useGlance({ id, ticks }: RunSummary): Glance | null {
 }
 
 function State({ run }: { run: RunSummary }) {
+  if (run.fault !== null) {
+    return (
+      <strong class="run-state is-fault" title={run.fault.message}>
+        ▲ <Marked>{run.fault.label}</Marked>
+      </strong>
+    );
+  }
   if (run.state === "complete") return null;
   return (
     <strong class={`run-state is-${run.state}`} title={run.message}>

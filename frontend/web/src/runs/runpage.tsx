@@ -69,6 +69,11 @@ function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummar
         </span>
         {run.name !== "" && run.settings && <span class="run-when">{run.settings.name}</span>}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
+        {run.fault && (
+          <strong class="run-state is-fault" title={run.fault.message}>
+            ▲ {text.runs.fault(run.fault.label)}
+          </strong>
+        )}
         <Tags run={run} onChanged={onChanged} />
       </div>
       <Written

@@ -19,10 +19,18 @@ interface HeadProps extends Pick<Column, "name" | "hint" | "sort" | "isDownFirst
 function Head({ name, hint, sort: column, isDownFirst = false, isNumber, ...rest }: HeadProps) {
   const isSorted = sort.value.replace(/^-/, "") === column;
   const isDown = sort.value.startsWith("-");
+  const look = `${rest.class} ${isNumber ? "is-number" : ""}`;
+  if (column === undefined) {
+    return (
+      <th scope="col" class={`${look} is-plain`} title={hint}>
+        {name}
+      </th>
+    );
+  }
   return (
     <th
       scope="col"
-      class={`${rest.class} ${isNumber ? "is-number" : ""}`}
+      class={look}
       aria-sort={isSorted ? (isDown ? "descending" : "ascending") : "none"}
     >
       <button

@@ -1,4 +1,6 @@
 /** Recorded runs: the list, one run, several laid over one another. */
+import { measuredText } from "./measured";
+
 export const runsText = {
   runs: {
     open: "Runs",
@@ -48,9 +50,14 @@ export const runsText = {
       realism: "Realism",
       realismHint: "Effects of the simulation, or the bench; what of the design is its own",
       peak: "Peak error",
-      peakHint: "Largest position error of the whole record, lane by lane",
+      window: "Measured in",
+      windowHint:
+        "What the errors are of: the last load while nothing else was changed, or the last stretch",
+      peakHint: "Largest position error in that window, lane by lane",
+      settled: "Settled",
+      settledHint: `${measuredText.settledHint}, lane by lane`,
       rms: "rms error",
-      rmsHint: "rms position error of the whole record, lane by lane",
+      rmsHint: "rms position error in that window, lane by lane",
       duration: "Length",
       created: "Recorded",
     },
@@ -71,7 +78,9 @@ export const runsText = {
       `Position error of ${lanes}: at most ${peak} degrees`,
     noSparkline: "Position error",
     peak: "peak",
+    settled: "settled",
     rms: "rms",
+    fault: (what: string) => `Fault: ${what}`,
     seconds: (seconds: number) => `${seconds} s`,
     minutes: (minutes: number, seconds: number) => `${minutes} min ${seconds} s`,
     state: {
@@ -129,8 +138,9 @@ export const runsText = {
   },
   overlay: {
     title: "Overlay",
-    aligned: "Time 0 is when the load came on.",
-    unaligned: "no load: from its start",
+    aligned: "Time 0 is when the last load came on.",
+    fromStart: "no load: from its start",
+    fromChange: (change: string) => `no load: from ${change}`,
     error: "Position error",
     stiffness: "Stiffness error",
     degrees: "deg",
@@ -138,8 +148,13 @@ export const runsText = {
     curve: (run: string, lane: string) => `${run} · ${lane}`,
     toggle: (name: string) => `Show or hide ${name}`,
     hint: "Drag: zoom in. Double click: everything.",
-    table: "Since the load came on, from every sample",
+    table: "Each in the window named, from every sample",
+    unequal: "The windows are not alike: no value is marked as the best.",
     run: "Run",
+    window: "window",
+    windowHint: "In the time of the replay; on the axis it begins at 0",
+    measured: (seconds: string) => `measured 0–${seconds} s`,
+    settledError: "settled",
     rmsError: "rms error",
     peakError: "peak error",
     recovery: "back after",

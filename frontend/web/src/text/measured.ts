@@ -1,0 +1,12 @@
+/** The window of a recorded run in which its numbers were measured. */
+export const measuredText = {
+  whole: "Whole run",
+  start: "From the start",
+  /** From and to in seconds. */
+  during: (what: string, from: string, to: string) => `${what}, ${from}–${to} s`,
+  controlled: (lanes: readonly string[], what: string) => `${lanes.join(" / ")}: ${what}`,
+  settledHint:
+    "rms position error over the last 0.5 s of the window: what is left when it has settled",
+  loadEnded: "The load ended by itself before, so there is no steady error under it.",
+  tooShort: "The window is shorter than 1 s.",
+} as const;
