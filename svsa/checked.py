@@ -11,6 +11,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Strict, Vali
 
 from svsa.errors import ParameterError, Violation
 from svsa.explanation import explain
+from svsa.written_number import write_number
 
 _GREATEST_WHOLE = 2**63
 
@@ -59,6 +60,7 @@ def check_number(name: str, value: Any, unit: str, least: float, most: float) ->
     """Raise `ParameterError` unless `value` is a number from `least` to `most`."""
     is_number = isinstance(value, Real) and not isinstance(value, bool)
     if not is_number or not least <= float(value) <= most:
-        bound = f"a number from {least:g} to {most:g}{f' {unit}' if unit else ''}"
+        ends = f"{write_number(least)} to {write_number(most)}"
+        bound = f"a number from {ends}{f' {unit}' if unit else ''}"
         limits = {"ge": least, "le": most}
         raise ParameterError(Violation(name, value, unit, bound, limits))

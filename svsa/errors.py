@@ -7,6 +7,8 @@ the model ends in a `Fault`, which is data, and a `FaultError` where nobody look
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
+from svsa.written_number import write_number
+
 _LONGEST_NUMBER = 8
 
 
@@ -100,7 +102,7 @@ def _is_number(value: Any) -> bool:
 def _shorten(value: Any, longest: int = 80) -> str:
     """As Python writes it, but numbers to six digits, and cut where it is long."""
     if isinstance(value, float) and len(repr(value)) > _LONGEST_NUMBER:
-        return f"{value:.6g}"
+        return write_number(value)
     if isinstance(value, list | tuple):
         text = f"[{', '.join(_shorten(item) for item in value[: longest // 2])}]"
     else:

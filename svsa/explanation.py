@@ -8,6 +8,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from svsa.errors import ParameterError, Violation
+from svsa.written_number import write_number
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> list[Violation]:
@@ -95,7 +96,7 @@ def _describe_bound(problem: Any, unit: str, field: FieldInfo | None) -> str:
     unit = f" {unit}" if unit and unit != "1" else ""
     for name, words in _COMPARISONS.items():
         if kind == _COMPARISON_KINDS[name]:
-            return f"{words} {limits[name]:g}{unit}"
+            return f"{words} {write_number(limits[name])}{unit}"
     if kind in ("too_short", "too_long"):
         side, count = ("least", "min_length") if kind == "too_short" else ("most", "max_length")
         return f"a list of at {side} {limits[count]}"
@@ -141,7 +142,7 @@ _MISMATCHES = {*_KINDS, "literal_error"} - {"missing", "extra_forbidden", "finit
 def _describe_range(field: FieldInfo | None, unit: str) -> str:
     """For a value of the wrong type, the range as well, so that one answer is enough."""
     parts = [
-        f"{words} {getattr(bound, name):g}{unit}"
+        f"{words} {write_number(getattr(bound, name))}{unit}"
         for bound in (field.metadata if field else [])
         for name, words in _COMPARISONS.items()
         if getattr(bound, name, None) is not None

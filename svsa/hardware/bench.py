@@ -4,12 +4,12 @@ What belongs to a particular motor or encoder has no silent default: a bench who
 gearbox, efficiency, sign or counts are not given can be checked, but does not arm.
 """
 
-import tomllib
 from pathlib import Path
 from typing import Any, Literal
 
 from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.errors import ParameterError, Violation
+from svsa.toml_file import read_toml
 
 PERIODS_S = (0.001, 0.002)
 Sign = Literal[-1, 1]
@@ -175,12 +175,7 @@ class BenchFile(Checked):
 
 def read_bench(path: Path | str) -> BenchFile:
     """Read a bench file (TOML); raises `ParameterError` for every wrong value."""
-    try:
-        written = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        violation = Violation("bench file", str(path), "", f"a readable TOML file ({error})")
-        raise ParameterError(violation) from None
-    bench = BenchFile(**{**written, "path": str(path)})
+    bench = BenchFile(**{**read_toml(path, "bench file"), "path": str(path)})
     for name in ("motor1", "motor2"):
         motor: MotorSettings = getattr(bench, name)
         lowest, highest, peak = motor.position_min_rad, motor.position_max_rad, motor.peak_current_a

@@ -7,7 +7,6 @@ Without it, or with that of another bench, nothing is armed.
 
 import hashlib
 import json
-import tomllib
 from datetime import datetime
 from pathlib import Path
 
@@ -16,6 +15,7 @@ import tomli_w
 from svsa.checked import Checked, Flag, Whole, quantity
 from svsa.errors import ParameterError, Violation
 from svsa.hardware.bench import BenchFile
+from svsa.toml_file import read_toml
 
 SUFFIX = ".calibration.toml"
 
@@ -45,14 +45,9 @@ def get_calibration_path(bench: BenchFile) -> Path:
 def find_calibration(bench: BenchFile) -> Calibration | None:
     """The record beside the bench file, or None; raises `ParameterError` for a damaged one."""
     path = get_calibration_path(bench)
-    try:
-        written = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    if not path.exists():
         return None
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        violation = Violation("calibration record", str(path), "", f"readable TOML ({error})")
-        raise ParameterError(violation) from None
-    calibration = Calibration(**written)
+    calibration = Calibration(**read_toml(path, "calibration record"))
     try:
         zoned = datetime.fromisoformat(calibration.date).tzinfo is not None
     except ValueError:

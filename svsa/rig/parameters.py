@@ -1,6 +1,5 @@
 """The emulated bench as a value: Table 1's plant, and what stands around it on a bench."""
 
-import tomllib
 from functools import cache
 from pathlib import Path
 from typing import Literal, Self
@@ -13,6 +12,7 @@ from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import CurrentLag, Friction, LinkGravity
 from svsa.runtime.configuration import load_prototype
+from svsa.toml_file import read_toml
 
 HOME_STIFFNESS_NM_PER_RAD = 30.0
 
@@ -103,9 +103,4 @@ class RigParameters(Checked):
 
 def read_rig(path: Path | str) -> RigParameters:
     """Read a rig's file (TOML); raises `ParameterError` for every wrong value."""
-    try:
-        written = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        violation = Violation("rig file", str(path), "", f"a readable TOML file ({error})")
-        raise ParameterError(violation) from None
-    return RigParameters(**written)
+    return RigParameters(**read_toml(path, "rig file"))

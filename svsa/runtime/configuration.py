@@ -1,6 +1,5 @@
 """A run as a value: parameters, design, references and loads; TOML files in and out."""
 
-import tomllib
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -18,8 +17,10 @@ from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference, get_range
+from svsa.toml_file import parse_toml, read_toml
 
 MOST_LOADS = 16
+PARAMETER_FILE = "parameter file"
 MOST_LANES = 4
 
 
@@ -95,20 +96,15 @@ def read_design(path: Path | str) -> Design:
 
     Raises `ParameterError` for a file that cannot be read and for every wrong value.
     """
-    try:
-        return parse_design(Path(path).read_text(encoding="utf-8"), str(path))
-    except (OSError, UnicodeDecodeError) as error:
-        violation = Violation("parameter file", str(path), "", f"a readable TOML file ({error})")
-        raise ParameterError(violation) from None
+    return _build_design(read_toml(path, PARAMETER_FILE))
 
 
 def parse_design(text: str, name: str = "") -> Design:
     """The design in the text of a parameter file called `name`; raises `ParameterError`."""
-    try:
-        sections = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        violation = Violation("parameter file", name, "", f"a readable TOML file ({error})")
-        raise ParameterError(violation) from None
+    return _build_design(parse_toml(text, PARAMETER_FILE, name))
+
+
+def _build_design(sections: dict[str, Any]) -> Design:
     return Design(**{name: _strip_sources(section) for name, section in sections.items()})
 
 
