@@ -1,4 +1,4 @@
-"""The bench's own loop on the emulated rig, through sockets and in lockstep."""
+"""The bench's own loop on the emulated rig in lockstep: in this process, once through sockets."""
 
 import numpy as np
 import pytest
@@ -11,16 +11,18 @@ from svsa.reference.sine import ConstantPosition
 from svsa.rig.launch import start_rig
 from svsa.signals import CHANNEL_INDEX
 
+from .in_process_rig import start_in_process
+
 TICKS = 3000
 LOADED_S = 1.0
 LOAD = ConstantLoad(torque_nm=(2.0, 0.0, 0.0))
 SETTLED = slice(2000, TICKS)
 
 
-def run(law):
+def run(law, start=start_in_process):
     """Three seconds of Figure 4A, with the cable's 2 N·m on the link from 1 s on; its samples."""
     assert LOADED_S < LOAD_TIME_S
-    with start_rig(lockstep=True) as rig:
+    with start() as rig:
         bench = LockstepBench(rig, FIGURES["4a"].build_configuration(law), TICKS)
         try:
             bench.prepare()
@@ -65,8 +67,9 @@ def test_without_compensation_the_same_load_moves_the_link(compensated):
     )
 
 
-def test_the_same_run_gives_the_same_samples_to_the_bit(compensated):
-    assert np.array_equal(run("ndobc"), compensated, equal_nan=True)
+def test_through_sockets_the_same_run_gives_the_same_samples_to_the_bit(compensated):
+    """With the rig in a process of its own: what holds in this process holds over the wire."""
+    assert np.array_equal(run("ndobc", start_rig), compensated, equal_nan=True)
 
 
 def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
@@ -83,7 +86,7 @@ def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
     hold = FIGURES["4a"].build_configuration(load=False).changed(position=ConstantPosition())
     recorded = []
     for _ in range(2):
-        with start_rig(lockstep=True) as rig:
+        with start_in_process() as rig:
             bench = LockstepBench(rig, hold, TICKS)
             try:
                 bench.prepare()
@@ -107,7 +110,7 @@ def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
 def test_500_hz_tracks_as_well() -> None:
     """At σ = 60 N·m/rad, from 1 s on; the drives' feedback comes every 2 ms then."""
     ticks = 1000
-    with start_rig(lockstep=True) as rig:
+    with start_in_process() as rig:
         bench = connect_bench(rig)
         bench = bench.changed(timing=bench.timing.changed(period_s=0.002))
         wanted = get_figure("6b").build_configuration(load=False)

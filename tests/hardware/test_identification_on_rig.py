@@ -7,17 +7,17 @@ from svsa.experiment.bench_run import LockstepBench
 from svsa.experiment.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.experiment.identification import ACTUATOR, identify
 from svsa.experiment.paper import get_figure
-from svsa.rig.launch import start_rig
 from svsa.runtime.recording.reader import build_record
 from svsa.signals import CHANNELS
 from tests.contract.records import build_header
+from tests.hardware.in_process_rig import start_in_process
 
 
 def test_table_1_is_found_within_5_percent():
     """A bench does not know its disturbance, and its torques are as sent, not as made."""
     ticks = round(EXCITATION_DURATION_S / 0.001)
     later = build_commands(0.001)
-    with start_rig(lockstep=True) as rig:
+    with start_in_process() as rig:
         bench = LockstepBench(rig, get_figure("6a").build_configuration(load=False), ticks)
         try:
             bench.prepare()
