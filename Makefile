@@ -5,8 +5,9 @@ PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
   frontend/scene/svsa_scene/cameras.json
-# Each module in one of two processes, in the order of the folders: the browser last.
-SIDE_BY_SIDE := -n 2 --dist loadfile --no-loadscope-reorder
+# Each module in one of three processes, of which one waits for something most of the time: in the
+# order of the folders, the browser last, since its driver keeps an event loop running.
+SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 
 .PHONY: help run dev bench-demo test quick check hooks format page schema lock screenshots bench clean
@@ -25,7 +26,7 @@ bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
 test: .venv/installed $(PAGE)  ## every test
-	@$(BIN)/svsa compile
+	@$(BIN)/python -m tests.compile_all
 	$(BIN)/pytest $(SIDE_BY_SIDE) -m "not wall_clock"
 	$(BIN)/pytest -m wall_clock
 	$(WEB) test

@@ -5,15 +5,51 @@ from pathlib import Path
 
 import pytest
 
+from svsa.compilation import watch_compilation
 from tests.lab import Lab, run_lab
 
 TESTS = Path(__file__).parent
+COMPILED = "compiled"
 ORDER = ("package", "equations", "experiment", "contract", "hardware", "service", "browser")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Quick tests first; the browser last, since its driver keeps an event loop running."""
     items.sort(key=lambda item: ORDER.index(item.path.relative_to(TESTS).parts[0]))
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_setup(item: pytest.Item) -> Iterator[None]:
+    yield from note_compilation(item)
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    yield from note_compilation(item)
+
+
+def note_compilation(item: pytest.Item) -> Iterator[None]:
+    names: list[str] = []
+    with watch_compilation(names.append):
+        yield
+    if names:
+        item.user_properties.append((COMPILED, ", ".join(dict.fromkeys(names))))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Tell what `tests.compile_all` has not compiled before."""
+    told = [
+        f"{report.nodeid}: {dict(report.user_properties)[COMPILED]}"
+        for reports in terminalreporter.stats.values()
+        for report in reports
+        if isinstance(report, pytest.TestReport)
+        and report.when == "call"
+        and COMPILED in dict(report.user_properties)
+    ]
+    if told:
+        terminalreporter.section("compiled inside a test")
+    for line in told:
+        terminalreporter.write_line(line)
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,45 @@
+"""Compile what the tests use, before they begin: `python -m tests.compile_all`.
+
+A compiler inside a test takes seconds that the test, or a rig beside it, may not have. What is
+still compiled inside a test is told at the end of the tests.
+"""
+
+import svsa
+from svsa.cli import prepare
+from svsa.experiment.bench_run import LockstepBench
+from svsa.experiment.identification import identify
+from svsa.experiment.paper import FIGURES
+from svsa.plant.disturbances import ConstantLoad
+from tests.experiment.excited_run import build_configuration, build_run, play
+from tests.hardware.in_process_rig import start_in_process
+
+TICKS = 10
+
+
+def main() -> None:
+    prepare()
+    compile_bench()
+    compile_identification()
+
+
+def compile_bench() -> None:
+    """The bench's tick under both laws, and the emulated rig."""
+    for law in ("fl", "ndobc"):
+        with start_in_process() as rig:
+            bench = LockstepBench(rig, FIGURES["4a"].build_configuration(law), TICKS)
+            bench.prepare()
+            bench.start()
+            rig.control.load(ConstantLoad(torque_nm=(1.0, 0.0, 0.0)))
+            bench.tick(TICKS)
+            bench.close()
+
+
+def compile_identification() -> None:
+    """With every effect of a rig, which the loop has not had until here."""
+    move = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=1.0)
+    configuration = build_configuration(position=move)
+    identify(build_run(configuration, play(configuration, [], 8.0)[0]))
+
+
+if __name__ == "__main__":
+    main()
