@@ -2,10 +2,11 @@
 
 import os
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import BrowserContext, Error, Playwright
+from playwright.sync_api import Browser, BrowserContext, Error, Page, Playwright
 
 # Without a graphics card: the page is put together without one, WebGL is drawn by SwiftShader.
 # Putting the page together by SwiftShader too took most of a test's processor time.
@@ -51,10 +52,89 @@ def browser_context_args() -> dict:
     return {"viewport": {"width": 1280, "height": 720}, "color_scheme": "light"}
 
 
+# What it writes while it is left would be there for the next test.
+FORGET = """() => {
+    Storage.prototype.setItem = () => undefined;
+    localStorage.clear();
+    sessionStorage.clear();
+}"""
+
+
+class KeptPage:
+    """A page that goes from one test to the next, as new: to open another takes 1 s and more.
+
+    Not for what cannot be taken back from a page: a script for every document, a patched
+    WebSocket, a listener. Such a test uses `own_page`.
+    """
+
+    def __init__(self, browser: Browser, arguments: dict) -> None:
+        self._browser, self._arguments = browser, arguments
+        self._page: Page | None = None
+
+    def get(self) -> Page:
+        if self._page is None:
+            self._page = self._browser.new_context(**self._arguments).new_page()
+        return self._page
+
+    def forget(self) -> None:
+        """Nothing of the test before is left; where that fails, nor is the page."""
+        try:
+            self._clean(self.get())
+        except Error:
+            self.close()
+
+    def _clean(self, page: Page) -> None:
+        page.unroute_all(behavior="ignoreErrors")
+        page.evaluate(FORGET)
+        page.goto("about:blank")
+        context = page.context
+        context.clear_cookies()
+        context.clear_permissions()
+        page.set_viewport_size(self._arguments["viewport"])
+        page.emulate_media(color_scheme=self._arguments["color_scheme"], reduced_motion="null")
+
+    def close(self) -> None:
+        if self._page is not None:
+            self._page.context.close()
+            self._page = None
+
+
+@pytest.fixture(scope="session")
+def kept_pages(browser: Browser, browser_context_args: dict) -> Iterator[KeptPage]:
+    kept = KeptPage(browser, browser_context_args)
+    yield kept
+    kept.close()
+
+
 @pytest.fixture
-def without_3d(context: BrowserContext) -> None:
+def kept_page(kept_pages: KeptPage) -> Iterator[Page]:
+    """The page that other tests had before; `page` of a module that uses this fixture."""
+    yield kept_pages.get()
+    kept_pages.forget()
+
+
+@pytest.fixture
+def page(request: pytest.FixtureRequest) -> Page:
+    """`kept_page` where a module uses it, else a page of the test's own."""
+    name = "kept_page" if "kept_page" in request.fixturenames else "own_page"
+    return request.getfixturevalue(name)
+
+
+@pytest.fixture
+def own_page(context: BrowserContext) -> Page:
+    return context.new_page()
+
+
+@pytest.fixture
+def without_3d(request: pytest.FixtureRequest) -> None:
     """The frame of the 3D view stays empty, for tests that do not look at it.
 
     Without a graphics card, drawing it takes most of a test's time.
     """
-    context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
+    names, shown = set(request.fixturenames), []
+    if {"kept_page", "page"} <= names:
+        shown.append(request.getfixturevalue("kept_page"))
+    if "kept_page" not in names or {"context", "own_page"} & names:
+        shown.append(request.getfixturevalue("context"))
+    for one in shown:
+        one.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))

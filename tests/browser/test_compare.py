@@ -8,7 +8,7 @@ from playwright.sync_api import Locator, Page, expect
 from tests.browser.test_page import ONE_DEGREE, open_page, wait_for_samples
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 # The smallest and the largest position error of a lane from a session time on, in rad.
 ERRORS = """([lane, since]) => {

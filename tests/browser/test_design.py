@@ -7,14 +7,14 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
 @pytest.fixture
 def panel(page: Page, lab: Lab) -> Locator:
     lab.load_figure()
-    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
     page.goto(lab.url)
+    page.get_by_role("region", name="Tour of the lab").get_by_role("button", name="Skip").click()
     page.get_by_role("button", name="Place poles").click()
     panel = page.get_by_role("dialog", name="Design")
     expect(panel.get_by_role("status", name="Verdict: Usable")).to_be_visible(timeout=20_000)

@@ -7,7 +7,7 @@ from playwright.sync_api import Page, expect
 
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 LONG_MS = 60_000
 

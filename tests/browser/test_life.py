@@ -39,7 +39,7 @@ def test_two_pages_show_one_session_and_keep_their_own_look(
     wait_for_samples(second, end)
 
 
-@pytest.mark.usefixtures("without_3d")
+@pytest.mark.usefixtures("kept_page", "without_3d")
 def test_a_reload_in_the_middle_of_a_run_loses_nothing(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     lab.jump(6)
@@ -89,9 +89,8 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         assert lab.client.get("/api/v1/runs").json()["runs"][0]["duration_s"] > 7
 
 
-def test_an_ended_private_session_says_so_and_leads_back(
-    page: Page, lab: Lab, without_3d: None
-) -> None:
+@pytest.mark.usefixtures("kept_page", "without_3d")
+def test_an_ended_private_session_says_so_and_leads_back(page: Page, lab: Lab) -> None:
     name = lab.client.post("/api/v1/sessions", json={}).raise_for_status().json()["session"]
     page.goto(f"{lab.url}/?session={name}")
     bar = page.get_by_role("region", name="Status", exact=True)

@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 
 from tests.lab import Lab, run_lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
 
 PATIENCE_MS = 60_000
 ONE_DEGREE = 0.01745

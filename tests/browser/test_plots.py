@@ -11,7 +11,7 @@ from svsa.signals import CHANNEL_NAMES
 from tests.browser.test_page import ONE_DEGREE, open_page, wait_for_samples
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 VELOCITIES = ("velocity_reference_rad_per_s", "velocity_rad_per_s")
 NEWEST = "() => window.svsa.series('position_error_rad').time.at(-1)"

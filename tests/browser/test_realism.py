@@ -10,7 +10,7 @@ from svsa.plant.effects import RIG, Effects
 from tests.browser.test_page import open_page
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
 @pytest.fixture

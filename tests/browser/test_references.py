@@ -9,7 +9,7 @@ pytestmark = pytest.mark.browser
 GOOD = "time_s,stiffness_nm_per_rad\n0,15\n1,25\n2,15\n"
 
 
-@pytest.mark.usefixtures("without_3d")
+@pytest.mark.usefixtures("kept_page", "without_3d")
 def test_a_csv_of_stiffness_is_seen_then_applied(page: Page, lab: Lab) -> None:
     lab.load_figure()
     page.goto(lab.url)

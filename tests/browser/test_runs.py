@@ -8,8 +8,9 @@ import pytest
 from playwright.sync_api import FrameLocator, Locator, Page, Route, expect
 
 from tests.lab import Lab, run_lab
+from tests.service.test_recording_routes import wait_for_run
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 PATIENCE_MS = 60_000
 SECONDS = 7
@@ -30,33 +31,35 @@ def record(lab: Lab, name: str, figure: str, rivals: list[str], tags: list[str])
     return answer["recording"]["run_id"]
 
 
-def wait_until_complete(page: Page, lab: Lab, run: str) -> None:
-    for _ in range(PATIENCE_MS // 100):
-        if lab.client.get(f"/api/v1/runs/{run}").json().get("state") == "complete":
-            return
-        page.wait_for_timeout(100)
-    raise AssertionError(f"run {run} was not finished")
-
-
 @pytest.fixture(scope="module")
 def own_lab() -> Iterator[Lab]:
-    """A lab whose runs nobody else records."""
+    """A lab whose runs nobody else records; the first test begins without one."""
     with run_lab() as lab:
         yield lab
 
 
-@pytest.fixture
-def runs(own_lab: Lab, page: Page) -> Iterator[tuple[str, str]]:
-    """Two runs, the older first; both are gone afterwards."""
+@pytest.fixture(scope="module")
+def recorded(own_lab: Lab) -> tuple[str, str]:
+    """Two runs, the older first."""
     pair = (
         record(own_lab, BOTH, "4a", ["fl"], ["class"]),
         record(own_lab, STIFF, "4b", [], []),
     )
     for run in pair:
-        wait_until_complete(page, own_lab, run)
-    yield pair
-    for run in pair:
-        own_lab.client.delete(f"/api/v1/runs/{run}")
+        assert wait_for_run(own_lab, run)["state"] == "complete"
+    return pair
+
+
+@pytest.fixture
+def runs(own_lab: Lab, recorded: tuple[str, str]) -> Iterator[tuple[str, str]]:
+    """Both runs, which are afterwards what they were before."""
+    yield recorded
+    for run, name, tags in zip(recorded, (BOTH, STIFF), (["class"], []), strict=True):
+        path = f"/api/v1/runs/{run}"
+        if own_lab.client.get(path).json()["deleted"] is not None:
+            own_lab.client.post(path + "/restore").raise_for_status()
+        wanted = {"name": name, "tags": tags, "notes": ""}
+        own_lab.client.patch(path, json=wanted).raise_for_status()
 
 
 def open_list(page: Page, lab: Lab) -> None:
@@ -274,7 +277,7 @@ def test_a_run_is_exported_in_every_format(page: Page, own_lab: Lab, runs: tuple
     page.goto(f"{own_lab.url}/?run={runs[1]}")
     for kind in ("CSV", "Parquet", "MAT", "MCAP", "HTML"):
         page.get_by_text("Export", exact=True).click()
-        with page.expect_download() as download:
+        with page.expect_download(timeout=PATIENCE_MS) as download:
             page.get_by_role("link", name=re.compile(f"^{kind}")).click()
         assert download.value.suggested_filename.endswith("." + kind.lower())
         assert download.value.path().stat().st_size > 1000

@@ -10,7 +10,7 @@ from tests.browser.bench_fixture import HOMED, PatchedBench
 from tests.browser.test_page import open_page
 from tests.lab import Lab, run_lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
 def wait_for_status(page: Page, lab: Lab, status: str) -> None:
@@ -49,9 +49,10 @@ def test_the_quick_stop_pauses_a_simulation_and_tells_how_to_go_on(page: Page, l
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_the_stop_does_not_look_like_an_emergency_stop(
-    page: Page, lab: Lab, scheme: Literal["light", "dark"]
+    own_page: Page, lab: Lab, scheme: Literal["light", "dark"]
 ) -> None:
     """No colour but black, grey and white, in contrast; larger on a bench than in simulation."""
+    page = own_page
     page.emulate_media(color_scheme=scheme)
     areas = []
     for is_bench in (False, True):
