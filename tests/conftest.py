@@ -33,7 +33,8 @@ def note_compilation(item: pytest.Item) -> Iterator[None]:
     with watch_compilation(names.append):
         yield
     if names:
-        item.user_properties.append((COMPILED, ", ".join(dict.fromkeys(names))))
+        words = f"{', '.join(names[:3])}{' …' if len(names) > 3 else ''} ({len(names)})"
+        item.user_properties.append((COMPILED, words))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
