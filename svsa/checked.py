@@ -46,8 +46,16 @@ class Checked(BaseModel):
             raise ParameterError(*explain(error, type(self))) from None
 
     def changed(self, **changes: Any) -> Self:
-        """A copy with these fields replaced, checked again."""
-        return type(self)(**(dict(self) | changes))
+        """A copy with these fields replaced, checked again; itself where nothing is changed."""
+        values = dict(self)
+        if all(name in values and _is_same(values[name], new) for name, new in changes.items()):
+            return self
+        return type(self)(**(values | changes))
+
+
+def _is_same(present: Any, new: Any) -> bool:
+    """Equal, and not only as 1 and True are."""
+    return type(present) is type(new) and present == new
 
 
 def quantity(unit: str, meaning: str, **bounds: Any) -> Any:

@@ -1,6 +1,7 @@
 """Gains: poles ↔ coefficients of the error polynomials, and their stability (Eq 25)."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Self
 
 import numpy as np
@@ -78,8 +79,14 @@ def compute_coefficients(name: str, poles: Sequence[complex], order: int) -> tup
 
 def compute_roots(coefficients: Sequence[float]) -> list[complex]:
     """The roots of s^n + c_{n−1} s^{n−1} + … + c0 (Eq 25), rad/s, slowest first."""
+    return list(_find_roots(tuple(coefficients)))
+
+
+@lru_cache(maxsize=256)
+def _find_roots(coefficients: tuple[float, ...]) -> tuple[complex, ...]:
     roots = np.roots([1.0, *coefficients[::-1]])
-    return sorted((complex(root) for root in roots), key=lambda root: (-root.real, root.imag))
+    slowest_first = sorted(map(complex, roots), key=lambda root: (-root.real, root.imag))
+    return tuple(slowest_first)
 
 
 def describe_roots(roots: Sequence[complex]) -> str:

@@ -18,12 +18,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from svsa.control.call import build_call
+from svsa.control.feedback_linearization import build_gains
 from svsa.experiment.paper import DURATION_S, LOAD_TIME_S, get_figure
 from svsa.experiment.simulate import simulate
 from svsa.model.lever import compute_lever_ratio_slope
 from svsa.packed import pack
 from svsa.plant.disturbances import PAPER_TORQUE_NM
-from svsa.runtime.loop import INITIAL, Blocks, Inputs, advance
+from svsa.runtime.loop import advance
 from svsa.runtime.measured import (
     Actuation,
     BenchConstants,
@@ -66,18 +68,23 @@ def build_c_loop(folder: Path) -> CLoop | None:
     return CLoop(loaded.run_one, loaded.run_lanes)
 
 
-def list_c_constants(blocks: Blocks) -> np.ndarray:
-    """The constants of a lane of Figure 4A in the order of the C loop's structure, (40,)."""
-    figure = get_figure(FIGURE)
-    position: Any = figure.position
-    stiffness: Any = figure.stiffness
+def list_c_constants(run: Run) -> np.ndarray:
+    """The constants of a run of Figure 4A in the order of the C loop's structure, (40,)."""
+    blocks, configuration = run.blocks[0], run.configuration
+    position: Any = configuration.position
+    stiffness: Any = configuration.stiffness
     numbers: list[float] = []
     for actuator in (blocks.plant, blocks.nominal):
         a = actuator
         slope = compute_lever_ratio_slope(a.gamma)
         numbers += [a.M, a.B1, a.B2, a.D, a.D1, a.D2, a.K, slope, a.mu0]
     domain = blocks.domain
-    numbers += [*blocks.gains, *blocks.shares, blocks.torque1_max, blocks.torque2_max]
+    numbers += [
+        *build_gains(configuration.gains),
+        *blocks.shares,
+        blocks.torque1_max,
+        blocks.torque2_max,
+    ]
     numbers += [domain.mu_min, domain.mu_max, domain.deflection_max]
     numbers += [domain.deflection_fraction, domain.singularity_fraction, blocks.period]
     numbers += [position.amplitude_rad, 2.0 * np.pi * position.frequency_hz]
@@ -85,15 +92,15 @@ def list_c_constants(blocks: Blocks) -> np.ndarray:
     return np.array([*numbers, round(LOAD_TIME_S / blocks.period)], dtype=float)
 
 
-def run_c(loop: CLoop, blocks: Blocks, samples: np.ndarray) -> int:
+def run_c(loop: CLoop, run: Run, samples: np.ndarray) -> int:
     """One run of the C loop into samples (ticks, channels); the ticks done."""
-    constants = list_c_constants(blocks)
+    constants = list_c_constants(run)
     return loop.run_one(_point(constants), ctypes.c_long(len(samples)), _point(samples))
 
 
-def run_c_lanes(loop: CLoop, blocks: Blocks, ticks: int) -> tuple[np.ndarray, np.ndarray]:
+def run_c_lanes(loop: CLoop, run: Run, ticks: int) -> tuple[np.ndarray, np.ndarray]:
     """Σ and greatest of the position error's square and size over so many ticks, of 32 lanes."""
-    constants = np.repeat(list_c_constants(blocks)[:, None], LANES, axis=1)
+    constants = np.repeat(list_c_constants(run)[:, None], LANES, axis=1)
     squares, peaks = np.empty(LANES), np.empty(LANES)
     loop.run_lanes(_point(constants), ctypes.c_long(ticks), _point(squares), _point(peaks))
     return squares, peaks
@@ -105,18 +112,18 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
     What needs the C loop is None where there is none (see `build_c_loop`).
     """
     run = Run(get_figure(FIGURE).build_configuration(LAW))
-    blocks, inputs = run.blocks[0], run.inputs
+    lane = run.blocks[0], run.laws[0], run.inputs, run.lanes[0]
     ticks = round(DURATION_S / run.period_s)
     samples = np.empty((ticks, len(CHANNELS)))
     works: dict[str, Callable[[], object]] = {
         "single": lambda: simulate(FIGURE, LAW),
-        "kernel": lambda: advance(blocks, inputs, INITIAL, 0, samples),
+        "kernel": lambda: advance(*lane, 0, samples),
     }
     with tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder:
         loop = build_c_loop(Path(folder))
         if loop is not None:
-            works["c"] = lambda: run_c(loop, blocks, samples)
-            works["c_lanes"] = lambda: run_c_lanes(loop, blocks, ticks)
+            works["c"] = lambda: run_c(loop, run, samples)
+            works["c_lanes"] = lambda: run_c_lanes(loop, run, ticks)
         cost = _measure_in_turns(works, repeats)
     c, c_lane = cost.get("c"), cost.get("c_lanes", 0.0) / LANES
     return {
@@ -129,18 +136,19 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
         "kernel_ratio_to_c": cost["kernel"] / c if c else None,
         "batch_runs_per_second_1_core": 1.0 / cost["kernel"],
         "batch_ratio_to_c": c_lane / cost["kernel"] if c else None,
-        "bench_tick_cpu_us": 1e6 * measure_bench_tick(blocks, inputs, repeats),
+        "bench_tick_cpu_us": 1e6 * measure_bench_tick(run, repeats),
     }
 
 
-def measure_bench_tick(blocks: Blocks, inputs: Inputs, repeats: int = REPEATS) -> float:
+def measure_bench_tick(run: Run, repeats: int = REPEATS) -> float:
     """CPU time of a bench's tick as it is called from Python, without its I/O, s."""
-    constants = pack(BenchConstants(blocks, Actuation(0.0005, 0.0)))
+    call = build_call(run.laws[0], run.lanes[0].memory)
+    constants = pack(BenchConstants(run.blocks[0], Actuation(0.0005, 0.0), call))
     carried, row = pack(Carried()), np.empty(len(CHANNELS))
 
     def work() -> None:
         for tick in range(BENCH_TICKS):
-            follow_and_decide(constants, inputs, carried, tick)
+            follow_and_decide(constants, run.inputs, carried, tick)
             publish_and_foresee(constants, carried, 0.0, 0.0, tick, row)
 
     return _measure_in_turns({"tick": work}, repeats)["tick"] / BENCH_TICKS

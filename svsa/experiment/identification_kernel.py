@@ -17,7 +17,7 @@ from svsa.plant.integration import integrate_period
 from svsa.plant.sensors import read_sensors
 from svsa.signals import State, Torque
 
-UNLOADED = LoadTable(np.zeros((0, 12)), np.zeros((0, 4)))
+UNLOADED = LoadTable(np.zeros((0, 12)), np.zeros((0, 4)), False)
 STATES = 6
 OUTPUTS = 3
 

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.control.call import build_call, read_estimate
+from svsa.model.dynamics import compute_internal_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, RIG, Effects, build_bench
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.runtime.configuration import Configuration
@@ -89,7 +90,9 @@ def linearize_tick(configuration: Configuration, sigma: float) -> tuple[np.ndarr
         call = build_call(law, lane.memory)
         reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, 0)
         estimate = read_estimate(call, lane.estimate)
-        return _pack(apply_torque(blocks, inputs, lane, reference, torque, estimate, 0, sample))
+        F = compute_internal_torque(blocks.nominal, lane.known)
+        lane, _ = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, 0, sample)
+        return _pack(lane)
 
     def hear(n: np.ndarray) -> np.ndarray:
         heard = Measurement(n[0], n[1], n[2], 0.0, 0.0, 0.0)

@@ -64,7 +64,9 @@ def simulate(
         raise ParameterError(Violation("steps", steps, "", "a whole number"))
     given = build_commands(commands, period, duration_s)
     run = Run(configuration, steps, own)
-    parts = [np.empty((len(run.lanes), 0, len(CHANNELS)))]
-    parts += [samples for _, samples in play(run, given, round(duration_s / period))]
+    ticks = round(duration_s / period)
+    samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
+    for _ in play(run, given, ticks, samples):
+        pass
     laws = ["own" if own else configuration.law, *(lane.law for lane in configuration.rivals)]
-    return build_results(configuration, np.concatenate(parts, axis=1), laws, run.fault, given)
+    return build_results(configuration, samples[:, : run.tick], laws, run.fault, given)

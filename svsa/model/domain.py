@@ -10,7 +10,7 @@ from svsa.model.lever import (
     compute_lever_ratio_for_stiffness,
     compute_zero_stiffness_deflection,
 )
-from svsa.model.trigonometry import cos
+from svsa.model.spring import compute_spring
 from svsa.parameters import ActuatorParameters, Limits
 
 INSIDE = 0
@@ -78,8 +78,10 @@ def compute_relative_determinant(mu, phi):
     det A = 2K²μ³μ'(1 − μ cos³φ) / (M B1 B2 (1 − μ cos φ)⁶): never zero for μ in (0, 1), but
     small where the spring is soft, and there A⁻¹ asks for torques that no motor has.
     """
-    c = cos(phi)
-    return (1.0 - mu * c**3) * (1.0 - mu) ** 5 / (1.0 - mu * c) ** 6
+    p = compute_spring(mu, phi)
+    r = (1.0 - mu) * p.i
+    r2 = r * r
+    return (1.0 - mu * (p.c * p.c * p.c)) * p.i * (r * r2 * r2)
 
 
 @compiled

@@ -120,11 +120,11 @@ def compute_acceleration(actuator, x, u, load):
     actuator: `Actuator`. x: `State`. u: `Torque`, N·m. load: `ExternalLoad`.
     """
     F = compute_internal_torque(actuator, x)
-    gravity = load.gravity_moment * sin(x.q)
+    gravity = load.gravity_moment * sin(x.q) if load.gravity_moment != 0.0 else 0.0
     return Acceleration(
-        (F.link - gravity + load.w2) / (actuator.M + load.inertia),
-        (F.motor1 + u.u1 + load.w4) / actuator.B1,
-        (F.motor2 + u.u2 + load.w6) / actuator.B2,
+        (F.link - gravity + load.w2) * (1.0 / (actuator.M + load.inertia)),
+        (F.motor1 + u.u1 + load.w4) * (1.0 / actuator.B1),
+        (F.motor2 + u.u2 + load.w6) * (1.0 / actuator.B2),
     )
 
 
@@ -162,7 +162,12 @@ def compute_disturbance(nominal, x, u, acceleration):
     nominal: `Actuator`. x: `State`. u: `Torque`, N·m. acceleration: the true one,
     rad/s². Returns `Disturbance`, N·m, positive with growing angles.
     """
-    F = compute_internal_torque(nominal, x)
+    return compute_unexplained_torque(nominal, compute_internal_torque(nominal, x), u, acceleration)
+
+
+@compiled
+def compute_unexplained_torque(nominal, F, u, acceleration):
+    """`compute_disturbance` where F = F_n(x), `InternalTorque`, N·m, is known."""
     return Disturbance(
         nominal.M * acceleration.ddq - F.link,
         nominal.B1 * acceleration.ddtheta1 - F.motor1 - u.u1,

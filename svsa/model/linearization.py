@@ -42,15 +42,16 @@ def compute_linearization(nominal, x):
     nominal: `Actuator`. x: `State`. Returns `Linearization`.
     """
     M, B1, B2, D = nominal.M, nominal.B1, nominal.B2, nominal.D
+    rM, rB1, rB2 = 1.0 / M, 1.0 / B1, 1.0 / B2
     slope = compute_lever_ratio_slope(nominal.gamma)
     mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
     spring = compute_spring_derivatives(mu, compute_deflection(x), nominal.K)
     F = compute_internal_torque(nominal, x)
-    a = F.link / M
+    a = F.link * rM
     dphi = x.dq - x.dtheta1
     dmu = slope * x.dtheta2
-    ddphi = a - F.motor1 / B1
-    ddmu = slope * F.motor2 / B2
+    ddphi = a - F.motor1 * rB1
+    ddmu = slope * F.motor2 * rB2
     dtorque = spring.sigma * dphi + spring.torque_mu * dmu
     ddtorque = (
         spring.sigma * ddphi
@@ -59,13 +60,13 @@ def compute_linearization(nominal, x):
         + spring.torque_mumu * dmu * dmu
         + spring.torque_mu * ddmu
     )
-    j = (-D * a - dtorque) / M
+    j = (-D * a - dtorque) * rM
     return Linearization(
         q=x.q,
         dq=x.dq,
         ddq=a,
         dddq=j,
-        ddddq=(-D * j - ddtorque) / M,
+        ddddq=(-D * j - ddtorque) * rM,
         sigma=spring.sigma,
         dsigma=spring.sigma_phi * dphi + spring.sigma_mu * dmu,
         ddsigma=spring.sigma_phi * ddphi
@@ -73,10 +74,10 @@ def compute_linearization(nominal, x):
         + spring.sigma_phiphi * dphi * dphi
         + 2.0 * spring.sigma_phimu * dphi * dmu
         + spring.sigma_mumu * dmu * dmu,
-        a11=spring.sigma / (M * B1),
-        a12=-spring.torque_mu * slope / (M * B2),
-        a21=-spring.sigma_phi / B1,
-        a22=spring.sigma_mu * slope / B2,
+        a11=spring.sigma * (rM * rB1),
+        a12=-spring.torque_mu * (slope * rM * rB2),
+        a21=-spring.sigma_phi * rB1,
+        a22=spring.sigma_mu * (slope * rB2),
         sigma_phi=spring.sigma_phi,
     )
 
@@ -90,5 +91,5 @@ def solve_decoupling(linearization, y1, y2):
     """
     a11, a12 = linearization.a11, linearization.a12
     a21, a22 = linearization.a21, linearization.a22
-    determinant = a11 * a22 - a12 * a21
-    return Torque((a22 * y1 - a12 * y2) / determinant, (a11 * y2 - a21 * y1) / determinant)
+    scale = 1.0 / (a11 * a22 - a12 * a21)
+    return Torque((a22 * y1 - a12 * y2) * scale, (a11 * y2 - a21 * y1) * scale)

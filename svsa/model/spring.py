@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from svsa.compilation import compiled
 from svsa.model.exponential import log1p
-from svsa.model.trigonometry import cos, sin, sin_cos
+from svsa.model.trigonometry import sin_versin
 
 REACTION_ENERGY = 0
 REACTION_PRINTED = 1
@@ -33,20 +33,45 @@ class SpringDerivatives(NamedTuple):
     sigma_mumu: float
 
 
+class Spring(NamedTuple):
+    """The lever and the spring as they stand: what all their functions are made of.
+
+    mu: μ, 1. s, c: sin φ, cos φ. d = 1 − cos φ. i = 1/n, j = 1/(1 − μ).
+    """
+
+    mu: float
+    s: float
+    c: float
+    d: float
+    i: float
+    j: float
+
+
+@compiled
+def compute_spring(mu, phi):
+    """`Spring` at μ and φ; one division for both reciprocals. Exact to the last digits, |φ| ≤ π/4.
+
+    The stiffness is zero at less than π/4 for every μ, so that no run that goes on leaves this.
+    """
+    s, d = sin_versin(phi)
+    m = 1.0 - mu
+    n = m + mu * d
+    r = 1.0 / (m * n)
+    return Spring(mu, s, 1.0 - d, d, r * m, r * n)
+
+
 @compiled
 def compute_elastic_torque(mu, phi, K):
     """τ_e = K μ² sin φ cos φ / (1 − μ cos φ)², N·m, Eq 2. Positive pulls q back."""
-    s, c = sin_cos(phi)
-    n = 1.0 - mu * c
-    return K * mu * mu * s * c / (n * n)
+    p = compute_spring(mu, phi)
+    return K * mu * mu * p.s * p.c * (p.i * p.i)
 
 
 @compiled
 def compute_stiffness(mu, phi, K):
     """σ = ∂τ_e/∂φ = K μ² (cos 2φ − μ cos φ) / (1 − μ cos φ)³, N·m/rad, Eq 3."""
-    c = cos(phi)
-    n = 1.0 - mu * c
-    return K * mu * mu * (2.0 * c * c - 1.0 - mu * c) / (n * n * n)
+    p = compute_spring(mu, phi)
+    return K * mu * mu * (2.0 * p.c * p.c - 1.0 - mu * p.c) * (p.i * p.i * p.i)
 
 
 @compiled
@@ -55,22 +80,21 @@ def compute_elastic_energy(mu, phi, K):
 
     Written with ε = μ(1 − cos φ)/(1 − μ), so that nothing cancels at small deflection.
     """
-    d = 2.0 * sin(0.5 * phi) ** 2
-    epsilon = mu * d / (1.0 - mu)
-    return K * (epsilon / ((1.0 - mu) * (1.0 + epsilon)) - log1p(epsilon))
+    p = compute_spring(mu, phi)
+    epsilon = mu * p.d * p.j
+    return K * (epsilon * p.j / (1.0 + epsilon) - log1p(epsilon))
 
 
 @compiled
 def compute_reaction_torque(mu, phi, K, gamma):
     """τ_r = ∂V/∂θ2 = K μ [1/(1−μ)² − cos²φ/n²] / (2πγ) ≥ 0, N·m; replaces Eq 5.
 
-    Written with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n) and 1 − cos φ = sin²φ/(1 + cos φ),
-    so that nothing cancels; |φ| < π. gamma: reduction γ of the spiral.
+    Written with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n), so that nothing cancels. gamma:
+    reduction γ of the spiral.
     """
-    s, c = sin_cos(phi)
-    d = s * s / (1.0 + c)
-    n = 1.0 - mu * c
-    return K * mu * d * (1.0 / (1.0 - mu) + c / n) / ((1.0 - mu) * n * 2.0 * math.pi * gamma)
+    p = compute_spring(mu, phi)
+    slope = 1.0 / (2.0 * math.pi * gamma)
+    return K * mu * p.d * (p.j + p.c * p.i) * (p.j * p.i) * slope
 
 
 @compiled
@@ -82,10 +106,9 @@ def compute_printed_reaction_torque(mu, phi, K):
     """
     t = 2.0 * math.pi * mu
     sin_2beta = 2.0 * t / (1.0 + t * t)
-    c = cos(phi)
-    n = 1.0 - mu * c
-    square = 1.0 + mu * mu - 2.0 * mu * c
-    return K * mu * mu * sin_2beta * sin(phi) ** 2 / (2.0 * n * square)
+    p = compute_spring(mu, phi)
+    square = 1.0 + mu * mu - 2.0 * mu * p.c
+    return K * mu * mu * sin_2beta * p.s * p.s * p.i / (2.0 * square)
 
 
 @compiled
@@ -95,23 +118,23 @@ def compute_spring_derivatives(mu, phi, K):
     τ_e = K μ² S/n² with S = sin φ cos φ; σ = K μ² N/n³ with N = cos 2φ − μ cos φ;
     ∂τ_e/∂μ = 2Kμ S/n³; ∂²τ_e/∂μ² = 2K S (1 + 2μ cos φ)/n⁴.
     """
-    s, c = sin_cos(phi)
+    p = compute_spring(mu, phi)
+    s, c = p.s, p.c
     S = s * c
     S1 = c * c - s * s
     S2 = -4.0 * S
-    n = 1.0 - mu * c
     n1 = mu * s
     n2 = mu * c
     N = S1 - mu * c
     N1 = S2 + mu * s
     N2 = -4.0 * S1 + mu * c
-    i3 = 1.0 / (n * n * n)
-    i4 = i3 / n
-    i5 = i4 / n
+    i2 = p.i * p.i
+    i3, i4 = i2 * p.i, i2 * i2
+    i5 = i4 * p.i
     Kmu2 = K * mu * mu
     Q = 2.0 * K * mu
     return SpringDerivatives(
-        torque=Kmu2 * S / (n * n),
+        torque=Kmu2 * S * i2,
         torque_mu=Q * S * i3,
         torque_mumu=2.0 * K * S * (1.0 + 2.0 * mu * c) * i4,
         sigma=Kmu2 * N * i3,

@@ -42,14 +42,25 @@ def update_disturbance_estimate(nominal, shares, estimate, x_old, x_new, torque,
     """
     F_old = compute_internal_torque(nominal, x_old)
     F_new = compute_internal_torque(nominal, x_new)
-    seen2 = nominal.M * (x_new.dq - x_old.dq) / period - 0.5 * (F_new.link + F_old.link)
+    return correct_disturbance_estimate(
+        nominal, shares, estimate, x_old, F_old, x_new, F_new, torque, period
+    )
+
+
+@compiled
+def correct_disturbance_estimate(
+    nominal, shares, estimate, x_old, F_old, x_new, F_new, torque, period
+):
+    """`update_disturbance_estimate` where F at both ends, `InternalTorque`, N·m, is known."""
+    rate = 1.0 / period
+    seen2 = nominal.M * (x_new.dq - x_old.dq) * rate - 0.5 * (F_new.link + F_old.link)
     seen4 = (
-        nominal.B1 * (x_new.dtheta1 - x_old.dtheta1) / period
+        nominal.B1 * (x_new.dtheta1 - x_old.dtheta1) * rate
         - 0.5 * (F_new.motor1 + F_old.motor1)
         - torque.u1
     )
     seen6 = (
-        nominal.B2 * (x_new.dtheta2 - x_old.dtheta2) / period
+        nominal.B2 * (x_new.dtheta2 - x_old.dtheta2) * rate
         - 0.5 * (F_new.motor2 + F_old.motor2)
         - torque.u2
     )

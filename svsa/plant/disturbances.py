@@ -155,11 +155,13 @@ class LoadTable(NamedTuple):
     """All loads of a session as arrays for the compiled loop.
 
     rows: (n, 12) by the column names above, START and END in ticks. points: (m, 4) time
-    since onset (s) and torques (N·m) of every series load, each from FIRST on.
+    since onset (s) and torques (N·m) of every series load, each from FIRST on. changing: whether
+    one of them changes within a period.
     """
 
     rows: np.ndarray
     points: np.ndarray
+    changing: bool
 
 
 class ScheduledLoad(NamedTuple):
@@ -239,7 +241,8 @@ def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
                 row[KIND] = SERIES
                 row[FIRST], row[LENGTH] = sum(map(len, series)), len(load.time_s)
                 series.append(np.column_stack([load.time_s, load.torque_nm]))
-    return LoadTable(rows, np.vstack(series))
+    changing = any(isinstance(load.load, SineLoad | SeriesLoad) for load in loads)
+    return LoadTable(rows, np.vstack(series), changing)
 
 
 @compiled
@@ -251,36 +254,40 @@ def compute_load(table, tick, period, time):
     s. Returns `ExternalLoad`.
     """
     w2 = w4 = w6 = inertia = moment = 0.0
-    rows = table.rows
-    for i in range(rows.shape[0]):
-        row = rows[i]
-        if not row[START] <= tick < row[END]:
+    r = table.rows
+    for i in range(r.shape[0]):
+        if not r[i, START] <= tick < r[i, END]:
             continue
-        since = time - row[START] * period
-        if row[KIND] == MASS:
-            inertia += row[INERTIA]
-            moment += row[MOMENT]
-        elif row[KIND] == SERIES:
-            points = table.points[int(row[FIRST]) : int(row[FIRST] + row[LENGTH])]
-            w2 += interpolate(points, 1, since)
-            w4 += interpolate(points, 2, since)
-            w6 += interpolate(points, 3, since)
+        since = time - r[i, START] * period
+        if r[i, KIND] == MASS:
+            inertia += r[i, INERTIA]
+            moment += r[i, MOMENT]
+        elif r[i, KIND] == SERIES:
+            first, count = int(r[i, FIRST]), int(r[i, LENGTH])
+            w2 += interpolate(table.points, first, count, 1, since)
+            w4 += interpolate(table.points, first, count, 2, since)
+            w6 += interpolate(table.points, first, count, 3, since)
         else:
             shape = 1.0
-            if row[KIND] == SINE:
-                shape = sin(row[OMEGA] * since + row[PHASE])
-            w2 += shape * row[W2]
-            w4 += shape * row[W4]
-            w6 += shape * row[W6]
+            if r[i, KIND] == SINE:
+                shape = sin(r[i, OMEGA] * since + r[i, PHASE])
+            w2 += shape * r[i, W2]
+            w4 += shape * r[i, W4]
+            w6 += shape * r[i, W6]
     return ExternalLoad(w2, w4, w6, inertia, moment)
 
 
 @compiled
-def interpolate(points, column, time):
-    """The column of `points` at `time` on straight lines; zero before the first point."""
-    times = points[:, 0]
-    if time < times[0]:
+def interpolate(points, first, count, column, time):
+    """A column of `count` points from `first` on at `time`, on straight lines; zero before them."""
+    if time < points[first, 0]:
         return 0.0
-    i = min(max(np.searchsorted(times, time, side="right"), 1), len(times) - 1)
-    share = min((time - times[i - 1]) / (times[i] - times[i - 1]), 1.0)
-    return points[i - 1, column] + share * (points[i, column] - points[i - 1, column])
+    low, high = first, first + count - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if points[middle, 0] <= time:
+            low = middle
+        else:
+            high = middle
+    share = min((time - points[low, 0]) / (points[high, 0] - points[low, 0]), 1.0)
+    return points[low, column] + share * (points[high, column] - points[low, column])

@@ -14,7 +14,12 @@ def compute_plant_load(bench, table, x, tick, period, time):
 
     bench: `Bench`. table: `LoadTable`. x: `State`. Returns `ExternalLoad`.
     """
-    load = compute_load(table, tick, period, time)
+    return add_resistance(bench, compute_load(table, tick, period, time), x)
+
+
+@compiled
+def add_resistance(bench, load, x):
+    """The load of the table and what the plant has of its own: weight of the link, friction."""
     w4, w6 = load.w4, load.w6
     if bench.static1 > 0.0:
         w4 -= compute_friction(
@@ -28,29 +33,51 @@ def compute_plant_load(bench, table, x, tick, period, time):
 
 
 @compiled
+def compute_plant_rate(actuator, bench, x, torque, load):
+    """ẋ of the plant under the motors' torque, the loads and everything else that acts (Eq 1)."""
+    return compute_rate(actuator, x, torque, add_resistance(bench, load, x))
+
+
+@compiled
 def integrate_period(actuator, bench, x, start, target, table, tick, period, steps):
-    """X at the end of the control period that begins at `tick` (RK4).
+    """The state at the end of the control period that begins at `tick` (RK4).
 
     actuator: `Actuator`, the true plant. bench: `Bench`. x: `State`. start: `Torque` that
     the motors make at the beginning, target: `Torque` asked of them, N·m. table:
     `LoadTable`. period: T, s. steps: Runge–Kutta steps in the period, ≥ 1.
     """
+    load = compute_load(table, tick, period, tick * period)
+    torque = compute_lagged_torque(start, target, bench.lag, 0.0)
+    rate = compute_plant_rate(actuator, bench, x, torque, load)
+    return integrate_from(actuator, bench, x, rate, start, target, table, load, tick, period, steps)
+
+
+@compiled
+def integrate_from(actuator, bench, x, rate, start, target, table, load, tick, period, steps):
+    """`integrate_period` where ẋ (`rate`) and the load at the beginning are known."""
     h = period / steps
+    early = load
     for i in range(steps):
         since = i * h
         time = tick * period + since
         u0 = compute_lagged_torque(start, target, bench.lag, since)
         u1 = compute_lagged_torque(start, target, bench.lag, since + 0.5 * h)
         u2 = compute_lagged_torque(start, target, bench.lag, since + h)
-        k1 = compute_plant_rate(actuator, bench, x, u0, table, tick, period, time)
-        x2 = shift(x, k1, 0.5 * h)
-        k2 = compute_plant_rate(actuator, bench, x2, u1, table, tick, period, time + 0.5 * h)
-        x3 = shift(x, k2, 0.5 * h)
-        k3 = compute_plant_rate(actuator, bench, x3, u1, table, tick, period, time + 0.5 * h)
-        x4 = shift(x, k3, h)
-        k4 = compute_plant_rate(actuator, bench, x4, u2, table, tick, period, time + h)
+        middle = follow_load(table, early, tick, period, time + 0.5 * h)
+        late = follow_load(table, early, tick, period, time + h)
+        k1 = rate if i == 0 else compute_plant_rate(actuator, bench, x, u0, early)
+        k2 = compute_plant_rate(actuator, bench, shift(x, k1, 0.5 * h), u1, middle)
+        k3 = compute_plant_rate(actuator, bench, shift(x, k2, 0.5 * h), u1, middle)
+        k4 = compute_plant_rate(actuator, bench, shift(x, k3, h), u2, late)
         x = shift(shift(shift(shift(x, k1, h / 6.0), k2, h / 3.0), k3, h / 3.0), k4, h / 6.0)
+        early = late
     return x
+
+
+@compiled
+def follow_load(table, before, tick, period, time):
+    """The load at `time` (s) in the period of `tick`; `before` where none of them changes."""
+    return compute_load(table, tick, period, time) if table.changing else before
 
 
 @compiled
@@ -67,10 +94,3 @@ def coast(actuator, bench, stops, x, torque, target, table, tick, period, count)
         inertia = actuator.M + compute_load(table, i, period, i * period).inertia
         x = hit_stops(stops, x, inertia, actuator.B1)
     return x, torque
-
-
-@compiled
-def compute_plant_rate(actuator, bench, x, torque, table, tick, period, time):
-    """ẋ of the plant under the motors' torque and everything else that acts (Eq 1)."""
-    load = compute_plant_load(bench, table, x, tick, period, time)
-    return compute_rate(actuator, x, torque, load)

@@ -20,6 +20,13 @@ def add_noise(angle, std, seed, tick, channel):
 
 
 @compiled
+def are_exact(bench):
+    """Whether the sensors have neither counts nor noise: what is measured is the state itself."""
+    counts, noise = bench.motor_step + bench.deflection_step, bench.motor_std + bench.deflection_std
+    return counts + noise == 0.0
+
+
+@compiled
 def read_sensors(bench, x, tick):
     """θ1, θ2 from the motor encoders and φ from the deflection encoder; velocities as known.
 

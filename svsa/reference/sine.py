@@ -78,6 +78,8 @@ def build_sine(
 @compiled
 def compute_sine(offset, amplitude, omega, phase, time):
     """Offset + amplitude sin(ωt + phase) with four derivatives; ω in rad/s, t in s."""
+    if amplitude == 0.0:
+        return Derivatives(offset, 0.0, 0.0, 0.0, 0.0)
     angle = omega * time + phase
     s, c = sin_cos(angle)
     s, c = amplitude * s, amplitude * c

@@ -84,14 +84,16 @@ def _drop(stack: Stack, count: int) -> Stack:
 
 
 @compiled
-def compute_row(stack, row, time):
-    """One trajectory of the stack and its four derivatives at `time` (s)."""
-    if row[KIND] == SINE:
-        return compute_sine(row[A], row[B], row[C], row[D], time)
-    own = time - row[START] - row[FADE]
-    if row[KIND] == CHIRP:
-        return compute_chirp(row[A], row[B], row[C], row[D], row[E], row[F], own)
-    return compute_polynomial(stack.breaks, stack.coefficients, int(row[A]), int(row[B]), own)
+def compute_row(stack, i, time):
+    """The i-th trajectory of the stack and its four derivatives at `time` (s)."""
+    r = stack.rows
+    if r[i, KIND] == SINE:
+        return compute_sine(r[i, A], r[i, B], r[i, C], r[i, D], time)
+    own = time - r[i, START] - r[i, FADE]
+    if r[i, KIND] == CHIRP:
+        return compute_chirp(r[i, A], r[i, B], r[i, C], r[i, D], r[i, E], r[i, F], own)
+    first, count = int(r[i, A]), int(r[i, B])
+    return compute_polynomial(stack.breaks, stack.coefficients, first, count, own)
 
 
 @compiled
@@ -100,10 +102,9 @@ def compute_trajectory(stack, time):
 
     stack: as `build_stack` and `push_trajectory` make it.
     """
-    value = compute_row(stack, stack.rows[0], time)
+    value = compute_row(stack, 0, time)
     for i in range(1, stack.rows.shape[0]):
-        row = stack.rows[i]
-        target = compute_row(stack, row, time)
-        weight = compute_fade(row[START], row[FADE], time)
+        target = compute_row(stack, i, time)
+        weight = compute_fade(stack.rows[i, START], stack.rows[i, FADE], time)
         value = target if weight.d0 == 1.0 else blend(value, target, weight)
     return value

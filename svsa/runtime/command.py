@@ -106,20 +106,26 @@ def replay(
     return play(Run(configuration), commands, end_tick)
 
 
-def play(run: Run, commands: Iterable[Command], end_tick: int) -> Iterator[tuple[Run, np.ndarray]]:
+def play(
+    run: Run, commands: Iterable[Command], end_tick: int, room: np.ndarray | None = None
+) -> Iterator[tuple[Run, np.ndarray]]:
     """Go on with a run, each command given at its tick.
 
     Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
-    until `end_tick` or the run's fault. Same configuration and commands: same bits.
+    until `end_tick` or the run's fault. Same configuration and commands: same bits. room:
+    (lanes, ticks, channels), where the samples are to stand one after the other.
     """
-    later = list(commands)
+    later, first = list(commands), run.tick
     while True:
         while later and later[0].tick <= run.tick:
             later.pop(0).apply(run)
         end = min([end_tick, run.tick + STRETCH_TICKS, *(command.tick for command in later[:1])])
         if run.fault is not None or run.tick >= end:
             return
-        samples = np.empty((len(run.lanes), end - run.tick, len(CHANNELS)))
+        if room is None:
+            samples = np.empty((len(run.lanes), end - run.tick, len(CHANNELS)))
+        else:
+            samples = room[:, run.tick - first : end - first]
         yield run, samples[:, : run.advance(samples)]
 
 

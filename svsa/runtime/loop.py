@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from svsa.borrowed import borrow
 from svsa.compilation import compiled
 from svsa.control.call import BoundLaw, build_call, compute_law, read_estimate
 from svsa.control.installed import get_law
@@ -29,22 +30,27 @@ from svsa.model.domain import (
     compute_deflection_limit,
 )
 from svsa.model.dynamics import (
+    Acceleration,
     Actuator,
     build_actuator,
-    compute_acceleration,
     compute_deflection,
-    compute_disturbance,
+    compute_internal_torque,
+    compute_unexplained_torque,
 )
 from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
-from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
+from svsa.observer.disturbance import (
+    compute_shares,
+    correct_disturbance_estimate,
+    update_disturbance_estimate,
+)
 from svsa.observer.state import build_measured_state, update_state_estimate
-from svsa.plant.disturbances import LoadTable
+from svsa.plant.disturbances import LoadTable, compute_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench, build_bench
-from svsa.plant.integration import compute_plant_load, integrate_period
-from svsa.plant.sensors import read_sensors
+from svsa.plant.integration import compute_plant_rate, integrate_from
+from svsa.plant.sensors import are_exact, read_sensors
 from svsa.reference.transition import Stack, compute_trajectory
 from svsa.runtime.configuration import Configuration, Lane
 from svsa.signals import Disturbance, Reference, State, Torque
@@ -151,6 +157,8 @@ def compute_control(blocks, call, x, reference, estimate, applied):
 def delay(bench, asked, torque):
     """The queue of asked torques with this one in front, and the torque that is due now."""
     asked = (torque.u1, torque.u2) + asked[:-2]  # noqa: RUF005  numba knows no unpacking here
+    if bench.delay == 0:
+        return asked, torque
     return asked, Torque(asked[2 * bench.delay], asked[2 * bench.delay + 1])
 
 
@@ -172,12 +180,7 @@ def observe(blocks, known, estimate, applied, measurement):
     known, estimate: x̂ and ŵ a period ago. applied: mean `Torque` since, N·m. measurement:
     `Measurement` now. Returns (`State`, `Disturbance`).
     """
-    if blocks.decay > 0.0:
-        x = update_state_estimate(
-            blocks.nominal, blocks.decay, known, estimate, applied, measurement, blocks.period
-        )
-    else:
-        x = build_measured_state(measurement)
+    x = know(blocks, known, estimate, applied, measurement)
     w = update_disturbance_estimate(
         blocks.nominal, blocks.shares, estimate, known, x, applied, blocks.period
     )
@@ -185,45 +188,76 @@ def observe(blocks, known, estimate, applied, measurement):
 
 
 @compiled
-def publish(blocks, reference, lane, estimate, target, load, time, sample):
-    """Write one sample, in the order of `CHANNELS`. estimate: the ŵ that the law acts on."""
+def know(blocks, known, estimate, applied, measurement):
+    """x̂ with this `Measurement`. known, estimate, applied: as in `observe`."""
+    if blocks.decay > 0.0:
+        return update_state_estimate(
+            blocks.nominal, blocks.decay, known, estimate, applied, measurement, blocks.period
+        )
+    return build_measured_state(measurement)
+
+
+@compiled
+def sense(blocks, lane, x, applied, tick):
+    """x̂ at `tick`, of the plant's state x: x itself where the sensors are perfect."""
+    if blocks.decay == 0.0 and are_exact(blocks.bench):
+        return x
+    measurement = read_sensors(blocks.bench, x, tick)
+    return know(blocks, lane.known, lane.estimate, applied, measurement)
+
+
+@compiled
+def compute_nominal_torque(blocks, lane, F):
+    """F_n(x), `InternalTorque`, N·m, of the true state. F: that of x̂, often the same."""
+    x, y = lane.x, lane.known
+    if (x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2) == (
+        y.q, y.dq, y.theta1, y.dtheta1, y.theta2, y.dtheta2,
+    ):  # fmt: skip
+        return F
+    return compute_internal_torque(blocks.nominal, x)
+
+
+@compiled
+def publish(blocks, reference, lane, F, estimate, torque, rate, time, sample):
+    """Write one sample, in the order of `CHANNELS`.
+
+    F: F_n(x̂), `InternalTorque`. estimate: the ŵ that the law acts on. torque: what the motors
+    make. rate: ẋ under it.
+    """
     x, known = lane.x, lane.known
     phi = compute_deflection(x)
     mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
     sigma = compute_stiffness(mu, phi, blocks.plant.K)
-    torque = compute_lagged_torque(lane.torque, target, blocks.bench.lag, 0.0)
-    acceleration = compute_acceleration(blocks.plant, x, torque, load)
-    w = compute_disturbance(blocks.nominal, x, torque, acceleration)
-    sample[:] = (
-        time,
-        reference.q,
-        reference.dq,
-        reference.sigma,
-        x.q,
-        x.dq,
-        known.q,
-        known.dq,
-        x.theta1,
-        x.dtheta1,
-        x.theta2,
-        x.dtheta2,
-        phi,
-        compute_deflection_limit(blocks.domain, mu),
-        mu,
-        sigma,
-        reference.q - x.q,
-        reference.sigma - sigma,
-        torque.u1,
-        torque.u2,
-        w.w2,
-        w.w4,
-        w.w6,
-        estimate.w2,
-        estimate.w4,
-        estimate.w6,
-        0.0,
-        0.0,
+    acceleration = Acceleration(rate.dq, rate.dtheta1, rate.dtheta2)
+    F = compute_nominal_torque(blocks, lane, F)
+    w = compute_unexplained_torque(blocks.nominal, F, torque, acceleration)
+    sample[0], sample[1], sample[2], sample[3] = time, reference.q, reference.dq, reference.sigma
+    sample[4], sample[5], sample[6], sample[7] = x.q, x.dq, known.q, known.dq
+    sample[8], sample[9], sample[10], sample[11] = x.theta1, x.dtheta1, x.theta2, x.dtheta2
+    sample[12], sample[13] = phi, compute_deflection_limit(blocks.domain, mu)
+    sample[14], sample[15] = mu, sigma
+    sample[16], sample[17] = reference.q - x.q, reference.sigma - sigma
+    sample[18], sample[19] = torque.u1, torque.u2
+    sample[20], sample[21], sample[22] = w.w2, w.w4, w.w6
+    sample[23], sample[24], sample[25] = estimate.w2, estimate.w4, estimate.w6
+    sample[26], sample[27] = 0.0, 0.0
+
+
+@compiled
+def borrow_inputs(inputs):
+    """The same `Inputs` without owning their arrays, see `svsa.borrowed`."""
+    p, s, loads = inputs.position, inputs.stiffness, inputs.loads
+    return Inputs(
+        Stack(borrow(p.rows), borrow(p.breaks), borrow(p.coefficients)),
+        Stack(borrow(s.rows), borrow(s.breaks), borrow(s.coefficients)),
+        LoadTable(borrow(loads.rows), borrow(loads.points), loads.changing),
     )
+
+
+@compiled
+def borrow_law(law):
+    """The same `BoundLaw` without owning its arrays."""
+    return BoundLaw(law.function, borrow(law.nominal), borrow(law.constants), law.is_own)
 
 
 @compiled
@@ -242,38 +276,52 @@ def advance_tick(blocks, law, inputs, lane, tick, sample):
     sample: (channels,), written. Returns (lane, code): at a code other than `INSIDE` nothing else
     was done.
     """
-    code = check_domain(blocks.domain, blocks.plant, lane.x)
-    if code != INSIDE:
-        return lane, code
-    call = build_call(law, lane.memory)
-    reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, tick)
-    if not math.isfinite(torque.u1 + torque.u2):
-        return lane, NOT_FINITE
-    estimate = read_estimate(call, lane.estimate)
-    lane = apply_torque(blocks, inputs, lane, reference, torque, estimate, tick, sample)
-    return lane, INSIDE
+    F = compute_internal_torque(blocks.nominal, lane.known)
+    lane, _, code = advance_from(blocks, law, inputs, lane, F, tick, sample)
+    return lane, code
 
 
 @compiled
-def apply_torque(blocks, inputs, lane, reference, torque, estimate, tick, sample):
+def advance_from(blocks, law, inputs, lane, F, tick, sample):
+    """`advance_tick` where F = F_n(x̂), `InternalTorque`, N·m, is known; returns it for the next."""
+    code = check_domain(blocks.domain, blocks.plant, lane.x)
+    if code != INSIDE:
+        return lane, F, code
+    call = build_call(law, lane.memory)
+    reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, tick)
+    if not math.isfinite(torque.u1 + torque.u2):
+        return lane, F, NOT_FINITE
+    estimate = read_estimate(call, lane.estimate)
+    lane, F = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sample)
+    return lane, F, INSIDE
+
+
+@compiled
+def apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sample):
     """The tick from the controller's torque on: write, plant, read, observer, publish.
 
-    lane: `LaneState` at the start of the tick. reference: `Reference` then. torque: asked
-    for, within the limits, N·m. estimate: the ŵ behind it, `Disturbance`, N·m. sample:
-    (channels,), written. Returns `LaneState` at the end.
+    lane: `LaneState` at the start of the tick. F: F_n(x̂) then, `InternalTorque`, N·m. reference:
+    `Reference` then. torque: asked for, within the limits, N·m. estimate: the ŵ behind it,
+    `Disturbance`, N·m. sample: (channels,), written. Returns `LaneState` and F at the end.
     """
-    bench, period, time = blocks.bench, blocks.period, tick * blocks.period
+    plant, nominal, bench, period = blocks.plant, blocks.nominal, blocks.bench, blocks.period
+    table, time, steps = inputs.loads, tick * period, blocks.steps
     asked, target = delay(bench, lane.asked, torque)
-    load = compute_plant_load(bench, inputs.loads, lane.x, tick, period, time)
-    publish(blocks, reference, lane, estimate, target, load, time, sample)
-    x = integrate_period(
-        blocks.plant, bench, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
+    load = compute_load(table, tick, period, time)
+    made = compute_lagged_torque(lane.torque, target, bench.lag, 0.0)
+    rate = compute_plant_rate(plant, bench, lane.x, made, load)
+    publish(blocks, reference, lane, F, estimate, made, rate, time, sample)
+    x = integrate_from(
+        plant, bench, lane.x, rate, lane.torque, target, table, load, tick, period, steps
     )
     made = compute_lagged_torque(lane.torque, target, bench.lag, period)
     applied = compute_mean_torque(lane.torque, target, bench.lag, period)
-    measurement = read_sensors(bench, x, tick + 1)
-    known, observed = observe(blocks, lane.known, lane.estimate, applied, measurement)
-    return LaneState(x, known, observed, made, applied, asked, lane.memory)
+    known = sense(blocks, lane, x, applied, tick + 1)
+    F_known = compute_internal_torque(nominal, known)
+    observed = correct_disturbance_estimate(
+        nominal, blocks.shares, lane.estimate, lane.known, F, known, F_known, applied, period
+    )
+    return LaneState(x, known, observed, made, applied, asked, lane.memory), F_known
 
 
 @compiled
@@ -284,9 +332,11 @@ def advance(blocks, law, inputs, lane, first, samples):
     channels), written. Returns (lane, ticks done, code): a code other than `INSIDE` says why the
     lane ended at the tick first + ticks done.
     """
-    lane = remember(lane, lane.memory.copy())
-    for k in range(samples.shape[0]):
-        lane, code = advance_tick(blocks, law, inputs, lane, first + k, samples[k])
-        if code != INSIDE:
-            return lane, k, code
-    return lane, samples.shape[0], INSIDE
+    memory, rows = lane.memory.copy(), borrow(samples)
+    lane, law, inputs = remember(lane, borrow(memory)), borrow_law(law), borrow_inputs(inputs)
+    F = compute_internal_torque(blocks.nominal, lane.known)
+    done, code = 0, INSIDE
+    while done < rows.shape[0] and code == INSIDE:
+        lane, F, code = advance_from(blocks, law, inputs, lane, F, first + done, rows[done])
+        done += code == INSIDE
+    return remember(lane, memory), done, code

@@ -11,6 +11,7 @@ import numpy as np
 from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
+from svsa.model.dynamics import compute_internal_torque
 from svsa.runtime.loop import Blocks, Inputs, LaneState, apply_torque, read_reference
 from svsa.signals import Disturbance, Reference, State, Torque
 
@@ -30,6 +31,7 @@ def advance_stepwise(
     controller: time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`) → (u1, u2), N·m. Raises
     `ParameterError` where it returns anything but two numbers.
     """
+    F = compute_internal_torque(blocks.nominal, lane.known)
     for k, sample in enumerate(samples):
         tick = first + k
         code = check_domain(blocks.domain, blocks.plant, lane.x)
@@ -42,7 +44,7 @@ def advance_stepwise(
         if not math.isfinite(torque.u1 + torque.u2):
             return lane, k, NOT_FINITE
         estimate = lane.estimate
-        lane = apply_torque(blocks, inputs, lane, reference, torque, estimate, tick, sample)
+        lane, F = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sample)
     return lane, len(samples), INSIDE
 
 

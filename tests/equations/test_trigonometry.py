@@ -14,7 +14,7 @@ from numpy.testing import assert_array_equal
 from svsa.fused import fma
 from svsa.model import exponential, trigonometry
 from svsa.model.exponential import exp, expm1, log, log1p, tanh
-from svsa.model.trigonometry import acos, cos, sin, sin_cos
+from svsa.model.trigonometry import acos, cos, sin, sin_cos, sin_versin
 from tests.equations.minimax import KERNELS, find_coefficients
 
 RANDOM = np.random.default_rng(4)
@@ -44,6 +44,15 @@ def find_worst(
 def test_sine_and_cosine_are_within_one_unit_of_the_last_place() -> None:
     assert find_worst(sin, mpmath.sin, ANGLES) < 0.8
     assert find_worst(cos, mpmath.cos, ANGLES) < 0.8
+
+
+def test_sine_and_versine_of_small_angles_need_no_reduction() -> None:
+    """Within a unit of the last place up to π/4, 10⁻⁹ beyond it up to π/2."""
+    assert find_worst(lambda x: sin_versin(x)[0], mpmath.sin, AROUND_ZERO) < 1.0
+    exact = lambda x: 2 * mpmath.sin(x / 2) ** 2  # noqa: E731
+    assert find_worst(lambda x: sin_versin(x)[1], exact, AROUND_ZERO) < 1.5
+    for x in np.linspace(-math.pi / 2, math.pi / 2, 101):
+        assert sin_versin(x) == pytest.approx((math.sin(x), 1.0 - math.cos(x)), abs=1e-9)
 
 
 def test_both_at_once_are_each_alone() -> None:

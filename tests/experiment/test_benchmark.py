@@ -38,13 +38,13 @@ def test_the_c_loop_computes_every_channel_of_the_same_run(
 ) -> None:
     run = Run(benchmark.get_figure(benchmark.FIGURE).build_configuration(benchmark.LAW))
     samples = np.full_like(ours, np.nan)
-    assert benchmark.run_c(c_loop, run.blocks[0], samples) == TICKS
+    assert benchmark.run_c(c_loop, run, samples) == TICKS
     assert_allclose(samples, ours, rtol=1e-10, atol=1e-11)
 
 
 def test_the_lanes_of_the_c_loop_run_the_same(c_loop: benchmark.CLoop, ours: np.ndarray) -> None:
     run = Run(benchmark.get_figure(benchmark.FIGURE).build_configuration(benchmark.LAW))
-    squares, peaks = benchmark.run_c_lanes(c_loop, run.blocks[0], TICKS)
+    squares, peaks = benchmark.run_c_lanes(c_loop, run, TICKS)
     error = ours[:, CHANNEL_INDEX["position_error_rad"]]
     assert_allclose(squares, np.sum(error**2), rtol=1e-9)
     assert_allclose(peaks, np.abs(error).max(), rtol=1e-9)

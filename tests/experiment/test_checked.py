@@ -43,3 +43,13 @@ def test_only_true_and_false_switch(given: Any) -> None:
 @pytest.mark.parametrize("union", [PositionReference, StiffnessReference, Load])
 def test_the_schema_asks_for_the_kind_that_is_asked_for(union: Any) -> None:
     assert TypeAdapter(union).json_schema()["required"] == ["kind"]
+
+
+def test_a_change_to_what_is_there_already_is_the_same_value() -> None:
+    effects = Effects(delay_samples=1)
+    assert effects.changed(delay_samples=1) is effects
+    assert effects.changed(delay_samples=2) == Effects(delay_samples=2)
+    with pytest.raises(ParameterError, match="delay_samples"):
+        effects.changed(delay_samples=True)
+    with pytest.raises(ParameterError, match="no_such_field"):
+        effects.changed(no_such_field=1)

@@ -15,13 +15,13 @@ from pathlib import Path
 from tests.experiment.golden import compute_hashes
 
 GOLDEN = {
-    "4a fl": "1c06d5097b6c8708",
-    "4a ndobc": "2b3870f260320b6c",
-    "4b fl": "439805e4654b5690",
-    "4b ndobc": "e26401e0d4b72c20",
-    "5 fl": "971be87890df8022",
-    "5 ndobc": "17b879fbf2e0bbdd",
-    "4a with every effect": "d769f2356f780a26",
+    "4a fl": "115e1601c9c4f842",
+    "4a ndobc": "6da08c20608b2c54",
+    "4b fl": "dacfbe2e6a1e811a",
+    "4b ndobc": "41a4706891d3f123",
+    "5 fl": "c84b7665eb835581",
+    "5 ndobc": "55feada5ae22a125",
+    "4a with every effect": "8a6a1cf06c1154b3",
 }
 
 

@@ -11,11 +11,11 @@ from svsa.control.feedback_linearization import build_gains, compute_feedback_li
 from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
 from svsa.model.domain import INSIDE, check_domain
-from svsa.model.dynamics import build_actuator
-from svsa.plant.disturbances import build_load_table, schedule_load
+from svsa.model.dynamics import build_actuator, compute_internal_torque
+from svsa.observer.disturbance import update_disturbance_estimate
+from svsa.plant.disturbances import build_load_table, compute_load, schedule_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
-from svsa.plant.integration import compute_plant_load, integrate_period
-from svsa.plant.sensors import read_sensors
+from svsa.plant.integration import compute_plant_rate, integrate_period
 from svsa.reference.transition import build_stack
 from svsa.runtime.loop import (
     Inputs,
@@ -26,9 +26,9 @@ from svsa.runtime.loop import (
     build_lane_state,
     compute_control,
     delay,
-    observe,
     publish,
     read_reference,
+    sense,
 )
 from svsa.runtime.loop import advance as advance_lane
 from svsa.runtime.run import Run
@@ -87,15 +87,20 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
     torque = compute_control(blocks, call, lane.known, reference, lane.estimate, lane.applied)
     assert math.isfinite(torque.u1 + torque.u2)
     asked, target = delay(bench, lane.asked, torque)
-    load = compute_plant_load(bench, inputs.loads, lane.x, tick, period, time)
-    publish(blocks, reference, lane, lane.estimate, target, load, time, sample)
+    load = compute_load(inputs.loads, tick, period, time)
+    made = compute_lagged_torque(lane.torque, target, bench.lag, 0.0)
+    rate = compute_plant_rate(blocks.plant, bench, lane.x, made, load)
+    F = compute_internal_torque(blocks.nominal, lane.known)
+    publish(blocks, reference, lane, F, lane.estimate, made, rate, time, sample)
     x = integrate_period(
         blocks.plant, bench, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
     )
     made = compute_lagged_torque(lane.torque, target, bench.lag, period)
     applied = compute_mean_torque(lane.torque, target, bench.lag, period)
-    measurement = read_sensors(bench, x, tick + 1)
-    known, estimate = observe(blocks, lane.known, lane.estimate, applied, measurement)
+    known = sense(blocks, lane, x, applied, tick + 1)
+    estimate = update_disturbance_estimate(
+        blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period
+    )
     return LaneState(x, known, estimate, made, applied, asked, lane.memory)
 
 

@@ -1,0 +1,34 @@
+"""Arrays that compiled code looks at without keeping them alive.
+
+numba counts every reference to an array, also those that a tuple of arrays makes when it is handed
+on, with an atomic operation each: in a loop of a few hundred operations that is most of the time.
+A borrowed array has no owner, and nothing is counted.
+"""
+
+from collections.abc import Callable
+from typing import Any, cast
+
+import numpy as np
+from numba.core import cgutils, types
+from numba.extending import intrinsic
+
+
+@intrinsic
+def _borrow(typing: Any, array: Any) -> Any:
+    if not isinstance(array, types.Array):
+        return None
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        found = cgutils.create_struct_proxy(array)(context, builder, value=arguments[0])
+        found.meminfo = cgutils.get_null_value(found.meminfo.type)
+        found.parent = cgutils.get_null_value(found.parent.type)
+        return found._getvalue()
+
+    return array(array), generate
+
+
+borrow = cast("Callable[[np.ndarray], np.ndarray]", _borrow)
+"""The same array without an owner, in compiled functions only.
+
+Whoever borrows sees to it that the array itself outlives this, and returns it to nobody.
+"""
