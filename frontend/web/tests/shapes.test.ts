@@ -1,16 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { buildReference, drawCourse, FIRST, INPUTS, type Typed } from "../src/controls/shapes";
+import { readLevels, writeLevels } from "../src/controls/levels";
+import { buildReference, drawCourse, FIRST, INPUTS } from "../src/controls/shapes";
 
 describe("references from what is typed", () => {
-  it("steps alternate between two levels, in SI", () => {
-    const typed = { ...FIRST.position, low: "0", high: "180", hold: "2", count: "3" };
-    expect(buildReference("position", "steps", typed)).toEqual({
-      kind: "steps",
-      time_s: [0, 2, 4, 6],
-      position_rad: [0, Math.PI, 0, Math.PI],
-    });
-  });
-
   it("stiffness stays in its own unit", () => {
     expect(buildReference("stiffness", "minimum_jerk", FIRST.stiffness)).toEqual({
       kind: "minimum_jerk",
@@ -26,12 +18,37 @@ describe("references from what is typed", () => {
   });
 
   it("is nothing while a number that it needs is missing, and needs no other", () => {
-    for (const shape of Object.keys(INPUTS) as Typed[]) {
+    for (const shape of ["minimum_jerk", "chirp"] as const) {
       for (const name of INPUTS[shape]) {
         expect(buildReference("position", shape, { ...FIRST.position, [name]: " " })).toBeNull();
       }
     }
     expect(buildReference("position", "chirp", { ...FIRST.position, low: "" })).not.toBeNull();
+  });
+});
+
+describe("steps", () => {
+  it("between two levels are a list", () => {
+    expect(writeLevels(-20, 20, 0.7, 3)).toBe("0, -20\n0.7, 20\n1.4, -20\n2.1, 20");
+  });
+
+  it("are what the list says, in SI, however its numbers are kept apart", () => {
+    expect(readLevels("position", " 0, 0\n2 180\n\n4.5;-90\n")).toEqual({
+      kind: "steps",
+      time_s: [0, 2, 4.5],
+      position_rad: [0, Math.PI, -Math.PI / 2],
+    });
+    expect(readLevels("stiffness", "0\t15\n1\t60")).toMatchObject({
+      stiffness_nm_per_rad: [15, 60],
+    });
+  });
+
+  it("are refused by the line that is none, and by their number", () => {
+    expect(() => readLevels("position", "0, 0\n1, two\n")).toThrow("Line 2 is “1, two”");
+    expect(() => readLevels("position", "0, 0\n\n3")).toThrow("Line 3 is “3”");
+    expect(() => readLevels("position", "0, 0, 1")).toThrow("a time and a level");
+    expect(() => readLevels("position", " \n")).toThrow("0 lines: it must have 1 to 200");
+    expect(() => readLevels("position", writeLevels(0, 1, 1, 200))).toThrow("201 lines");
   });
 });
 

@@ -13,6 +13,8 @@ import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
 import { Choice } from "./choice";
 import { Course } from "./course";
+import { readLevels, writeLevels } from "./levels";
+import { Levels, Series } from "./listed";
 import { NumberBox } from "./numberbox";
 import { Problem } from "./problem";
 import { buildReference, FIRST, INPUTS, type Input, SHAPES, type Shape } from "./shapes";
@@ -39,33 +41,11 @@ function put(follows: Follows, reference: Reference) {
     : putStiffness(reference as Sent<StiffnessReference>);
 }
 
-function SeriesInput({ csv, onCsv }: { csv: string; onCsv: (csv: string) => void }) {
-  const open = async (event: Event) => {
-    const file = (event.currentTarget as HTMLInputElement).files?.[0];
-    if (file) onCsv(await file.text());
-  };
-  return (
-    <>
-      <label class="button csv-open">
-        {words.openCsv}
-        <input
-          type="file"
-          class="visually-hidden"
-          accept=".csv,text/csv"
-          onChange={(event) => void open(event)}
-        />
-      </label>
-      <textarea
-        class="csv-text"
-        rows={4}
-        spellcheck={false}
-        aria-label={words.pasteCsv}
-        value={csv}
-        onInput={(event) => onCsv(event.currentTarget.value)}
-      />
-      <p class="hint">{words.csvHint}</p>
-    </>
-  );
+/** The list that the numbers of steps stand for; null while one is missing. */
+function listLevels({ low, high, hold, count }: Record<Input, string>): string | null {
+  const numbers = [low, high, hold, count].map((typed) => (typed.trim() ? Number(typed) : NaN));
+  const [from, to, everyS, steps] = numbers as [number, number, number, number];
+  return numbers.every(Number.isFinite) ? writeLevels(from, to, everyS, steps) : null;
 }
 
 /** A reference with a beginning and an end: typed or from a CSV, looked at, then applied. */
@@ -73,6 +53,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
   const [shape, setShape] = useState<Shape>(SHAPES.find((known) => known === held) ?? "steps");
   const [typed, setTyped] = useState(FIRST[follows]);
   const [csv, setCsv] = useState<string>(words.example[follows]);
+  const [levels, setLevels] = useState(listLevels(FIRST[follows]) ?? "");
   const [wanted, setWanted] = useState<Wanted | null>(null);
   const [refusal, setRefusal] = useState("");
   const unit = follows === "position" ? "deg" : "N·m/rad";
@@ -87,10 +68,15 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
   useEffect(() => {
     let isLatest = true;
     setWanted(null);
+    const read = () => {
+      if (shape === "series") return readCsv(follows, csv);
+      return shape === "steps"
+        ? readLevels(follows, levels)
+        : buildReference(follows, shape, typed);
+    };
     const look = async () => {
       try {
-        const reference =
-          shape === "series" ? await readCsv(follows, csv) : buildReference(follows, shape, typed);
+        const reference = await read();
         if (reference === null) throw new RangeError(text.refusal.noNumber);
         const preview = await previewReference(follows, reference);
         if (isLatest) setWanted({ reference, preview });
@@ -104,7 +90,13 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
       isLatest = false;
       clearTimeout(timer);
     };
-  }, [follows, shape, typed, csv]);
+  }, [follows, shape, typed, csv, levels]);
+
+  const type = (name: Input, value: string) => {
+    const next = { ...typed, [name]: value };
+    setTyped(next);
+    if (shape === "steps") setLevels(listLevels(next) ?? levels);
+  };
 
   const submit = (event: Event) => {
     event.preventDefault();
@@ -115,7 +107,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
     <form class="shaped" onSubmit={submit}>
       <Choice label={words.kind} options={OPTIONS} value={shape} onChoose={setShape} />
       {shape === "series" ? (
-        <SeriesInput csv={csv} onCsv={setCsv} />
+        <Series list={csv} onList={setCsv} />
       ) : (
         INPUTS[shape].map((name) => (
           <NumberBox
@@ -123,10 +115,11 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
             label={words.inputs[name]}
             unit={units[name] ?? unit}
             value={typed[name]}
-            onInput={(value) => setTyped({ ...typed, [name]: value })}
+            onInput={(value) => type(name, value)}
           />
         ))
       )}
+      {shape === "steps" && <Levels unit={unit} list={levels} onList={setLevels} />}
       {wanted && (
         <Course
           preview={wanted.preview}

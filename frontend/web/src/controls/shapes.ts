@@ -54,10 +54,10 @@ export const FIRST: Record<Follows, Record<Input, string>> = {
   },
 };
 
-/** Null while a number is missing or is none. */
+/** Of a shape that its numbers alone make; null while a number is missing or is none. */
 export function buildReference(
   follows: Follows,
-  shape: Typed,
+  shape: Exclude<Typed, "steps">,
   typed: Record<Input, string>,
 ): Reference | null {
   const read = (name: Input) => (typed[name].trim() === "" ? Number.NaN : Number(typed[name]));
@@ -81,15 +81,6 @@ export function buildReference(
           end_hz: read("endHz"),
           duration_s: read("duration"),
         };
-      case "steps": {
-        const numbers = Array.from({ length: Math.max(0, Math.round(read("count"))) + 1 });
-        return {
-          time_s: numbers.map((_, number) => number * read("hold")),
-          [isPosition ? "position_rad" : "stiffness_nm_per_rad"]: numbers.map((_, number) =>
-            level(number % 2 === 0 ? "low" : "high"),
-          ),
-        };
-      }
     }
   };
   return { kind: shape, ...write() } as Reference;

@@ -68,7 +68,14 @@ export const controlsText = {
     },
     openCsv: "Open CSV…",
     pasteCsv: "Time series as CSV",
-    csvHint: "The head names the unit. 2 to 2000 rows.",
+    csvHint: "The head names the unit. 2 to 2000 rows; a bench that moves takes 200.",
+    levels: (unit: string) => `Steps: time in s, level in ${unit}`,
+    levelsHint: (unit: string, most: number) =>
+      `A line each: time s, level ${unit}. Up to ${most}; a bench that moves takes ${most / 2}.`,
+    noLevel: (line: number, written: string) =>
+      `Line ${line} is “${written}”: it must be a time and a level.`,
+    levelCount: (count: number, most: number) =>
+      `The list has ${count} lines: it must have 1 to ${most}.`,
     example: {
       position: "time_s,position_deg\n0,0\n1,30\n2,-30\n3,0\n",
       stiffness: "time_s,stiffness_nm_per_rad\n0,15\n1,30\n3,15\n",
