@@ -18,7 +18,8 @@ WEB = Path(__file__).parents[2] / "frontend" / "web"
 AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
 TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
 WIDE, TABLET, PHONE = (1280, 720), (820, 1180), (390, 844)
-# No plot is cut by the end of its list, which axe takes for a control that is too small.
+# Nothing of an opened group is cut by the end of its panel, which axe takes for a control that is
+# too small.
 HIGH = (1280, 1100)
 # The inside of the 3D view is viser's page; the frame itself is checked.
 FIND_VIOLATIONS = """async (tags) => {
@@ -179,7 +180,7 @@ def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
 def test_a_bench_has_no_violation(page: Page, lab: Lab, status: str) -> None:
     PatchedBench(page, status=status, dead_man=True)
     open_lab(page, lab)
-    expect_no_violation(page, HIGH, PHONE)
+    expect_no_violation(page, WIDE, PHONE)
 
 
 def test_the_login_has_no_violation(page: Page) -> None:

@@ -1,10 +1,11 @@
 """The page at every size of screen: nothing covers, cuts or runs out of anything."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, FloatRect, Locator, Page, expect
 
 from tests.browser.bench_fixture import HOMED, PatchedBench
 from tests.browser.measured_layout import FIND_POPUP_PROBLEMS, FIND_PROBLEMS
@@ -14,7 +15,8 @@ from tests.lab import Lab
 pytestmark = pytest.mark.browser
 
 SIZES = ((390, 844), (820, 1180), (1280, 720), (1440, 900))
-LEAST_PLOT_PX = 72
+LEAST_PLOT_PX = {"simulation": 72, "running bench": 90, "bench to be homed": 90}
+LEAST_MEASURED_PX = 60
 PLANTS: dict[str, dict[str, Any] | None] = {
     "simulation": None,
     "running bench": {"status": "run", "homing": HOMED},
@@ -35,6 +37,18 @@ def visited(request: pytest.FixtureRequest, browser: Browser, shared_lab: Lab) -
     open_page(page, shared_lab)
     yield page
     context.close()
+
+
+@pytest.fixture
+def least_plot_px(visited: Page, request: pytest.FixtureRequest) -> int:
+    """How high a plot of this plant's page is at least."""
+    return LEAST_PLOT_PX[request.node.callspec.params["visited"]]
+
+
+def get_box(one: Locator) -> FloatRect:
+    box = one.bounding_box()
+    assert box is not None
+    return box
 
 
 def compare(page: Page, lab: Lab, is_on: bool) -> None:
@@ -62,12 +76,53 @@ def measure(
 
 @pytest.mark.parametrize("is_compared", [False, True], ids=["one lane", "compared"])
 def test_nothing_is_covered_cut_or_out_of_its_panel(
-    visited: Page, lab: Lab, is_compared: bool
+    visited: Page, lab: Lab, least_plot_px: int, is_compared: bool
 ) -> None:
     compare(visited, lab, is_compared)
-    problems = measure(visited, FIND_PROBLEMS, LEAST_PLOT_PX)
+    problems = measure(visited, FIND_PROBLEMS, least_plot_px)
     compare(visited, lab, is_on=False)
     assert not problems, "\n".join(problems)
+
+
+def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visited: Page) -> None:
+    visited.set_viewport_size({"width": 1280, "height": 720})
+    visited.locator(".plots-scroll").evaluate("list => list.scrollTo(0, 0)")
+    visited.get_by_role("button", name="Cursors").click()
+    heights = [
+        box["height"] for box in map(get_box, visited.locator(".plots-stage .plot-canvas").all())
+    ]
+    foot = get_box(visited.locator(".plots-foot"))["y"]
+    seen = [
+        one for one in visited.locator(".plots-stage > .plot").all() if get_box(one)["y"] < foot - 1
+    ]
+    cut = [one for one in seen if get_box(one)["y"] + get_box(one)["height"] > foot + 2]
+    many = len(heights) - len(seen)
+    below = visited.get_by_role("button", name=re.compile(f"^{many} more plots? below"))
+    expect(below).to_be_visible()
+    below.press("Enter")
+    last = visited.locator(".plots-stage > .plot").nth(len(seen))
+    visited.wait_for_function(
+        "one => one.getBoundingClientRect().top < 500", arg=last.element_handle()
+    )
+    visited.get_by_role("button", name="Cursors").click()
+    assert min(heights) >= LEAST_MEASURED_PX
+    assert not cut
+
+
+def test_every_group_of_controls_is_in_sight_or_named_at_the_edge(visited: Page) -> None:
+    visited.set_viewport_size({"width": 1280, "height": 720})
+    visited.evaluate("for (const fold of document.querySelectorAll('details')) fold.open = true")
+    panel = visited.get_by_role("group", name="Controls", exact=True)
+    panel.locator(".groups").evaluate("list => list.scrollTo(0, 0)")
+    edge = get_box(visited.get_by_role("navigation", name="Controls below"))["y"]
+    titles = panel.get_by_role("heading", level=2).all()
+    hidden = [one.inner_text() for one in titles if get_box(one)["y"] + 10 > edge]
+    links = panel.get_by_role("navigation").get_by_role("link")
+    assert hidden
+    assert links.all_inner_texts() == hidden
+    links.last.click()
+    expect(titles[-1]).to_be_in_viewport()
+    expect(titles[-1]).to_be_focused()
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)

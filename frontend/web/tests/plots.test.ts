@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { includeBounds, niceRange, niceStep } from "../src/plots/range";
+import { shareOfList } from "../src/plots/share";
 import { placeWords, timeStep } from "../src/plots/ticks";
 import { text } from "../src/text/en";
 
@@ -14,6 +15,24 @@ describe("niceStep", () => {
     [0.0004, 0.0005],
   ])("%s becomes %s", (value, step) => {
     expect(niceStep(value)).toBeCloseTo(step, 12);
+  });
+});
+
+describe("the share of a plot in the list", () => {
+  it.each([
+    { height: 536, least: 72, together: 5 },
+    { height: 535, least: 72, together: 4 },
+    { height: 520, least: 92, together: 4 },
+    { height: 330, least: 62, together: 3 },
+  ])("is that of $together whole plots in $height px", ({ height, least, together }) => {
+    const share = shareOfList(height, least);
+    expect(together * share + 46).toBeCloseTo(height + 1, 9);
+    expect(share).toBeGreaterThanOrEqual(least + 26);
+  });
+
+  it("is the whole list where not even one has room", () => {
+    expect(shareOfList(100, 92)).toBe(55);
+    expect(shareOfList(0, 92)).toBe(0);
   });
 });
 

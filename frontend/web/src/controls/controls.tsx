@@ -1,7 +1,9 @@
+import { useRef } from "preact/hooks";
 import type { SessionState } from "../api/types";
 import { mayCommand } from "../state/control";
 import { text } from "../text/en";
 import { Controller } from "./controller";
+import { GroupIndex } from "./groupindex";
 import { Identification } from "./identification";
 import { Loads } from "./load";
 import { Motion } from "./motion";
@@ -11,15 +13,19 @@ import { Stiffness } from "./stiffness";
 
 /** Everything a student sets, in the order of the block diagram. */
 export function Controls({ state }: { state: SessionState }) {
+  const groups = useRef<HTMLDivElement>(null);
   return (
     <fieldset class="controls" disabled={!mayCommand.value} aria-label={text.controls.heading}>
-      <Motion state={state} />
-      <Stiffness state={state} />
-      <Controller state={state} />
-      <Observer state={state} />
-      <Loads state={state} />
-      {state.bench === null && <Realism state={state} />}
-      <Identification state={state} />
+      <div class="groups" ref={groups}>
+        <Motion state={state} />
+        <Stiffness state={state} />
+        <Controller state={state} />
+        <Observer state={state} />
+        <Loads state={state} />
+        {state.bench === null && <Realism state={state} />}
+        <Identification state={state} />
+      </div>
+      <GroupIndex groups={groups} />
     </fieldset>
   );
 }

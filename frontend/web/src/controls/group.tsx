@@ -17,7 +17,9 @@ export function Group({ title, topic, aside, children }: GroupProps) {
   return (
     <section class="group" aria-labelledby={id}>
       <div class="group-head">
-        <h2 id={id}>{title}</h2>
+        <h2 id={id} tabIndex={-1}>
+          {title}
+        </h2>
         {topic && <EquationButton topic={topic} />}
         {aside}
       </div>

@@ -129,7 +129,7 @@ export function Plot({ setup }: { setup: PlotSetup }) {
       data-plot={setup.key}
     >
       <div class="plot-head">
-        <h3>
+        <h3 tabIndex={-1}>
           {title}{" "}
           <span class="unit">{unitOf(isPhase ? setup.channels.slice(1) : setup.channels)}</span>
         </h3>

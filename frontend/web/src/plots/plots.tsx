@@ -1,4 +1,6 @@
+import type { RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { goTo, useBelow } from "../panel/below";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { CursorHandles, CursorLines } from "./cursorlines";
@@ -10,13 +12,32 @@ import { MeasureTable } from "./measures";
 import { HoverLine } from "./overlays";
 import { Plot } from "./plot";
 import { setups } from "./setups";
+import { FOOT_PX, keepShare } from "./share";
 import { followSession, isHeld } from "./span";
 import { TimeAxis } from "./timeaxis";
 import { Toolbar } from "./toolbar";
 import { ZoomAxis, ZoomTitle } from "./zoomaxis";
 
+/** How many plots are scrolled out of sight below; a touch goes to the first of them. */
+function PlotsBelow({ list }: { list: RefObject<HTMLElement | null> }) {
+  const below = useBelow(list, ".plot", FOOT_PX);
+  const [first] = below;
+  if (first === undefined) return null;
+  return (
+    <button
+      type="button"
+      class="plots-below"
+      title={text.plots.below(below.length)}
+      aria-label={text.plots.below(below.length)}
+      onClick={() => goTo(first)}
+    >
+      ↓ {below.length}
+    </button>
+  );
+}
+
 /** The plots over time between the events and the axis, and what lies across all of them. */
-function Stage() {
+function Stage({ list }: { list: RefObject<HTMLElement | null> }) {
   const stage = useRef<HTMLDivElement>(null);
   const box = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -38,6 +59,7 @@ function Stage() {
         <CursorLines box={box} />
       </div>
       <div class="plots-foot">
+        <PlotsBelow list={list} />
         <div class="plots-foot-box">
           <TimeAxis />
           <CursorHandles box={box} />
@@ -50,8 +72,10 @@ function Stage() {
 
 /** All plots, in step with each other. */
 export function Plots() {
+  const list = useRef<HTMLElement>(null);
   useEffect(() => {
     const ends = [followSession(), followChannels(), releaseCursors()];
+    if (list.current !== null) ends.push(keepShare(list.current));
     return () => {
       for (const end of ends) end();
     };
@@ -73,10 +97,11 @@ export function Plots() {
     >
       <h2 class="visually-hidden">{text.plots.heading}</h2>
       <Toolbar />
-      <div class="plots-scroll">
-        {isEmpty ? <p class="plots-none">{text.plots.none}</p> : <Stage />}
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
+      <section class="plots-scroll" ref={list} aria-label={text.plots.list} tabIndex={0}>
+        {isEmpty ? <p class="plots-none">{text.plots.none}</p> : <Stage list={list} />}
         {phase && <Plot key={phase.key} setup={phase} />}
-      </div>
+      </section>
       <MeasureTable />
     </section>
   );

@@ -2,6 +2,7 @@
 export const controlsText = {
   controls: {
     heading: "Controls",
+    index: "Controls below",
     slider: (label: string) => `${label}, slider`,
   },
   refusal: {

@@ -3,6 +3,8 @@ export const plotsText = {
   channels: ["Link", "Motor 1", "Motor 2"],
   plots: {
     heading: "Plots",
+    list: "List of plots",
+    below: (count: number) => (count === 1 ? "1 more plot below" : `${count} more plots below`),
     plotOf: (title: string) => `${title} plot`,
     tools: "Plot tools",
     window: "Window",

@@ -1,0 +1,45 @@
+import type { RefObject } from "preact";
+import { useEffect, useState } from "preact/hooks";
+
+/**
+ * The parts of a list that scrolls whose headings are below its lower edge.
+ *
+ * parts: selector of them. cover: what of that edge is covered, px.
+ */
+export function useBelow(
+  list: RefObject<HTMLElement | null>,
+  parts: string,
+  cover = 0,
+): readonly HTMLElement[] {
+  const [below, setBelow] = useState<readonly HTMLElement[]>([]);
+  useEffect(() => {
+    const element = list.current;
+    if (element === null) return;
+    const find = () => {
+      const end = element.getBoundingClientRect().bottom - cover;
+      const found = [...element.querySelectorAll<HTMLElement>(parts)].filter(
+        (part) => (headingOf(part)?.getBoundingClientRect().bottom ?? 0) > end,
+      );
+      const isSame = (before: readonly HTMLElement[]) =>
+        before.length === found.length && before.every((one, at) => one === found[at]);
+      setBelow((before) => (isSame(before) ? before : found));
+    };
+    const resizing = new ResizeObserver(find);
+    for (const one of [element, ...element.children]) resizing.observe(one);
+    element.addEventListener("scroll", find, { passive: true });
+    return () => {
+      resizing.disconnect();
+      element.removeEventListener("scroll", find);
+    };
+  }, [list, parts, cover]);
+  return below;
+}
+
+export const headingOf = (part: HTMLElement): HTMLElement | null =>
+  part.querySelector<HTMLElement>("h2, h3");
+
+/** Scrolls to a part and reads on from there. */
+export function goTo(part: HTMLElement): void {
+  part.scrollIntoView({ block: "start" });
+  headingOf(part)?.focus({ preventScroll: true });
+}
