@@ -10,6 +10,7 @@ import svsa
 from svsa.runtime.configuration import load_prototype, read_design
 from svsa.runtime.session import Session
 from svsa_server.access import AccessGuard, SharedSecret
+from svsa_server.bench_start import open_bench
 from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
 from svsa_server.heavy_work import HeavyWork
@@ -106,6 +107,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     tasks = [
         asyncio.create_task(laboratory.run()),
         asyncio.create_task(scenes.run()),
+        asyncio.create_task(open_bench(shared)),
     ]
     try:
         yield

@@ -33,8 +33,11 @@ class LoopState(BaseModel):
     alive: bool = Field(description="It ticks: its process is there, and not silent")
     state: LoopStateName = Field(
         description="silent: its process is there and has not ticked for 0.5 s. gone: its process"
-        " has ended. starting: loop and supervisor are being started anew"
+        " has ended, or has not got ready. starting: loop and supervisor are being started, and the"
+        " bench takes no command"
     )
+    step: str | None = Field(description="What it does while it is being started; null else")
+    starting_s: float | None = Field(description="Since it is being started, s; null else")
     silent_s: float | None = Field(description="Since its last tick, s; null while it ticks")
     stopped_by: Stopper | None = Field(
         description="Who keeps the drives at zero current in its place; null while it ticks, and"

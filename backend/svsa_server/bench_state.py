@@ -49,6 +49,8 @@ def _build_loop(session: BenchSession) -> LoopState:
     return LoopState(
         alive=_is_ticking(session),
         state=_name_state(session),
+        step=session.processes.step if session.starting else None,
+        starting_s=session.processes.age_s if session.starting else None,
         silent_s=session.processes.silence_s if loss else None,
         stopped_by=loss.stopped_by if loss else None,
         unreachable=loss.problem if loss else None,

@@ -1,4 +1,4 @@
-"""The console that the lab was started from: how a bench starts, and a key that stops it."""
+"""The console that the lab was started from: a key on it stops a bench."""
 
 import contextlib
 import os
@@ -7,34 +7,9 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 
-from rich.console import Console
-
 KEYS = b" e\n"
 HINT = "Quick stop: press the space bar, E or Enter here, or Shift+Escape on the page."
 _POLL_S = 0.2
-_REPEAT_S = 10.0
-
-
-@contextlib.contextmanager
-def show_bench_start(console: Console | None = None) -> Iterator[Callable[[str, float], None]]:
-    """Yields what shows a step of the bench's loop and the seconds since its start.
-
-    On a terminal as a line that changes; elsewhere, as in a log, a line every ten seconds.
-    """
-    console = console or Console(stderr=True)
-    told = 0.0
-    with console.status("") as status:
-
-        def tell(step: str, seconds: float) -> None:
-            nonlocal told
-            text = f"The bench is {step} ({seconds:.0f} s) …"
-            if console.is_terminal:
-                status.update(text)
-            elif seconds - told >= _REPEAT_S:
-                told = seconds
-                console.print(text, highlight=False, soft_wrap=True)
-
-        yield tell
 
 
 @contextlib.contextmanager

@@ -16,7 +16,6 @@ from svsa.plant.disturbances import Load
 from svsa.rig.control import RigControl, RigError
 from svsa.runtime.command import Command
 from svsa.runtime.configuration import Configuration, Design
-from svsa.runtime.realtime.launch import Teller, keep_quiet
 from svsa.runtime.realtime.session import BenchSession, Hands
 from svsa.runtime.session import Session
 from svsa_server.control import get_hand
@@ -150,19 +149,16 @@ class Laboratory:
         del self._last_use[name]
 
 
-def build_shared_session(
-    bench: Path | None, tell: Teller = keep_quiet, design: Design | None = None
-) -> Session:
+def build_shared_session(bench: Path | None, design: Design | None = None) -> Session:
     """The session that everyone shares: Figure 4A running with the load in your hand, or a bench.
 
-    tell: hears what a bench's loop does while it starts. design: of the simulation, the paper's
-    if left out; a bench has its own. Raises `BenchError` where the bench cannot be
+    design: of the simulation, the paper's if left out; a bench has its own, and has still to be
     opened.
     """
     configuration = get_figure("4a").build_configuration(load=False, design=design)
     if bench is not None:
         hands = find_hands(bench)
-        return BenchSession(SHARED_SESSION, bench, configuration, hands, tell, let_pass)
+        return BenchSession(SHARED_SESSION, bench, configuration, hands, let_pass)
     session = Session(SHARED_SESSION, configuration)
     session.start()
     return session

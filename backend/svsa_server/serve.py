@@ -10,7 +10,7 @@ from svsa.cli import prepare
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.runtime.configuration import read_design
 from svsa_server.config import Settings
-from svsa_server.console import HINT, show_bench_start, watch_keyboard
+from svsa_server.console import HINT, watch_keyboard
 
 SEND_BUFFER_BYTES = 64 * 1024
 
@@ -53,7 +53,8 @@ class AnnouncedServer(uvicorn.Server):
 def run_server(host: str, port: int, bench: Path | None, parameters: Path | None) -> None:
     """Serve the lab until a signal ends it, with a bench where its file is given.
 
-    Raises `SecurityError`, `ListenError`, and `BenchError` where the bench cannot be opened.
+    Raises `SecurityError`, `ListenError`, and `ParameterError` for a wrong bench file. A bench
+    is opened while the lab is served already, see `open_bench`.
     """
     config = Settings()
     bench = bench or config.bench
@@ -69,8 +70,7 @@ def run_server(host: str, port: int, bench: Path | None, parameters: Path | None
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
     from svsa_server.laboratory import build_shared_session
 
-    with show_bench_start() as tell:
-        shared = build_shared_session(bench, tell, design)
+    shared = build_shared_session(bench, design)
     server = AnnouncedServer(
         uvicorn.Config(
             build_app(config, shared),

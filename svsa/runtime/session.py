@@ -59,7 +59,10 @@ class Session:
         self.history = History(MOST_LANES, HISTORY_TICKS)
         self.clock = SimulationClock(configuration.sampling.period_s)
         self._running = False
-        self.load(configuration)
+        self._begin(self._build_first_run(configuration))
+
+    def _build_first_run(self, configuration: Configuration) -> Run:
+        return Run(configuration)
 
     @property
     def plant(self) -> PlantKind:

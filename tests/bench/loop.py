@@ -54,7 +54,9 @@ def read_memory_kb(process: int) -> int:
 
 
 def prepare(lab: Lab, figure: str, law: str) -> None:
-    """Arm, home, and set the figure."""
+    """Arm, home, and set the figure, once the loop has been started."""
+    while lab.read()["bench"]["loop"]["state"] == "starting":
+        time.sleep(0.1)
     chosen = get_figure(figure)
     lab.client.put(lab.session + "/law", json={"law": law}).raise_for_status()
     for part in ("position", "stiffness"):

@@ -26,6 +26,7 @@ def main(path: Path) -> None:
     figure = get_figure("4a").build_configuration(load=False)
     wanted = figure.changed(position=ConstantPosition(position_rad=0.2))
     session = BenchSession("lab", path, wanted)
+    session.open()
     session.watchers = 1
     for _ in range(ATTEMPTS):
         try:

@@ -12,7 +12,7 @@ from svsa.experiment.paper import get_figure
 from svsa.runtime.realtime import launch
 from svsa.runtime.realtime.launch import BenchError, BenchProcesses
 from svsa.runtime.realtime.link import LinkClosedError
-from svsa_server.console import show_bench_start
+from svsa_server.bench_start import show_steps
 
 
 class ScriptedLink:
@@ -55,9 +55,12 @@ def start(monkeypatch):
         monkeypatch.setattr(launch, "_watch", lambda *_: nobody)
         monkeypatch.setattr(launch, "time", types.SimpleNamespace(monotonic=lambda: link.now))
         configuration = get_figure("4a").build_configuration()
-        processes = BenchProcesses(
-            "bench.toml", configuration, silence_s, lambda *what: told.append(what), link.rest
-        )
+        processes = BenchProcesses("bench.toml", configuration, link.rest)
+        try:
+            processes.wait_until_ready(silence_s, lambda *what: told.append(what))
+        except BenchError as error:
+            assert processes.failure == str(error), "whoever asks later is told, too"
+            raise
         return processes, told
 
     return begin
@@ -109,9 +112,9 @@ def test_every_compiled_function_is_told_once():
 
 def test_a_log_gets_a_line_every_ten_seconds():
     console = Console(file=io.StringIO(), force_terminal=False, width=100)
-    with show_bench_start(console) as tell:
-        for second in range(25):
-            tell("compiling the loop", float(second))
+    tell = show_steps(console)
+    for second in range(25):
+        tell("compiling the loop", float(second))
     lines = console.file.getvalue().splitlines()
     assert [line for line in lines if line] == [
         "The bench is compiling the loop (10 s) …",

@@ -70,6 +70,7 @@ class Watched:
         return find_loss(
             types.SimpleNamespace(  # pyright: ignore[reportArgumentType]
                 listens=not gone,
+                failure=None,
                 alive=not gone,
                 supervisor_alive=self.supervisor.returncode is None,
                 beats=self.beats,

@@ -15,17 +15,23 @@ from websockets.sync.client import connect
 
 from svsa.rig.launch import RunningRig
 from tests.hardware.live_bench import start_live_rig, write_bench
-from tests.lab import Lab, run_lab
+from tests.lab import START_TIMEOUT_S, Lab, run_lab
 from tests.processes import find_child
 
 PATIENCE_S = 20.0
 
 
 class BenchLab:
-    """A lab that drives the emulated rig."""
+    """A lab that drives the emulated rig, whose loop has been started."""
 
     def __init__(self, lab: Lab, rig: RunningRig) -> None:
         self.lab, self.rig = lab, rig
+        wait_until(lambda: self.loop_state != "starting", self.describe, START_TIMEOUT_S)
+        assert self.loop_state == "ticking", self.describe()
+
+    @property
+    def loop_state(self) -> str:
+        return self.read()["bench"]["loop"]["state"]
 
     def read(self) -> dict[str, Any]:
         return self.lab.read()

@@ -1,56 +1,25 @@
 """Two clients change parts of one thing at a bench, whose loop takes a while to answer."""
 
 import asyncio
-import itertools
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 
 from svsa.control.gains import Gains
-from svsa.experiment.paper import get_figure
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.runtime.realtime import session as bench_session
-from svsa.runtime.realtime.memory import LoopMemory
 from svsa.runtime.realtime.session import BenchSession
 from svsa_server.routes import settings
 from svsa_server.schemas import GainsRequest
-from svsa_server.turn import let_pass, take_turn
-from tests.hardware.wired_bench import RIG_BENCH
-
-ANSWER_S = 0.01
-
-
-class Processes:
-    """A bench's loop that answers to every command a while later."""
-
-    def __init__(self, *_: Any) -> None:
-        self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
-        self.told: list[dict[str, Any]] = []
-        self._ticks = itertools.count(1)
-
-    def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
-        assert wanted in ("load", "change")
-        let_pass(ANSWER_S)
-        self.told.append(argument)
-        return {"tick": 0}
-
-    def take_events(self) -> list[dict[str, Any]]:
-        return []
-
-    def free(self) -> None:
-        self.memory.close()
-        self.beats.close()
+from svsa_server.turn import take_turn
+from tests.service.scripted_bench import Processes, build_bench_session
 
 
 @pytest.fixture
 def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
-    monkeypatch.setattr(bench_session, "BenchProcesses", Processes)
     monkeypatch.setattr(settings, "build_state", lambda _: None)
-    figure = get_figure("4a").build_configuration(load=False)
-    made = BenchSession("lab", RIG_BENCH, figure, rest=let_pass)
+    made = build_bench_session(monkeypatch)
+    made.open()
     yield made
-    made.processes.free()
+    made.close()
 
 
 def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> None:

@@ -52,6 +52,7 @@ describe("the states of a bench", () => {
     const lost = { status: "fault", loop: { state: "gone" } };
     expect(allowed(lost), "a lost loop is started anew, not cleared").toEqual(["restart"]);
     expect(allowed({ ...lost, loop: { state: "starting" } })).toEqual([]);
+    expect(allowed({ loop: { state: "starting" } }), "it takes no command yet").toEqual([]);
   });
 
   it("tell what to do next", () => {
@@ -69,6 +70,9 @@ describe("the states of a bench", () => {
     expect(adviceFor(bench({ status: "fault" }))).toBe("clear");
     expect(needsDetails(bench({ status: "ready", homing: UNHOMED }))).toBe(true);
     expect(needsDetails(bench({ status: "run", homing: UNHOMED }))).toBe(false);
+    const starting = { homing: UNHOMED, loop: { state: "starting" } };
+    expect(adviceFor(bench(starting))).toBe("starting");
+    expect(needsDetails(bench(starting)), "nothing can be done about it yet").toBe(false);
   });
 });
 
@@ -112,6 +116,7 @@ describe("lateness", () => {
 
   it("calls what need not speak yet silent, never lost", () => {
     expect(freshnessOf(1000, false)).toBe("silent");
+    expect(freshnessOf(1000), "nobody knows since when").toBe("unheard");
     expect(freshnessOf(0.001, false)).toBe("fresh");
   });
 });

@@ -44,23 +44,14 @@ class BenchError(StateError):
 
 
 class BenchProcesses:
-    """The loop and the supervisor of one bench, each a process.
+    """The loop and the supervisor of one bench, each a process that is being started.
 
-    Raises `BenchError` where the loop cannot open the bench, ends, or says nothing for
-    silence_s while it starts. tell: hears what it is doing until it is ready, with the seconds
-    since its start. `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or
-    end. `events`: what the loop has said and nobody has read yet. `notes`: what real time was
-    granted.
+    `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or end. `events`:
+    what the loop has said and nobody has read yet. `notes`: what real time was granted. `step`:
+    what the loop does until it is ready. `failure`: why it did not get ready, or None.
     """
 
-    def __init__(
-        self,
-        bench: Path,
-        configuration: Configuration,
-        silence_s: float,
-        tell: Teller,
-        rest: Rest = time.sleep,
-    ) -> None:
+    def __init__(self, bench: Path, configuration: Configuration, rest: Rest = time.sleep) -> None:
         self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
         self.events: list[dict[str, Any]] = []
         self.notes: list[str] = []
@@ -76,38 +67,51 @@ class BenchProcesses:
         self._supervisor = _start("svsa.hardware.supervisor", supervise)
         theirs.close()
         self.third_line = _watch(bench, self.beats, self._loop, self._supervisor)
+        self._configuration = configuration
+        self.step, self._begun_s = "starting its process", time.monotonic()
+        self.failure: str | None = None
+
+    @property
+    def age_s(self) -> float:
+        """Since they were started, s."""
+        return time.monotonic() - self._begun_s
+
+    def wait_until_ready(self, silence_s: float, tell: Teller) -> None:
+        """Wait as long as the loop gets on: a first compilation takes what it takes.
+
+        tell: hears what it is doing, with the seconds since its start. Raises `BenchError` where
+        the loop cannot open the bench, ends, or says nothing for silence_s; both are ended then.
+        """
         try:
-            self._link.send({"configuration": configuration.model_dump(mode="json")})
             self._wait_until_ready(silence_s, tell)
         except (LinkClosedError, BenchError) as error:
+            self.failure = f"The bench cannot be opened: {error}"
             self.end()
-            self.free()
-            raise BenchError(f"The bench cannot be opened: {error}") from None
+            raise BenchError(self.failure) from None
 
     def _wait_until_ready(self, silence_s: float, tell: Teller) -> None:
-        """Wait as long as the loop gets on: a first compilation takes what it takes."""
-        step, begin = "starting its process", time.monotonic()
-        heard = begin
-        while (now := time.monotonic()) - heard < silence_s:
-            tell(step, now - begin)
+        self._link.send({"configuration": self._configuration.model_dump(mode="json")})
+        heard = time.monotonic()
+        while time.monotonic() - heard < silence_s:
+            tell(self.step, self.age_s)
             self._rest(LISTEN_S)
             try:
                 self._read()
             except LinkClosedError:
-                raise BenchError(f"its loop has ended, which was {step}.") from None
+                raise BenchError(f"its loop has ended, which was {self.step}.") from None
             while self.events:
                 heard, event = time.monotonic(), self.events.pop(0)
                 match event["event"]:
                     case "starting":
-                        step = event["step"]
+                        self.step = event["step"]
                     case "failed":
                         raise BenchError(event["message"])
                     case "ready":
                         self.notes = event["notes"]
                         return
         raise BenchError(
-            f"its loop has not got on for {silence_s:g} s: it was {step}. On a slow machine set"
-            " [timing] start_silence_s in the bench file."
+            f"its loop has not got on for {silence_s:g} s: it was {self.step}. On a slow machine"
+            " set [timing] start_silence_s in the bench file."
         )
 
     @property

@@ -37,6 +37,8 @@ def is_supervised(processes: BenchProcesses) -> bool:
 
 def find_loss(processes: BenchProcesses) -> Loss | None:
     """What is lost, as far as the server knows; None while the loop ticks."""
+    if processes.failure is not None:
+        return Loss("loop_lost", f"{processes.failure} Start the loop anew.", None, None)
     if processes.listens:
         return None
     intervention = processes.third_line.intervention

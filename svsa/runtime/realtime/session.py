@@ -8,8 +8,8 @@ from typing import Any
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
 from svsa.hardware.bench import read_bench
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.homing import Axis
+from svsa.hardware.calibration import find_calibration, list_problems
+from svsa.hardware.homing import STEPS, Axis
 from svsa.hardware.machine import MOVING, BenchStatus
 from svsa.plant.disturbances import Load
 from svsa.reference.trajectories import Trajectory
@@ -21,6 +21,7 @@ from svsa.runtime.realtime.launch import BenchProcesses, Rest, Teller, keep_quie
 from svsa.runtime.realtime.loss import LOSSES, Loss, find_loss, is_supervised
 from svsa.runtime.realtime.run import BenchRun
 from svsa.runtime.recording.header import PlantKind
+from svsa.runtime.recording.recorder import Recorder
 from svsa.runtime.run import Start
 from svsa.runtime.session import Session, Status
 from svsa.signals import State
@@ -61,10 +62,10 @@ class BenchSession(Session):
     """A bench as a session: `start` begins a run at t = 0, `pause` ramps to zero torque.
 
     Every start begins a new run, from where the bench stands. hands: told of the loads that
-    are on whenever they change, and of the marks. tell: hears what the loop does while it starts.
-    rest: lets time pass where a command waits for the bench; `wake` waits for nothing. `bench`: the
-    bench file. `starting`: its processes are being started anew. Raises `BenchError` where the
-    bench cannot be opened or its loop is silent, `MissingExtraError` without the extra `bench`.
+    are on whenever they change, and of the marks. rest: lets time pass where a command waits for
+    the bench; `wake` waits for nothing. `bench`: the bench file. `starting`: its processes are
+    being started, until `open` returns, and refuse commands. Raises `BenchError` where the loop is
+    silent, `MissingExtraError` without the extra `bench`.
     """
 
     def __init__(
@@ -73,30 +74,44 @@ class BenchSession(Session):
         path: Path,
         wanted: Configuration,
         hands: Hands | None = None,
-        tell: Teller = keep_quiet,
         rest: Rest = time.sleep,
     ) -> None:
         require_extra("bench")
         self.bench, self._path, self._hands = read_bench(path), path, hands or Hands()
-        self._tell_start, self._rest = tell, rest
+        self._rest = rest
         self.calibration = find_calibration(self.bench)
-        self.starting = False
+        self.starting = True
         self._told_status = BenchStatus.OFF
         self._changing = 0
-        self.problems: list[str] = []
-        self.homing_step: Axis | None = None
+        self.problems = list_problems(self.bench, self.calibration)
+        self.homing_step: Axis | None = STEPS[0].name
         self._fault: Fault | None = None
         self._unwatched_since = 0.0
-        self._open(build_bench_configuration(self.bench, wanted))
-        self._tell_start = keep_quiet
         super().__init__(name, wanted)
 
-    def _open(self, configuration: Configuration) -> None:
-        silence_s = self.bench.timing.start_silence_s
-        self.processes = BenchProcesses(
-            self._path, configuration, silence_s, self._tell_start, self._rest
-        )
+    def _build_first_run(self, configuration: Configuration) -> BenchRun:
+        return self._launch(build_bench_configuration(self.bench, configuration))
+
+    def _launch(self, configuration: Configuration) -> BenchRun:
+        """Start the processes; the run that stands still until they are ready, and after."""
+        self.processes = BenchProcesses(self._path, configuration, self._rest)
         self.memory = self.processes.memory
+        return self._build_still_run(configuration)
+
+    def _build_still_run(self, configuration: Configuration) -> BenchRun:
+        still = Start(self.bench.home.lever_ratio, AT_REST)
+        return BenchRun(configuration, still, self.memory)
+
+    def open(self, tell: Teller = keep_quiet) -> None:
+        """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
+
+        tell: hears what the loop does meanwhile.
+        """
+        try:
+            self.processes.wait_until_ready(self.bench.timing.start_silence_s, tell)
+        finally:
+            self.starting = False
+            self.version += 1
 
     @property
     def bench_status(self) -> BenchStatus:
@@ -135,8 +150,7 @@ class BenchSession(Session):
         configuration = build_bench_configuration(self.bench, configuration)
         self._ask("load", configuration.model_dump(mode="json"))
         self.stop_recording()
-        still = Start(self.bench.home.lever_ratio, AT_REST)
-        self._begin(BenchRun(configuration, still, self.memory))
+        self._begin(self._build_still_run(configuration))
 
     def reset(self) -> None:
         """Begin again at t = 0 at the next start; raises `StateError` in motion."""
@@ -144,6 +158,7 @@ class BenchSession(Session):
 
     def arm(self) -> None:
         """Bring the drives to READY: reset, configuration, mode."""
+        self._check_started()
         if self.bench_status is BenchStatus.OFF:
             self._hands.set_to_marks()
         self._ask("arm")
@@ -175,13 +190,20 @@ class BenchSession(Session):
         try:
             before = self.processes
             before.end()
-            self._open(self.run.configuration)
+            self.stop_recording()
+            self._begin(self._launch(self.run.configuration))
             before.free()
             self._told_status, self._fault = BenchStatus.OFF, None
-            self.load(self.run.configuration)
+            self.homing_step = STEPS[0].name
+            self.open()
         finally:
             self.starting = False
             self.version += 1
+
+    def start_recording(self, recorder: Recorder) -> None:
+        """As `Session.start_recording`, once it is known whether the bench is emulated."""
+        self._check_started()
+        super().start_recording(recorder)
 
     def start(self) -> None:
         """Begin a run; raises `StateError` unless READY, at home and watched."""
@@ -298,9 +320,17 @@ class BenchSession(Session):
 
     def _ask(self, wanted: str, argument: object = None) -> dict:
         """Have the loop do it; what it says of its state is known when this returns."""
+        self._check_started()
         answer = self.processes.request(wanted, argument)
         self._take_events()
         return answer
+
+    def _check_started(self) -> None:
+        if self.starting:
+            raise StateError(
+                f"The bench is being started ({self.processes.step},"
+                f" {self.processes.age_s:.0f} s): ask again when it is ready."
+            )
 
     def _take_events(self) -> None:
         for event in self.processes.take_events():

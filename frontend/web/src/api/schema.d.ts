@@ -2218,10 +2218,20 @@ export interface components {
             alive: boolean;
             /**
              * State
-             * @description silent: its process is there and has not ticked for 0.5 s. gone: its process has ended. starting: loop and supervisor are being started anew
+             * @description silent: its process is there and has not ticked for 0.5 s. gone: its process has ended, or has not got ready. starting: loop and supervisor are being started, and the bench takes no command
              * @enum {string}
              */
             state: "ticking" | "silent" | "gone" | "starting";
+            /**
+             * Step
+             * @description What it does while it is being started; null else
+             */
+            step: string | null;
+            /**
+             * Starting S
+             * @description Since it is being started, s; null else
+             */
+            starting_s: number | null;
             /**
              * Silent S
              * @description Since its last tick, s; null while it ticks

@@ -29,7 +29,7 @@ function Age({ seconds, speaks }: { seconds: number; speaks: boolean }) {
   const { drives } = text.bench;
   const level = freshnessOf(seconds, speaks);
   if (!isLive.value) return <td>{drives.notKnown}</td>;
-  if (level === "silent") return <td>{drives.silent}</td>;
+  if (level === "silent" || level === "unheard") return <td>{drives[level]}</td>;
   return (
     <td class={level === "fresh" ? "is-good" : "is-bad"}>
       <span aria-hidden="true">{SIGNS[level]}</span> {drives.ago(formatLapse(seconds))}

@@ -25,15 +25,19 @@ export const decadesIn = (counts: readonly number[]): number =>
 const FOOT = 0.3;
 const decadesOf = (count: number): number => (count <= 0 ? 0 : FOOT + Math.log10(count));
 
-export type Freshness = "fresh" | "stale" | "lost" | "silent";
+export type Freshness = "fresh" | "stale" | "lost" | "silent" | "unheard";
 const STALE_S = 0.005;
 const LOST_S = 0.02;
+/** What the server says where there was nothing to be heard yet. */
+const UNHEARD_S = 1000;
 
 /**
  * The bounds of the safety rules: above 5 ms the torque goes to zero, above 20 ms it is a fault.
  * speaks: whether it should be heard at all; a drive that is not armed says nothing.
  */
 export function freshnessOf(ageS: number, speaks = true): Freshness {
-  if (!(ageS <= LOST_S)) return speaks ? "lost" : "silent";
+  if (!(ageS <= LOST_S) && !speaks) return "silent";
+  if (ageS >= UNHEARD_S) return "unheard";
+  if (!(ageS <= LOST_S)) return "lost";
   return ageS > STALE_S ? "stale" : "fresh";
 }

@@ -20,6 +20,8 @@ export const isHomed = (bench: BenchState): boolean => bench.homing.next_step ==
 /** Whether its loop does not tick: nothing can be asked of it but to be started anew. */
 export const isLoopLost = ({ loop }: BenchState): boolean => loop.state !== "ticking";
 
+export const isStarting = ({ loop }: BenchState): boolean => loop.state === "starting";
+
 export interface Allowed {
   arm: boolean;
   run: boolean;
@@ -33,11 +35,11 @@ export interface Allowed {
 export function allowedOn(bench: BenchState, held = false): Allowed {
   const { status } = bench;
   return {
-    arm: status === "off" && bench.problems.length === 0,
+    arm: status === "off" && bench.problems.length === 0 && !isLoopLost(bench),
     run: status === "ready" && isHomed(bench) && (held || !bench.dead_man),
     stop: status === "run",
     clear: status === "fault" && !isLoopLost(bench),
-    restart: isLoopLost(bench) && bench.loop.state !== "starting",
+    restart: isLoopLost(bench) && !isStarting(bench),
     home: !isHomed(bench) && status === "ready",
   };
 }
@@ -60,12 +62,12 @@ export type Advice =
 function adviceBeforeArming({ problems, supervised, ages_s: ages }: BenchState): Advice {
   if (problems.length > 0) return "problems";
   if (!supervised) return "unsupervised";
-  return freshnessOf(ages[2]) === "lost" ? "unheard" : "arm";
+  return ["lost", "unheard"].includes(freshnessOf(ages[2])) ? "unheard" : "arm";
 }
 
 /** The next thing to do. */
 export function adviceFor(bench: BenchState): Advice {
-  if (isLoopLost(bench)) return bench.loop.state === "starting" ? "starting" : "loop";
+  if (isLoopLost(bench)) return isStarting(bench) ? "starting" : "loop";
   switch (bench.status) {
     case "off":
       return adviceBeforeArming(bench);
@@ -85,7 +87,7 @@ export function adviceFor(bench: BenchState): Advice {
 /** Whether the details have something to be read or done before it runs. */
 export function needsDetails(bench: BenchState): boolean {
   const isStanding = bench.status === "off" || bench.status === "ready";
-  return isStanding && (bench.problems.length > 0 || !isHomed(bench));
+  return isStanding && !isStarting(bench) && (bench.problems.length > 0 || !isHomed(bench));
 }
 
 /** Whether a simulation stands where a quick stop left it. */

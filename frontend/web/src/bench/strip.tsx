@@ -7,7 +7,7 @@ import { text } from "../text/en";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
 import { HoldRow } from "./holdrow";
-import { adviceFor, needsDetails, placeOf, STAGES } from "./status";
+import { adviceFor, isStarting, needsDetails, placeOf, STAGES } from "./status";
 
 /** OFF → RUN as one line; the place is told by sign and word, not by colour alone. */
 function Progress({ status }: { status: BenchState["status"] | null }) {
@@ -38,7 +38,7 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
   const [chosen, choose] = useState<{ isNeeded: boolean; isOpen: boolean } | null>(null);
   const isOpen = chosen?.isNeeded === isNeeded ? chosen.isOpen : isNeeded;
   const kind = mark.value ?? "real";
-  const status = text.bench.status[bench.status];
+  const status = isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
   const advice = text.bench.advice[adviceFor(bench)];
   return (
     <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
@@ -51,7 +51,13 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
         <p class="bench-advice" role="status">
           <strong>{isLive.value ? status : text.bench.unknown}</strong>
           <span>{isLive.value ? advice : text.bench.lastHeard(status)}</span>
-          {bench.operator_required && <span> {text.bench.watch}</span>}
+          {isLive.value && bench.loop.step !== null && (
+            <span aria-live="off">
+              {" "}
+              {text.bench.startingBy(bench.loop.step, bench.loop.starting_s ?? 0)}
+            </span>
+          )}
+          {bench.operator_required && !isStarting(bench) && <span> {text.bench.watch}</span>}
         </p>
         <BenchButtons bench={bench} />
         <button
