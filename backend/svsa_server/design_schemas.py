@@ -6,7 +6,7 @@ from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, quantity
 from svsa.observer.disturbance import ObserverBandwidth
-from svsa_server.schemas import GainsRequest, Root
+from svsa_server.gain_schemas import GainsRequest, Root
 
 
 class PredictRequest(Checked):

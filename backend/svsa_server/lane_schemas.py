@@ -6,7 +6,16 @@ from svsa.runtime.metrics import Metrics
 from svsa.runtime.timeline import WindowKind
 
 
-class StretchState(BaseModel):
+class Period(BaseModel):
+    """A part of a run, from start to before end."""
+
+    start_tick: int
+    start_s: float
+    end_tick: int | None = Field(description="Null: until now")
+    end_s: float | None
+
+
+class StretchState(Period):
     """A controller (a law with its gains and observer) on a lane, from start to before end."""
 
     number: int = Field(
@@ -14,21 +23,13 @@ class StretchState(BaseModel):
     )
     name: str = Field(description="Its law, and what tells it from others of the same law")
     ink: int = Field(description="Which look its curves have, from 0; shared by no other on screen")
-    start_tick: int
-    start_s: float
-    end_tick: int | None = Field(description="Null: until now")
-    end_s: float | None
 
 
-class WindowState(BaseModel):
+class WindowState(Period):
     """A part of the run in which nothing was changed, from start to before end."""
 
     kind: WindowKind = Field(description="What began it")
     label: str = Field(description="What began it, in words; empty for the start of the run")
-    start_tick: int
-    start_s: float
-    end_tick: int | None = Field(description="Null: until now")
-    end_s: float | None
 
 
 class LaneMetrics(BaseModel):

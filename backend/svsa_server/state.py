@@ -16,18 +16,12 @@ from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
 from svsa_server.control import build_control
 from svsa_server.excitation import build_excitation
+from svsa_server.gain_schemas import GainsState, Root
 from svsa_server.lane_schemas import LaneMetrics, LaneState
 from svsa_server.lanes import build_window, list_session_stretches
-from svsa_server.schemas import (
-    BranchState,
-    ConfigurationState,
-    GainsState,
-    LoadState,
-    RecordingState,
-    Root,
-    SessionProgress,
-    SessionState,
-)
+from svsa_server.recording_schemas import RecordingState
+from svsa_server.session_schemas import BranchState, LoadState, SessionProgress, SessionState
+from svsa_server.setting_schemas import ConfigurationState
 
 
 def build_progress(session: Session) -> SessionProgress:

@@ -19,7 +19,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.control import asking, get_hand, read_client
-from svsa_server.schemas import SessionProgress, SessionState, StreamRequest
+from svsa_server.session_schemas import SessionProgress, SessionState
 from svsa_server.state import build_progress, build_state
 from svsa_server.stream_schemas import (
     HEADER,
@@ -28,6 +28,7 @@ from svsa_server.stream_schemas import (
     StateMessage,
     StreamChannel,
     StreamError,
+    StreamRequest,
     pack_lane_ids,
 )
 

@@ -2,13 +2,14 @@
 
 import struct
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field
 
+from svsa.checked import Checked, Number, Whole, quantity
 from svsa.runtime.configuration import MOST_LANES
 from svsa.signals import PLOTTED
-from svsa_server.schemas import SessionProgress, SessionState, StreamRequest
+from svsa_server.session_schemas import SessionProgress, SessionState
 
 MAGIC = b"SVSA"
 HEADER_FIELDS = (
@@ -23,6 +24,16 @@ HEADER_FIELDS = (
 HEADER = struct.Struct("<" + "".join(code for _, code, _ in HEADER_FIELDS))
 LANE_ID = "I"
 _TYPES = {"4s": "4 bytes", "I": "uint32", "Q": "uint64"}
+
+
+class StreamRequest(Checked):
+    """What a stream carries."""
+
+    rate_hz: Number = quantity("Hz", "Samples a second", ge=1, le=10_000, default=200.0)
+    lanes: tuple[Annotated[Whole, Field(ge=1, le=MOST_LANES)], ...] | None = quantity(
+        "", "Numbers of the lanes, from 1; None is all there are", default=(1,)
+    )
+    history_s: Number = quantity("s", "Past to send first", ge=0, le=20, default=0.0)
 
 
 class StreamChannel(BaseModel):

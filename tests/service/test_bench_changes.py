@@ -7,8 +7,8 @@ import pytest
 
 from svsa.control.gains import Gains
 from svsa.runtime.realtime.session import BenchSession
+from svsa_server.gain_schemas import GainsRequest
 from svsa_server.routes import settings
-from svsa_server.schemas import GainsRequest
 from svsa_server.turn import take_turn
 from tests.service.scripted_bench import Processes, build_bench_session
 

@@ -7,10 +7,9 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.runtime.configuration import Lane
 from svsa.runtime.session import Session
 from svsa.signals import CHANNEL_INDEX
-from svsa_server.schemas import StreamRequest
 from svsa_server.state import build_state
 from svsa_server.stream import SampleCursor
-from svsa_server.stream_schemas import HEADER
+from svsa_server.stream_schemas import HEADER, StreamRequest
 
 FL = Lane(law="fl")
 FASTER = Lane(law="ndobc", observer=ObserverBandwidth(bandwidth_rad_per_s=(120.0, 120.0, 120.0)))

@@ -9,7 +9,7 @@ from svsa.runtime.realtime.session import BenchSession
 from svsa.runtime.session import Session
 from svsa_server.bench_schemas import HomingRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.schemas import SessionState
+from svsa_server.session_schemas import SessionState
 from svsa_server.state import build_state
 from svsa_server.turn import TurnRoute
 

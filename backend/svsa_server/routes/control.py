@@ -9,7 +9,7 @@ from svsa.errors import ParameterError, Violation
 from svsa_server.control import CLIENT_HEADER, Holder, get_hand
 from svsa_server.control_schemas import ControlRequest
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
-from svsa_server.schemas import SessionState
+from svsa_server.session_schemas import SessionState
 from svsa_server.state import build_state
 
 router = APIRouter(prefix="/sessions/{session}/control", tags=["control"], responses=REFUSALS)

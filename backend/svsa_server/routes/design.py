@@ -21,8 +21,8 @@ from svsa_server.design_schemas import (
     SteadyErrorState,
     TorqueDemandState,
 )
+from svsa_server.gain_schemas import Root
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.schemas import Root
 
 router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
 

@@ -6,8 +6,10 @@ from fastapi import APIRouter, Body, Request
 
 from svsa.runtime.configuration import parse_design
 from svsa_server.excitation import TAG, begin_excitation, check_excitable, end_excitation
+from svsa_server.recording_schemas import ExcitationRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.schemas import ExcitationRequest, ParameterFileRequest, SessionState
+from svsa_server.session_schemas import SessionState
+from svsa_server.setting_schemas import ParameterFileRequest
 from svsa_server.state import build_state
 from svsa_server.turn import TurnRoute, take_turn
 

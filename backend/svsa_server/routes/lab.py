@@ -9,9 +9,9 @@ import svsa
 from svsa.experiment.paper import FIGURES
 from svsa_server.access import COOKIE, SharedSecret
 from svsa_server.errors import ErrorModel
+from svsa_server.lab_schemas import FigureState, Health, LoginRequest
 from svsa_server.laboratory import SHARED_SESSION
 from svsa_server.routes.depends import REFUSALS
-from svsa_server.schemas import FigureState, Health, LoginRequest
 from svsa_server.turn import TurnRoute
 
 router = APIRouter(tags=["lab"], route_class=TurnRoute)

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Body
 from svsa.plant.disturbances import Load
 from svsa_server.errors import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.schemas import SessionState
+from svsa_server.session_schemas import SessionState
 from svsa_server.state import build_state
 from svsa_server.turn import TurnRoute
 

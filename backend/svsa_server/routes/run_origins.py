@@ -10,7 +10,7 @@ from svsa.runtime.configuration import Design
 from svsa.runtime.recording.header import BranchPoint, PlantKind
 from svsa_server.routes.depends import NamedSession, RunId, Runs
 from svsa_server.run_schemas import BranchOrigin, RunCommand, RunOrigin
-from svsa_server.schemas import SessionRequest
+from svsa_server.session_schemas import SessionRequest
 
 router = APIRouter()
 

@@ -8,7 +8,7 @@ from fastapi.responses import JSONResponse
 from svsa_server.errors import ErrorModel
 from svsa_server.openapi import UPGRADED
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
-from svsa_server.schemas import (
+from svsa_server.session_schemas import (
     ExperimentRequest,
     SessionRequest,
     SessionState,

@@ -9,14 +9,10 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa_server.gain_schemas import GainsRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.schemas import (
-    GainsRequest,
-    LanesRequest,
-    LawRequest,
-    SessionState,
-    build_patch,
-)
+from svsa_server.session_schemas import SessionState
+from svsa_server.setting_schemas import LanesRequest, LawRequest, build_patch
 from svsa_server.state import build_state
 from svsa_server.turn import TurnRoute
 

@@ -3736,6 +3736,17 @@ export interface components {
          * @description A controller (a law with its gains and observer) on a lane, from start to before end.
          */
         StretchState: {
+            /** Start Tick */
+            start_tick: number;
+            /** Start S */
+            start_s: number;
+            /**
+             * End Tick
+             * @description Null: until now
+             */
+            end_tick: number | null;
+            /** End S */
+            end_s: number | null;
             /**
              * Number
              * @description Which controller, counted in the order in which they came in the run
@@ -3751,17 +3762,6 @@ export interface components {
              * @description Which look its curves have, from 0; shared by no other on screen
              */
             ink: number;
-            /** Start Tick */
-            start_tick: number;
-            /** Start S */
-            start_s: number;
-            /**
-             * End Tick
-             * @description Null: until now
-             */
-            end_tick: number | null;
-            /** End S */
-            end_s: number | null;
         };
         /**
          * TorqueDemandState
@@ -3844,17 +3844,6 @@ export interface components {
          * @description A part of the run in which nothing was changed, from start to before end.
          */
         WindowState: {
-            /**
-             * Kind
-             * @description What began it
-             * @enum {string}
-             */
-            kind: "start" | "load" | "unload" | "change";
-            /**
-             * Label
-             * @description What began it, in words; empty for the start of the run
-             */
-            label: string;
             /** Start Tick */
             start_tick: number;
             /** Start S */
@@ -3866,6 +3855,17 @@ export interface components {
             end_tick: number | null;
             /** End S */
             end_s: number | null;
+            /**
+             * Kind
+             * @description What began it
+             * @enum {string}
+             */
+            kind: "start" | "load" | "unload" | "change";
+            /**
+             * Label
+             * @description What began it, in words; empty for the start of the run
+             */
+            label: string;
         };
     };
     responses: never;
