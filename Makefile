@@ -32,7 +32,7 @@ test: .venv/installed $(PAGE)  ## every test
 	$(WEB) test
 
 quick: .venv/installed  ## the tests that need no server, bench or browser
-	@$(BIN)/svsa compile
+	@$(BIN)/python -m tests.compile_all
 	$(BIN)/pytest $(SIDE_BY_SIDE) -q tests/equations tests/experiment
 	$(WEB) test
 

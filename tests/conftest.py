@@ -13,9 +13,26 @@ COMPILED = "compiled"
 ORDER = ("package", "equations", "experiment", "contract", "hardware", "service", "browser")
 
 
+LONGEST = (
+    "test_memory",
+    "test_accessibility",
+    "test_replay",
+    "test_life",
+    "test_view",
+    "test_runs",
+)
+"""Of the browser tests, so that no process is left with one of them while the others are done."""
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Quick tests first; the browser last, since its driver keeps an event loop running."""
-    items.sort(key=lambda item: ORDER.index(item.path.relative_to(TESTS).parts[0]))
+    items.sort(key=rank)
+
+
+def rank(item: pytest.Item) -> tuple[int, int]:
+    name = item.path.stem
+    folder = ORDER.index(item.path.relative_to(TESTS).parts[0])
+    return folder, LONGEST.index(name) if name in LONGEST else len(LONGEST)
 
 
 @pytest.hookimpl(hookwrapper=True)

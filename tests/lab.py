@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import httpx
 
-START_TIMEOUT_S = 120.0
+START_TIMEOUT_S = 300.0
 
 
 class Lab(NamedTuple):

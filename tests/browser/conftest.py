@@ -90,6 +90,7 @@ class KeptPage:
         context = page.context
         context.clear_cookies()
         context.clear_permissions()
+        context.set_offline(False)
         page.set_viewport_size(self._arguments["viewport"])
         page.emulate_media(color_scheme=self._arguments["color_scheme"], reduced_motion="null")
 

@@ -8,11 +8,11 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.bench_fixture import PatchedBench
-from tests.browser.test_page import open_page
+from tests.browser.test_page import come_back, open_page
 from tests.browser.test_replay import open_file, write_page
 from tests.lab import Lab, run_lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 WEB = Path(__file__).parents[2] / "frontend" / "web"
 AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
@@ -66,7 +66,7 @@ def expect_no_violation(page: Page, *sizes: tuple[int, int]) -> None:
 
 
 def open_lab(page: Page, lab: Lab) -> None:
-    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    come_back(page, lab)
     open_page(page, lab)
 
 
@@ -119,7 +119,7 @@ def open_overlay(page: Page, lab: Lab) -> None:
     for choice in page.get_by_role("checkbox", name=re.compile("^Choose")).all():
         choice.check()
     page.get_by_role("button", name="Overlay 2 runs").click()
-    expect(page.get_by_role("table", name="Since the load came on")).to_be_visible()
+    expect(page.get_by_role("table", name="Each in the window named")).to_be_visible()
     expect(page.get_by_role("table", name="Settings that differ")).to_be_visible()
 
 
@@ -130,7 +130,7 @@ def open_trash(page: Page, lab: Lab) -> None:
 
 def open_private(page: Page, lab: Lab) -> None:
     name = lab.client.post("/api/v1/sessions", json={}).json()["session"]
-    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    come_back(page, lab)
     page.goto(f"{lab.url}/?session={name}")
     expect(page.get_by_text("Private session.")).to_be_visible()
 
@@ -177,10 +177,10 @@ def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
 
 
 @pytest.mark.parametrize("status", ["off", "run"])
-def test_a_bench_has_no_violation(page: Page, lab: Lab, status: str) -> None:
-    PatchedBench(page, status=status, dead_man=True)
-    open_lab(page, lab)
-    expect_no_violation(page, WIDE, PHONE)
+def test_a_bench_has_no_violation(own_page: Page, lab: Lab, status: str) -> None:
+    PatchedBench(own_page, status=status, dead_man=True)
+    open_lab(own_page, lab)
+    expect_no_violation(own_page, WIDE, PHONE)
 
 
 def test_the_login_has_no_violation(page: Page) -> None:
@@ -190,6 +190,6 @@ def test_the_login_has_no_violation(page: Page) -> None:
         expect_no_violation(page, WIDE, PHONE)
 
 
-def test_an_exported_run_has_no_violation(page: Page, tmp_path: Path) -> None:
-    open_file(page, write_page(tmp_path))
-    expect_no_violation(page, WIDE, PHONE)
+def test_an_exported_run_has_no_violation(own_page: Page, tmp_path: Path) -> None:
+    open_file(own_page, write_page(tmp_path))
+    expect_no_violation(own_page, WIDE, PHONE)

@@ -5,6 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.test_page import come_back
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -13,8 +14,8 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 @pytest.fixture
 def panel(page: Page, lab: Lab) -> Locator:
     lab.load_figure()
+    come_back(page, lab)
     page.goto(lab.url)
-    page.get_by_role("region", name="Tour of the lab").get_by_role("button", name="Skip").click()
     page.get_by_role("button", name="Place poles").click()
     panel = page.get_by_role("dialog", name="Design")
     expect(panel.get_by_role("status", name="Verdict: Usable")).to_be_visible(timeout=20_000)

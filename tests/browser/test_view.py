@@ -5,11 +5,11 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.test_page import open_page
+from tests.browser.test_page import come_back, open_page
 from tests.browser.test_safety import wait_for_status
 from tests.lab import Lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
 
 LONG_MS = 60_000
 SIZES = ((390, 844), (1280, 720), (1440, 900))
@@ -23,7 +23,7 @@ IS_READY = "() => !!document.querySelector('iframe')?.contentWindow?.__viserMuta
 
 def open_view(page: Page, lab: Lab) -> None:
     lab.load_figure()
-    page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    come_back(page, lab)
     page.goto(lab.url)
     page.wait_for_function(IS_READY, timeout=LONG_MS)
     page.wait_for_timeout(500)

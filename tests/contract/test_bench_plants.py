@@ -41,6 +41,8 @@ TRACKED_NM_PER_RAD = 1.0
 PHASE_S = 0.0007
 """Where the paper's gains bear that an adapter without timestamps knows no age of a count: the
 principal motor, whose frame comes at 0.43 ms, must be heard less than half a tick late."""
+ARMING_TICKS = 4
+"""Arming takes a second of waiting for the drives; the contract begins when they are READY."""
 UNSTAMPED_AGE_S = 0.0005
 """An adapter without timestamps: a count is half a tick old when it is read, on the average."""
 
@@ -135,8 +137,8 @@ class Stand:
     def now(self) -> float:
         return self._now
 
-    def go_on(self) -> None:
-        self._now += self.bench.timing.period_s
+    def go_on(self, ticks: int = 1) -> None:
+        self._now += ticks * self.bench.timing.period_s
         self._wait(self._now)
 
     def tick(self, ticks: int = 1) -> None:
@@ -162,7 +164,8 @@ class Stand:
         self.plant.arm(self._now)
         while self.plant.status is not BenchStatus.READY:
             assert self.plant.fault is None
-            self.tick()
+            self.go_on(ARMING_TICKS)
+            self.loop.tick(self._now)
         while (step := self.plant.homing_step) is not None:
             self.plant.confirm_home(step, "a test")
         self.tick(5)
