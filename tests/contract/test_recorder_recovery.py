@@ -1,11 +1,12 @@
 """Records that were cut off or damaged: what can be read is kept, what cannot is told."""
 
+import contextlib
+import multiprocessing
 import os
 import shutil
 import signal
-import subprocess
-import sys
 import time
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from .records import PERIOD_S, build_header, build_samples, wait_until
 
 ROUNDS_OF_KILLING = 20
 MOST_LOST_TICKS = round(0.5 / PERIOD_S)
+PATIENCE_S = 60.0
 
 
 def make_stream(folder: Path, ticks: int = 300, batches: int = 3) -> Path:
@@ -35,28 +37,34 @@ def make_stream(folder: Path, ticks: int = 300, batches: int = 3) -> Path:
     return copy
 
 
-CHILD = """
-import sys, time
-from pathlib import Path
-from svsa.runtime.recording.recorder import Recorder
-from tests.contract.records import build_header, build_samples
-recorder = Recorder(Path(sys.argv[1]), build_header())
-samples = build_samples(20_000)
-begin, tick = time.monotonic(), 0
-while True:
-    now = min(int((time.monotonic() - begin) / 0.001), len(samples))
-    if now > tick:
-        recorder.write_command(tick, {"tick": tick})
-        recorder.write_samples(tick, samples[tick:now])
-        tick = now
-        sys.stdout.write(f"{tick}\\n")
-        sys.stdout.flush()
-    time.sleep(0.008)
-"""
+def record_until_killed(folder: Path, told: Connection) -> None:
+    """Hand a recorder its samples as time goes by, and tell how many they are by now."""
+    recorder = Recorder(folder, build_header())
+    samples = build_samples(20_000)
+    begin, tick = time.monotonic(), 0
+    while True:
+        now = min(int((time.monotonic() - begin) / PERIOD_S), len(samples))
+        if now > tick:
+            recorder.write_command(tick, {"tick": tick})
+            recorder.write_samples(tick, samples[tick:now])
+            tick = now
+            told.send(tick)
+        time.sleep(0.008)
+
+
+def read_last(told: Connection) -> int:
+    """What the other end told last before it was gone."""
+    last = 0
+    with contextlib.suppress(EOFError):
+        while True:
+            last = told.recv()
+    return last
 
 
 def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path) -> None:
     """Twenty processes, each killed at a moment of its own."""
+    forks = multiprocessing.get_context("forkserver")
+    forks.set_forkserver_preload([__name__])
     dice = np.random.default_rng(20)
     moments = sorted(dice.uniform(0.02, 1.5) for _ in range(ROUNDS_OF_KILLING))
     lost = []
@@ -64,19 +72,21 @@ def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path) -> No
         children = []
         for number in range(group, group + 5):
             folder = tmp_path / f"run-{number}"
-            command = [sys.executable, "-c", CHILD, str(folder)]
-            child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, bufsize=1 << 20)
-            children.append((number, folder, child))
-        for _, _, child in children:
-            assert child.stdout is not None
-            child.stdout.readline()
+            told, tell = forks.Pipe(duplex=False)
+            child = forks.Process(target=record_until_killed, args=(folder, tell), daemon=True)
+            child.start()
+            tell.close()
+            children.append((number, folder, child, told))
+        for *_, told in children:
+            assert told.poll(PATIENCE_S)
         begin = time.monotonic()
-        for number, _, child in children:
+        for number, _, child, _ in children:
             time.sleep(max(0.0, begin + moments[number] - time.monotonic()))
-            child.send_signal(signal.SIGKILL)
-        for _, folder, child in children:
-            handed_over = int(child.communicate()[0].split()[-1])
-            assert child.returncode == -signal.SIGKILL
+            child.kill()
+        for _, folder, child, told in children:
+            handed_over = read_last(told)
+            child.join(PATIENCE_S)
+            assert child.exitcode == -signal.SIGKILL
             finished = recover(folder)
             assert finished is not None
             record = read_record(folder)
