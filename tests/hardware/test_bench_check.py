@@ -2,16 +2,12 @@
 
 import contextlib
 import itertools
-import re
-import socket
-import threading
 
 import can
 import pytest
 
-from svsa.hardware import bus as bus_module
-from svsa.hardware.bench import BusSettings, read_bench
-from svsa.hardware.bus import BusError, open_bus
+from svsa.hardware.bench import read_bench
+from svsa.hardware.bus import BusError
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.check import SIGN_STEPS, check_bench
 from svsa.hardware.check.step import Result
@@ -32,7 +28,7 @@ from svsa.rig.faults import (
 from svsa.rig.frame import Frame
 from svsa.rig.parameters import RigDeflection, RigParameters
 from svsa.rig.rig import Rig
-from tests.hardware.bus_in_time import RIG_BENCH, RigBus, copy_bench
+from tests.hardware.bus_in_time import RigBus, copy_bench
 
 LONGEST_S = 20.0
 MOVING_S = 1.6
@@ -298,55 +294,3 @@ def test_a_bus_that_cannot_be_opened_says_what_to_look_at(path, bus):
     assert [step.result for step in steps[:2]] == [Result.OK, Result.FAIL]
     assert "no such device" in steps[1].measured
     assert "ip link set" in steps[1].advice
-
-
-def test_unknown_interfaces_and_wrong_options_are_errors_of_the_bus():
-    for options in ({"interface": "nonesuch"}, {"interface": "socketcand", "options": {"x": 1}}):
-        with pytest.raises(BusError, match="cannot be opened"):
-            open_bus(BusSettings(**{"channel": "can0", **options}))
-
-
-@pytest.mark.parametrize(
-    ("interface", "package", "raised"),
-    [
-        ("kvaser", "driver is not installed. It needs Kvaser's driver with CANlib", NameError("x")),
-        ("gs_usb", "pip install 'python-can[gs-usb]'", can.CanInterfaceNotImplementedError("usb")),
-        ("gs_usb", "No backend available. It needs", ValueError("No backend available")),
-        ("pcan", "libpcanbasic", OSError("PCANBasic library not found.")),
-    ],
-)
-def test_an_interface_without_its_driver_names_what_to_install(
-    monkeypatch, interface, package, raised
-):
-    """python-can's kvaser ends in a NameError where CANlib is not there."""
-
-    def fail(**_):
-        raise raised
-
-    monkeypatch.setattr(can, "Bus", fail)
-    with pytest.raises(BusError, match=re.escape(package)):
-        open_bus(BusSettings(interface=interface, channel="0"))
-
-
-def test_a_daemon_that_says_nothing_is_not_waited_for(monkeypatch):
-    monkeypatch.setattr(bus_module, "_ANSWER_S", 0.2)
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        options = {"host": "127.0.0.1", "port": server.getsockname()[1]}
-        settings = BusSettings(interface="socketcand", channel="can0", options=options)
-        failures = []
-
-        def open_it():
-            try:
-                open_bus(settings)
-            except BusError as error:
-                failures.append(error)
-
-        opening = threading.Thread(target=open_it, daemon=True)
-        opening.start()
-        opening.join(30.0)
-        assert len(failures) == 1
-
-
-def test_the_rigs_own_bench_file_is_complete():
-    """It is the model that others copy."""
-    assert read_bench(RIG_BENCH).find_missing() == []

@@ -1,0 +1,59 @@
+"""A CAN bus that cannot be opened: why, what to install, and in a bounded time."""
+
+import re
+import socket
+import threading
+
+import can
+import pytest
+
+from svsa.hardware import bus as bus_module
+from svsa.hardware.bench import BusSettings
+from svsa.hardware.bus import BusError, open_bus
+
+
+def test_unknown_interfaces_and_wrong_options_are_errors_of_the_bus():
+    for options in ({"interface": "nonesuch"}, {"interface": "socketcand", "options": {"x": 1}}):
+        with pytest.raises(BusError, match="cannot be opened"):
+            open_bus(BusSettings(**{"channel": "can0", **options}))
+
+
+@pytest.mark.parametrize(
+    ("interface", "package", "raised"),
+    [
+        ("kvaser", "driver is not installed. It needs Kvaser's driver with CANlib", NameError("x")),
+        ("gs_usb", "pip install 'python-can[gs-usb]'", can.CanInterfaceNotImplementedError("usb")),
+        ("gs_usb", "No backend available. It needs", ValueError("No backend available")),
+        ("pcan", "libpcanbasic", OSError("PCANBasic library not found.")),
+    ],
+)
+def test_an_interface_without_its_driver_names_what_to_install(
+    monkeypatch, interface, package, raised
+):
+    """python-can's kvaser ends in a NameError where CANlib is not there."""
+
+    def fail(**_):
+        raise raised
+
+    monkeypatch.setattr(can, "Bus", fail)
+    with pytest.raises(BusError, match=re.escape(package)):
+        open_bus(BusSettings(interface=interface, channel="0"))
+
+
+def test_a_daemon_that_says_nothing_is_not_waited_for(monkeypatch):
+    monkeypatch.setattr(bus_module, "_ANSWER_S", 0.2)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        options = {"host": "127.0.0.1", "port": server.getsockname()[1]}
+        settings = BusSettings(interface="socketcand", channel="can0", options=options)
+        failures = []
+
+        def open_it():
+            try:
+                open_bus(settings)
+            except BusError as error:
+                failures.append(error)
+
+        opening = threading.Thread(target=open_it, daemon=True)
+        opening.start()
+        opening.join(30.0)
+        assert len(failures) == 1
