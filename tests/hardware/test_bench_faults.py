@@ -1,54 +1,44 @@
 """Every fault that can be caused is caused, on the emulated rig while it runs Figure 4A.
 
-In lockstep, in this process; a few over sockets too. What counts is what the rig's own drives
+In lockstep, in this process. What counts is what the rig's own drives
 were told, in the rig's time, and where its true mechanism went; physics decides which of several
 faults comes first, so some causes name more than one.
 """
 
 import math
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any
 
-import can
 import pytest
 
 from svsa.errors import StateError
 from svsa.experiment.bench_run import LockstepBench, connect_bench
-from svsa.hardware import can_plant
-from svsa.hardware.drive import build_broadcast_resets
-from svsa.hardware.emulation import ADVANCE_ID, encode_time
 from svsa.hardware.faults import FAULTS
 from svsa.hardware.guard import OVERLOAD
 from svsa.hardware.machine import BenchStatus
-from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.faults import (
-    BrownOut,
-    BusErrors,
     CurrentOffset,
     DriveName,
     DropFrames,
     FrozenEncoder,
-    LateFrames,
-    Node,
     ReversedEncoder,
-    ReversedMotor,
-    RigFault,
     Silence,
-    Stall,
     Unplugged,
-    ZeroedCounter,
 )
-from svsa.rig.launch import start_rig
 from svsa.signals import Torque
 
+from .caused_faults import (
+    CASES,
+    DRIVES,
+    NODES,
+    WRONG,
+    Case,
+    check_speeds,
+    check_stopped,
+    quick_stop,
+)
 from .in_process_rig import InProcessRig, start_in_process
 from .watched_bench import FIGURE, Bench, make_ready
-
-DRIVES: tuple[DriveName, DriveName] = ("motor1", "motor2")
-NODES: tuple[Node, ...] = (*DRIVES, "deflection")
-WITHOUT_VALUES = {"quick_stop", "not_finite", "bus_error", "foreign_command", "drive_silent"}
-WRONG = {"implausible", "encoder_frozen", "overspeed", "vibration", "lever_end", "drive_zeroed"}
-SEEN_IN_MOTION = {*WRONG, "deflection_limit", "position_limit", "overload"}
 
 
 @pytest.fixture(scope="module")
@@ -88,105 +78,6 @@ def ready(place: Place) -> Bench:
     return place.get()
 
 
-class Case(NamedTuple):
-    """A cause, and the faults of which it leads to one."""
-
-    cause: Callable[[Bench], Any]
-    codes: set[str]
-
-
-def inject(fault: RigFault) -> Callable[[Bench], Any]:
-    return lambda b: b.rig.control.fault(fault)
-
-
-def load(*torque_nm: Any) -> Callable[[Bench], Any]:
-    return lambda b: b.rig.control.load(ConstantLoad.model_validate({"torque_nm": torque_nm}))
-
-
-def lose_supervisor(b: Bench) -> None:
-    b.beats.stopped["supervisor"] = b.now()
-
-
-def quick_stop(b: Bench) -> None:
-    b.plant.quick_stop(b.now(), "a test")
-
-
-def intrude(b: Bench) -> None:
-    """Another program on the bus resets the drives, and waits until the rig has heard it."""
-    bus = can_plant.open_bus(b.bench.bus)
-    for frame in build_broadcast_resets(b.bench):
-        bus.send(frame)
-    bus.send(can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(0)))
-    while (heard := bus.recv(10.0)) is not None and heard.arbitration_id != ADVANCE_ID:
-        pass
-    bus.shutdown()
-
-
-CASES = {
-    **{f"no frames of {n}": Case(inject(DropFrames(node=n)), {"stale_feedback"}) for n in NODES},
-    "frames of motor2 30 ms late": Case(
-        inject(LateFrames(node="motor2", delay_s=0.03)), {"stale_feedback"}
-    ),
-    "frames of motor1 4 ms late": Case(inject(LateFrames(node="motor1", delay_s=0.004)), WRONG),
-    "motor1 frozen": Case(inject(FrozenEncoder(node="motor1")), {"encoder_frozen"}),
-    "motor2 frozen": Case(inject(FrozenEncoder(node="motor2")), {"encoder_frozen"}),
-    "deflection frozen": Case(inject(FrozenEncoder(node="deflection")), {"encoder_frozen"}),
-    **{f"{n} counts backwards": Case(inject(ReversedEncoder(node=n)), WRONG) for n in NODES},
-    **{f"{n} turns backwards": Case(inject(ReversedMotor(node=n)), WRONG) for n in DRIVES},
-    **{f"brown-out of {n}": Case(inject(BrownOut(node=n)), {"stale_feedback"}) for n in DRIVES},
-    **{f"no power at {n}": Case(inject(Silence(node=n)), {"stale_feedback"}) for n in DRIVES},
-    **{
-        f"{n} stalls": Case(inject(Stall(node=n)), {"drive_error", "implausible", "encoder_frozen"})
-        for n in DRIVES
-    },
-    **{
-        f"{n} takes its position for zero": Case(inject(ZeroedCounter(node=n)), {"drive_zeroed"})
-        for n in DRIVES
-    },
-    **{
-        f"{n} makes {a} A too much": Case(
-            inject(CurrentOffset(node=n, offset_a=a)), WRONG | {"overload"}
-        )
-        for n, a in zip(DRIVES, (15, -15), strict=True)
-    },
-    "error frames": Case(inject(BusErrors(count=20)), {"bus_error"}),
-    "a stranger resets the drives": Case(intrude, {"foreign_command"}),
-    "ticks missed": Case(lambda b: b.miss(20), {"missed_ticks"}),
-    "no supervisor": Case(lose_supervisor, {"supervisor_lost"}),
-    "quick stop": Case(quick_stop, {"quick_stop"}),
-    "too great a load": Case(load(10.0, 0.0, 0.0), {"deflection_limit"}),
-    "the lever is pulled to its end": Case(load(0.0, 0.0, 9.0), {"lever_end", "overspeed"}),
-}
-
-
-def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
-    """The fault is one of those expected, in time, latched, with its values; nothing flows.
-
-    The time of a fault that shows in the mechanism's motion counts from the tick that shows it.
-    """
-    b.tick_until_fault()
-    fault = b.plant.fault
-    assert fault is not None, "nothing was found"
-    found_s = b.now()
-    assert b.plant.status is BenchStatus.FAULT
-    assert fault.code in case.codes
-    b.look()
-    b.watch(20)
-    since = found_s if fault.code in SEEN_IN_MOTION else begin_s
-    assert b.last_current_s - since < FAULTS[fault.code].within_s
-    assert b.read_currents() == [0, 0]
-    assert fault.message
-    assert bool(fault.values) is (fault.code not in WITHOUT_VALUES)
-    assert all(math.isfinite(value) for value in fault.values.values())
-    b.plant.quick_stop(b.now(), "a second cause")
-    b.rig.control.fault(BusErrors())
-    b.watch(30)
-    assert b.plant.fault is fault
-    assert b.read_currents() == [0, 0]
-    with pytest.raises(StateError):
-        b.plant.arm(b.now())
-
-
 @pytest.mark.parametrize("name", CASES)
 def test_a_fault_ends_the_run_and_is_cleared_by_hand_only(ready: Bench, name: str) -> None:
     """Coasting included, no axis becomes much faster than it is allowed to be, unless pulled."""
@@ -197,31 +88,6 @@ def test_a_fault_ends_the_run_and_is_cleared_by_hand_only(ready: Bench, name: st
     if "load" not in name and "pulled" not in name:
         check_speeds(ready, 0.25 if "frozen" in name else 1.4)
     ready.recover()
-
-
-@pytest.mark.parametrize(
-    "name", ["no frames of motor1", "error frames", "a stranger resets the drives"]
-)
-def test_over_sockets_it_ends_the_same(name: str) -> None:
-    """The causes that come over the wire itself, with the rig in a process of its own."""
-    with start_rig(lockstep=True) as rig:
-        bench = make_ready(rig)
-        try:
-            bench.run()
-            begin = bench.begin_watch()
-            CASES[name].cause(bench)
-            check_stopped(bench, CASES[name], begin)
-        finally:
-            bench.close()
-
-
-def check_speeds(b: Bench, share: float) -> None:
-    """How fast and how far the true mechanism went, against what the bench file allows."""
-    safety = b.bench.safety
-    assert b.fastest["dtheta1"] <= share * b.bench.motor1.speed_max_rad_per_s
-    assert b.fastest["dtheta2"] <= share * b.bench.motor2.speed_max_rad_per_s
-    assert b.fastest["dq"] <= share * safety.link_speed_max_rad_per_s
-    assert b.farthest <= 1.4 * safety.link_position_max_rad
 
 
 @pytest.mark.parametrize("fault", [FrozenEncoder, ReversedEncoder])

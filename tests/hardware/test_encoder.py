@@ -1,4 +1,4 @@
-"""Where the deflection's counts come from: a CAN node, a file, and what of the options is refused."""
+"""Where the deflection's counts come from: a CAN node or a file; options that are refused."""
 
 import can
 import pytest
