@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Error, Page, Playwright
+from playwright.sync_api import Browser, BrowserContext, Error, Page, Playwright, expect
 
 # Without a graphics card: the page is put together without one, WebGL is drawn by SwiftShader.
 # Putting the page together by SwiftShader too took most of a test's processor time.
@@ -20,6 +20,8 @@ ARGUMENTS = [
     "--disable-sync",
     "--no-first-run",
 ]
+
+expect.set_options(timeout=20_000)  # a busy machine takes its time
 
 
 def find_chromium() -> str | None:

@@ -7,14 +7,14 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.bench_fixture import HOMED, PatchedBench
-from tests.browser.test_page import open_page
+from tests.browser.test_page import PATIENCE_MS, open_page
 from tests.lab import Lab, run_lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
 def wait_for_status(page: Page, lab: Lab, status: str) -> None:
-    for _ in range(50):
+    for _ in range(PATIENCE_MS // 100):
         if lab.read()["status"] == status:
             return
         page.wait_for_timeout(100)
