@@ -1,8 +1,9 @@
 """How the equations become machine code: one decorator, one cache.
 
 Every equation is a pure function compiled by numba, without the GIL and without
-fast-math (the order of operations is the order written, so that the live loop, the
-batch run and a replay give the same bits). Calls between them are inlined: passing the
+fast-math (the order of operations is the order written, and a product that is added is fused as
+it is written, see `svsa.fused`, so that the live loop, the batch run and a replay give the same
+bits). Calls between them are inlined: passing the
 constants of an actuator from one to the next would cost more than the equations.
 
 The compiled code is cached between starts. numba notices a change in the file of a
@@ -26,10 +27,17 @@ from typing import Any
 import numba
 from numba.core import config, event
 
+from svsa.fused import FusingCompiler
+
 _LIBRARY = Path(__file__).parent
 _IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 _KEPT_CACHES = 3
-_OPTIONS = {"nogil": True, "error_model": "numpy", "forceinline": True}
+_OPTIONS: dict[str, Any] = {
+    "nogil": True,
+    "error_model": "numpy",
+    "forceinline": True,
+    "pipeline_class": FusingCompiler,
+}
 
 
 def _find_module(name: str) -> Path | None:

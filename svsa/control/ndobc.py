@@ -27,12 +27,12 @@ def compute_disturbance_gain(nominal, gains, linearization):
     Row 1 = c2/M − c3 D/M² + (D²/M − σ)/M², σ/(M B1), −τ_e,μ μ'/(M B2);
     row 2 = σ_φ/M, −σ_φ/B1, σ_μ μ'/B2. The motor columns are those of A(x).
     """
-    M, D, ξ = nominal.M, nominal.D, linearization
+    D, ξ, rM = nominal.D, linearization, 1.0 / nominal.M
     return DisturbanceGain(
-        g12=gains.p2 / M - gains.p3 * D / (M * M) + (D * D / M - ξ.sigma) / (M * M),
+        g12=(gains.p2 - gains.p3 * D * rM + (D * D * rM - ξ.sigma) * rM) * rM,
         g14=ξ.a11,
         g16=ξ.a12,
-        g22=ξ.sigma_phi / M,
+        g22=ξ.sigma_phi * rM,
         g24=ξ.a21,
         g26=ξ.a22,
     )

@@ -15,13 +15,13 @@ from pathlib import Path
 from tests.experiment.golden import compute_hashes
 
 GOLDEN = {
-    "4a fl": "115e1601c9c4f842",
-    "4a ndobc": "6da08c20608b2c54",
-    "4b fl": "dacfbe2e6a1e811a",
-    "4b ndobc": "41a4706891d3f123",
-    "5 fl": "c84b7665eb835581",
-    "5 ndobc": "55feada5ae22a125",
-    "4a with every effect": "8a6a1cf06c1154b3",
+    "4a fl": "4295a7170ec63857",
+    "4a ndobc": "1dc184ca1fb295c0",
+    "4b fl": "43f335d216854e97",
+    "4b ndobc": "e64ff883f4b7724e",
+    "5 fl": "520b1f49095804b0",
+    "5 ndobc": "69bd60a887124460",
+    "4a with every effect": "27647297f3e7ad68",
 }
 
 
