@@ -5,15 +5,10 @@ import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
 import { toRadians } from "../units";
-import { Choice } from "./choice";
 import { Field } from "./field";
-import { Group } from "./group";
-import { Problem } from "./problem";
-import { Shaped } from "./shaped";
-import type { Shape } from "./shapes";
+import { type Kind, kindOf, ReferenceGroup } from "./reference";
 
 type Sine = Extract<PositionReference, { kind: "sine" }>;
-type Kind = "sine" | "constant" | "other";
 
 const FIRST_SINE: Sent<Sine> = { kind: "sine", amplitude_rad: toRadians(60), frequency_hz: 0.2 };
 const KINDS = [
@@ -51,9 +46,6 @@ function SineFields({ reference }: { reference: Sine }) {
   );
 }
 
-const kindOf = ({ kind }: PositionReference): Kind =>
-  kind === "sine" || kind === "constant" ? kind : "other";
-
 export function Motion({ state }: { state: SessionState }) {
   const reference = state.configuration.position;
   const lastSine = useRef<Sent<Sine>>(FIRST_SINE);
@@ -72,15 +64,15 @@ export function Motion({ state }: { state: SessionState }) {
   };
 
   return (
-    <Group
-      title={text.motion.title}
+    <ReferenceGroup
       topic="motion"
-      aside={<Choice label={text.motion.kind} options={KINDS} value={shown} onChoose={choose} />}
+      follows="position"
+      reference={reference}
+      kinds={KINDS}
+      shown={shown}
+      onChoose={choose}
     >
-      <Problem control="motion.kind" />
-      {shown === "other" ? (
-        <Shaped follows="position" held={reference.kind} />
-      ) : reference.kind === "sine" ? (
+      {reference.kind === "sine" ? (
         <SineFields reference={reference} />
       ) : reference.kind === "constant" ? (
         <Field
@@ -91,14 +83,6 @@ export function Motion({ state }: { state: SessionState }) {
           send={(position_rad) => putPosition({ kind: "constant", position_rad })}
         />
       ) : null}
-      {kindOf(reference) === "other" && (
-        <p class="hint">
-          {text.references.following(
-            text.references.kinds[reference.kind as Shape],
-            reference.transition_s,
-          )}
-        </p>
-      )}
-    </Group>
+    </ReferenceGroup>
   );
 }

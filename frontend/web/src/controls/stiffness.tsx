@@ -4,16 +4,11 @@ import type { Sent, SessionState, StiffnessReference } from "../api/types";
 import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
-import { Choice } from "./choice";
 import { Field } from "./field";
-import { Group } from "./group";
-import { Problem } from "./problem";
+import { type Kind, kindOf, ReferenceGroup } from "./reference";
 import type { SliderRange } from "./scale";
-import { Shaped } from "./shaped";
-import type { Shape } from "./shapes";
 
 type Sine = Extract<StiffnessReference, { kind: "sine" }>;
-type Kind = "sine" | "constant" | "other";
 
 /** What the mechanism can reach, N·m/rad. */
 const REACH: SliderRange = { min: 1.7, max: 150.56, logarithmic: true };
@@ -51,9 +46,6 @@ function SineFields({ reference }: { reference: Sine }) {
     </>
   );
 }
-
-const kindOf = ({ kind }: StiffnessReference): Kind =>
-  kind === "sine" || kind === "constant" ? kind : "other";
 
 /** What to hold, or to swing about, after this reference. */
 function meanOf(reference: StiffnessReference): number {
@@ -95,15 +87,15 @@ export function Stiffness({ state }: { state: SessionState }) {
   };
 
   return (
-    <Group
-      title={text.stiffness.title}
+    <ReferenceGroup
       topic="stiffness"
-      aside={<Choice label={text.stiffness.kind} options={KINDS} value={shown} onChoose={choose} />}
+      follows="stiffness"
+      reference={reference}
+      kinds={KINDS}
+      shown={shown}
+      onChoose={choose}
     >
-      <Problem control="stiffness.kind" />
-      {shown === "other" ? (
-        <Shaped follows="stiffness" held={reference.kind} />
-      ) : reference.kind === "sine" ? (
+      {reference.kind === "sine" ? (
         <SineFields reference={reference} />
       ) : reference.kind === "constant" ? (
         <Field
@@ -114,14 +106,6 @@ export function Stiffness({ state }: { state: SessionState }) {
           send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}
         />
       ) : null}
-      {kindOf(reference) === "other" && (
-        <p class="hint">
-          {text.references.following(
-            text.references.kinds[reference.kind as Shape],
-            reference.transition_s,
-          )}
-        </p>
-      )}
-    </Group>
+    </ReferenceGroup>
   );
 }

@@ -30,7 +30,7 @@ const KEYS: Readonly<Record<string, () => void>> = {
 };
 
 /** Numbers of the axis at round times. */
-export function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
+function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
   const context = canvas.getContext("2d");
   if (context === null) return;
   const ratio = devicePixelRatio;
@@ -53,25 +53,13 @@ export function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
   }
 }
 
-/** The axis of time below all plots: it has the numbers, and the keys that move and zoom. */
-export function TimeAxis() {
-  const axis = useRef<HTMLDivElement>(null);
+/** A canvas that has the numbers of a span, drawn with every frame. onDrawn: what else is due then. */
+export function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefined) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
-    let toldAt = 0;
-    const tell = () => {
-      const { from, to } = shownSpan();
-      const value = text.plots.spanValue(from.toFixed(2), to.toFixed(2));
-      axis.current?.setAttribute("aria-valuetext", value);
-      axis.current?.setAttribute("aria-valuenow", to.toFixed(2));
-      const { newestTime } = shownRing();
-      const end = newestTime > to ? newestTime : to;
-      axis.current?.setAttribute("aria-valuemax", end.toFixed(2));
-      toldAt = performance.now();
-    };
     const draw = () => {
-      if (canvas.current) drawTicks(canvas.current, shownSpan());
-      if (isHeld.peek() || performance.now() - toldAt > TOLD_MS) tell();
+      if (canvas.current) drawTicks(canvas.current, spanOf());
+      onDrawn();
     };
     const stop = onFrame(draw);
     const resizing = new ResizeObserver(draw);
@@ -81,6 +69,26 @@ export function TimeAxis() {
       resizing.disconnect();
     };
   }, []);
+  return canvas;
+}
+
+/** The axis of time below all plots: it has the numbers, and the keys that move and zoom. */
+export function TimeAxis() {
+  const axis = useRef<HTMLDivElement>(null);
+  const toldAt = useRef(0);
+  const tell = () => {
+    const { from, to } = shownSpan();
+    const value = text.plots.spanValue(from.toFixed(2), to.toFixed(2));
+    axis.current?.setAttribute("aria-valuetext", value);
+    axis.current?.setAttribute("aria-valuenow", to.toFixed(2));
+    const { newestTime } = shownRing();
+    const end = newestTime > to ? newestTime : to;
+    axis.current?.setAttribute("aria-valuemax", end.toFixed(2));
+    toldAt.current = performance.now();
+  };
+  const canvas = useTicks(shownSpan, () => {
+    if (isHeld.peek() || performance.now() - toldAt.current > TOLD_MS) tell();
+  });
   return (
     <div
       ref={axis}

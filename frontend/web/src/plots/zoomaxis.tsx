@@ -1,9 +1,7 @@
-import { useEffect, useRef } from "preact/hooks";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { hasZoomed, zoomedEvent, zoomedSpan } from "./eventzoom";
-import { onFrame } from "./frame";
-import { drawTicks } from "./timeaxis";
+import { useTicks } from "./timeaxis";
 
 /** What the zoom beside the plots is of. */
 export function ZoomTitle() {
@@ -20,16 +18,5 @@ export function ZoomTitle() {
 
 /** The axis of time below the zooms. */
 export function ZoomAxis() {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  useEffect(() => {
-    const draw = () => canvas.current && drawTicks(canvas.current, zoomedSpan());
-    const stop = onFrame(draw);
-    const resizing = new ResizeObserver(draw);
-    if (canvas.current) resizing.observe(canvas.current);
-    return () => {
-      stop();
-      resizing.disconnect();
-    };
-  }, []);
-  return <canvas class="zoom-axis" ref={canvas} />;
+  return <canvas class="zoom-axis" ref={useTicks(zoomedSpan)} />;
 }
