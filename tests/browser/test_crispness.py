@@ -1,0 +1,115 @@
+"""Traces on a 2D canvas that the browser draws with its graphics pipeline: the past stays sharp."""
+
+import base64
+import io
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import Browser, Page, Playwright, WebSocketRoute, expect
+
+from tests.browser.test_page import open_page
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+SCROLL_MS = 2500
+# Steep strokes, which a blur across widens.
+STEEP = {"kind": "sine", "amplitude_rad": 0.5, "frequency_hz": 0.8}
+# Of the pixels of a trace, how many may differ by more than a quarter of the scale: where strokes
+# of a few points end, edges are smoothed a little differently.
+MOST_DIFFERENT = 0.03
+
+
+FEATURES = """() => {
+    const read = (one) => one.nodeType === Node.TEXT_NODE ? one.data :
+        [...(one.shadowRoot?.childNodes ?? []), ...one.childNodes].map(read).join(" ");
+    return read(document.body).replace(/\\s+/g, " ");
+}"""
+
+
+@pytest.fixture(scope="module")
+def accelerated(playwright: Playwright, browser_type_launch_args: dict) -> Iterator[Browser]:
+    """A browser of its own that composes pages and canvases on a graphics card, in software."""
+    refused = {"--disable-accelerated-2d-canvas"}
+    kept = [one for one in browser_type_launch_args["args"] if one not in refused]
+    arguments = {"args": [*kept, "--headless=new", "--enable-gpu-rasterization"]}
+    defaults = ["--headless", "--headless=old", "--disable-gpu"]
+    browser = playwright.chromium.launch(
+        **(browser_type_launch_args | arguments), ignore_default_args=defaults
+    )
+    page = browser.new_page()
+    page.goto("chrome://gpu")
+    page.wait_for_function(f"() => ({FEATURES})().includes('Rasterization:')")
+    features = page.evaluate(FEATURES)
+    for feature in ("Canvas", "Compositing"):
+        assert f"{feature}: Hardware accelerated" in features
+    page.close()
+    yield browser
+    browser.close()
+
+
+class HeldStream:
+    """The stream of the lab, until it is held: then the page hears nothing more."""
+
+    def __init__(self, page: Page) -> None:
+        self._is_held = False
+        page.route_web_socket("**/api/v1/sessions/lab/stream**", self._pass)
+
+    def hold(self) -> None:
+        """From now on nothing is passed on."""
+        self._is_held = True
+
+    def _pass(self, socket: WebSocketRoute) -> None:
+        def forward(message: str | bytes) -> None:
+            if not self._is_held:
+                socket.send(message)
+
+        socket.connect_to_server().on_message(forward)
+
+
+def read_plot(page: Page) -> np.ndarray:
+    """The pixels of the torque plot, (height, width), dark 0 … light 255, axes left out."""
+    canvas = page.get_by_role("region", name="Torque plot").locator("canvas").first
+    url = canvas.evaluate("one => one.toDataURL()")
+    image = Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2])))
+    paper = Image.new("RGBA", image.size, "white")
+    pixels = np.asarray(Image.alpha_composite(paper, image.convert("RGBA")).convert("L"), float)
+    _, width = pixels.shape
+    return pixels[:, width // 4 : -width // 20]
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.25, 1.5, 2.0])
+def test_what_has_scrolled_is_as_if_drawn_just_now(
+    accelerated: Browser, lab: Lab, ratio: float
+) -> None:
+    context = accelerated.new_context(
+        viewport={"width": 1280, "height": 720}, device_scale_factor=ratio
+    )
+    context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
+    context.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    page = context.new_page()
+    stream = HeldStream(page)
+    lab.load_figure()
+    lab.client.put(lab.session + "/position", json=STEEP).raise_for_status()
+    lab.jump(22)
+    lab.client.post(lab.session + "/start").raise_for_status()
+    open_page(page, lab)
+    # What is said of the silent stream takes no room from the plots.
+    page.add_style_tag(content=".banners { display: none; }")
+    page.wait_for_timeout(SCROLL_MS)
+    stream.hold()
+    page.wait_for_timeout(400)
+    scrolled = read_plot(page)
+    entry = page.get_by_role("region", name="Torque plot").locator(".legend-entry").first
+    for is_shown in ("false", "true"):
+        entry.click()
+        expect(entry).to_have_attribute("aria-pressed", is_shown)
+        page.wait_for_timeout(300)
+    anew = read_plot(page)
+    context.close()
+    strokes = anew < 200
+    assert strokes.sum() > 1000
+    different = np.abs(scrolled - anew)[strokes] > 64
+    assert different.mean() < MOST_DIFFERENT
