@@ -58,10 +58,14 @@ def _is_same(present: Any, new: Any) -> bool:
     return type(present) is type(new) and present == new
 
 
-def quantity(unit: str, meaning: str, **bounds: Any) -> Any:
-    """A field with its unit; bounds are pydantic's gt, ge, lt, le; unit "" has none."""
+def quantity(unit: str, meaning: str, *, symbol: str = "", **bounds: Any) -> Any:
+    """A field with its unit; bounds are pydantic's gt, ge, lt, le; unit "" has none.
+
+    symbol: what it is called in short, where that is not its name.
+    """
     text = f"{meaning}, {unit}" if unit else meaning
-    return Field(description=text, json_schema_extra={"unit": unit}, **bounds)
+    extra: dict[str, Any] = {"unit": unit} | ({"symbol": symbol} if symbol else {})
+    return Field(description=text, json_schema_extra=extra, **bounds)
 
 
 def check_number(name: str, value: Any, unit: str, least: float, most: float) -> None:

@@ -17,6 +17,7 @@ from rich.table import Table
 
 import svsa
 from svsa.compilation import is_compiled_before
+from svsa.control.installed import get_title
 from svsa.errors import SvsaError
 from svsa.experiment.identify_command import identify
 from svsa.extras import require_extra
@@ -171,7 +172,7 @@ def _build_tables(runs: "list[Reproduction]") -> list[Table]:
     position = _start_table("Position error [°]", _POSITION)
     stiffness = _start_table("Stiffness error [N·m/rad], torque [N·m]", _STIFFNESS)
     for run in runs:
-        n, row = run.numbers, (run.figure.upper(), run.law.upper())
+        n, row = run.numbers, (run.figure.upper(), get_title(run.law))
         recovery = f"{n['recovery_s']:.2f} s" if n["recovery_s"] is not None else "never"
         position.add_row(
             *row,

@@ -5,16 +5,17 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, Flag, Number, Whole, quantity
-from svsa.control.installed import LawName
+from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.errors import Fault
 from svsa.experiment.paper import get_figure
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
-from svsa.runtime.configuration import MOST_LANES, Configuration, Design, Lane
+from svsa.runtime.configuration import MOST_LANES, Configuration, Design
 from svsa.runtime.session import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
 from svsa_server.lane_schemas import LaneMetrics, LaneState, WindowState
+from svsa_server.law_schemas import InstalledLane
 from svsa_server.recording_schemas import ExcitationState, RecordingState
 from svsa_server.setting_schemas import ConfigurationState
 
@@ -37,9 +38,13 @@ class ExperimentRequest(Checked):
     """One of the paper's figures, from t = 0; with other lanes and effects than it has."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
-    law: LawName = quantity("", "Name of a law that is installed", default="ndobc")
+    law: InstalledLaw = quantity(
+        "", "Name of a law that is installed: see GET /laws", default=PAPERS_LAW
+    )
     load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
-    rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1, default=())
+    rivals: tuple[InstalledLane, ...] = quantity(
+        "", "Up to three", max_length=MOST_LANES - 1, default=()
+    )
     effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
 
     def build_configuration(self, design: Design) -> Configuration:

@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import BaseModel, Field, create_model
 
 from svsa.checked import Checked, quantity
-from svsa.control.installed import LawName
+from svsa.control.installed import InstalledLaw
 from svsa.errors import ParameterError
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
@@ -13,6 +13,7 @@ from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.runtime.configuration import MOST_LANES, Lane
 from svsa_server.gain_schemas import GainsState
+from svsa_server.law_schemas import InstalledLane
 
 LONGEST_PARAMETER_FILE = 100_000
 
@@ -20,8 +21,8 @@ LONGEST_PARAMETER_FILE = 100_000
 class LawRequest(Checked):
     """Which law controls, and which the lanes beside; every plant stays where it is."""
 
-    law: LawName = quantity("", "Name of a law that is installed")
-    rival_laws: tuple[LawName, ...] = quantity(
+    law: InstalledLaw = quantity("", "Name of a law that is installed: see GET /laws")
+    rival_laws: tuple[InstalledLaw, ...] = quantity(
         "",
         "Laws of the lanes beside, from the first on; those left out keep theirs",
         max_length=MOST_LANES - 1,
@@ -58,7 +59,7 @@ def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
 class LanesRequest(Checked):
     """The controllers beside the session's own."""
 
-    rivals: tuple[Lane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1)
+    rivals: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1)
 
 
 class ParameterFileRequest(Checked):
@@ -76,6 +77,10 @@ class ConfigurationState(BaseModel):
     position: PositionReference
     stiffness: StiffnessReference
     gains: GainsState
+    parameters: dict[str, dict[str, Any]] = Field(
+        description="Of laws that have their own, by the law's name: all that were set, and those"
+        " of the laws that control lanes"
+    )
     observer: ObserverBandwidth
     limits: Limits
     actuator: ActuatorParameters

@@ -2,11 +2,14 @@
 
 import math
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 
 from svsa.control.gains import Gains
+from svsa.control.installed import has_own_parameters
 from svsa.plant.disturbances import ScheduledLoad
+from svsa.runtime.configuration import Configuration, Lane
 from svsa.runtime.metrics import Metrics
 from svsa.runtime.realtime.session import BenchSession
 from svsa.runtime.recording.header import BranchPoint
@@ -117,6 +120,7 @@ def _build_configuration(session: Session) -> ConfigurationState:
         position=configuration.position,
         stiffness=configuration.stiffness,
         gains=_build_gains(configuration.gains),
+        parameters=_list_parameters(configuration),
         observer=configuration.observer,
         limits=configuration.limits,
         actuator=configuration.actuator,
@@ -125,6 +129,15 @@ def _build_configuration(session: Session) -> ConfigurationState:
         effects=configuration.effects,
         seed=configuration.seed,
     )
+
+
+def _list_parameters(configuration: Configuration) -> dict[str, dict[str, Any]]:
+    laws = dict.fromkeys((*(lane.law for lane in configuration.lanes), *configuration.parameters))
+    return {
+        law: configuration.get_parameters(Lane(law=law)).model_dump(mode="json")
+        for law in laws
+        if has_own_parameters(law)
+    }
 
 
 def _build_gains(gains: Gains) -> GainsState:

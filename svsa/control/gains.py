@@ -7,13 +7,14 @@ from typing import Self
 import numpy as np
 from pydantic import model_validator
 
-from svsa.checked import Checked, Number, quantity
+from svsa.checked import Number, quantity
+from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, Violation
 
 FASTEST_POLE_RAD_PER_S = 1000.0
 
 
-class Gains(Checked):
+class Gains(LawParameters):
     """Coefficients of Eq 25. Both polynomials must be Hurwitz; refused with their roots."""
 
     position_coefficients: tuple[Number, Number, Number, Number] = quantity(
@@ -29,6 +30,11 @@ class Gains(Checked):
         c0, c1, c2, c3 = compute_coefficients("position_poles_rad_per_s", position, 4)
         s0, s1 = compute_coefficients("stiffness_poles_rad_per_s", stiffness, 2)
         return cls(position_coefficients=(c0, c1, c2, c3), stiffness_coefficients=(s0, s1))
+
+    def describe(self) -> dict[str, str]:
+        """Where the poles of either polynomial lie together, rad/s."""
+        (c0, *_), (s0, _) = self.position_coefficients, self.stiffness_coefficients
+        return {"ωq": f"{c0**0.25:.3g}", "ωσ": f"{s0**0.5:.3g}"}
 
     @property
     def position_roots(self) -> list[complex]:

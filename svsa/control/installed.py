@@ -5,11 +5,13 @@ FL and NDOBC are found as anybody's are. A law is imported when it is first aske
 
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, WithJsonSchema
 
-from svsa.control.law import Law
+from svsa.control.gains import Gains
+from svsa.control.law import NAME, Law
+from svsa.control.parameters import LawParameters, UnreadParameters
 from svsa.errors import ParameterError, SvsaError, Violation
 
 GROUP = "svsa.laws"
@@ -33,16 +35,26 @@ def list_law_names() -> tuple[str, ...]:
     return tuple(_find_entries())
 
 
-def check_law_name(name: str) -> str:
+def check_installed(name: str) -> str:
     """The name; raises `ParameterError` where no law of that name is installed."""
     if name not in _find_entries():
-        bound = f"a law that is installed here: {', '.join(list_law_names()) or 'there is none'}"
-        raise ParameterError(Violation("", name, "", bound))
+        raise ParameterError(Violation("", name, "", _say_installed()))
     return name
 
 
-LawName = Annotated[str, AfterValidator(check_law_name)]
-"""The name of a law that is installed."""
+def _say_installed() -> str:
+    return f"a law that is installed here: {', '.join(list_law_names()) or 'there is none'}"
+
+
+def _check_name(name: str) -> str:
+    if not NAME.fullmatch(name):
+        raise ParameterError(Violation("", name, "", _say_installed()))
+    return name
+
+
+LawName = Annotated[str, AfterValidator(_check_name)]
+"""The name of a law, which may be one of another lab: what is recorded there opens here."""
+InstalledLaw = Annotated[LawName, AfterValidator(check_installed)]
 
 
 @cache
@@ -52,7 +64,9 @@ def get_law(name: str) -> Law:
     Raises `ParameterError` where none of that name is installed, `LawError` where its package
     does not work.
     """
-    entry = _find_entries()[check_law_name(name)]
+    if name not in _find_entries():
+        raise ParameterError(Violation("law", name, "", _say_installed()))
+    entry = _find_entries()[name]
     package = entry.dist.name if entry.dist else entry.module
     try:
         law = entry.load()
@@ -63,3 +77,55 @@ def get_law(name: str) -> Law:
         found = f"the law {law.name}" if isinstance(law, Law) else f"a {type(law).__name__}"
         raise LawError(f"The package {package} announces the law {name}, but brings {found}.")
     return law
+
+
+def is_installed(name: str) -> bool:
+    """Whether there is a law of this name here."""
+    return name in _find_entries()
+
+
+def get_title(name: str) -> str:
+    """How a law is called in a legend; one that is not installed says so."""
+    return get_law(name).title if is_installed(name) else f"{name} (not installed)"
+
+
+def has_own_parameters(name: str) -> bool:
+    """Whether a law has parameters of its own, and does not take the gains of the run."""
+    return not is_installed(name) or get_law(name).parameters is not Gains
+
+
+def read_parameters(name: str, given: Any) -> LawParameters:
+    """Parameters of the law of this name; those of a law that is not installed stay as they are.
+
+    Raises `ParameterError` for what are none.
+    """
+    if not has_own_parameters(name):
+        raise ParameterError(Violation("", given, "", f"left out: {name} takes the run's gains"))
+    model = get_law(name).parameters if is_installed(name) else UnreadParameters
+    if isinstance(given, model):
+        return given
+    if not isinstance(given, dict) or not all(isinstance(key, str) for key in given):
+        raise ParameterError(Violation("", given, "", "an object with named fields"))
+    return model(**given)
+
+
+def _read_every(given: Any) -> dict[str, LawParameters]:
+    if not isinstance(given, dict) or not all(isinstance(key, str) for key in given):
+        raise ParameterError(Violation("", given, "", "parameters by the name of their law"))
+    read: dict[str, LawParameters] = {}
+    for name, parameters in given.items():
+        try:
+            read[_check_name(name)] = read_parameters(name, parameters)
+        except ParameterError as error:
+            raise error.within(name) from None
+    return read
+
+
+_OBJECT = {"type": "object", "additionalProperties": True}
+ParametersByLaw = Annotated[
+    Any,
+    AfterValidator(_read_every),
+    WithJsonSchema({"type": "object", "additionalProperties": _OBJECT}),
+]
+"""`LawParameters` by the name of their law."""
+LaneParameters = Annotated[Any, WithJsonSchema({"anyOf": [_OBJECT, {"type": "null"}]})]

@@ -8,8 +8,8 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from svsa.checked import Checked
 from svsa.control.call import BoundLaw, bind
+from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, Violation
 from svsa.model.domain import Domain
 from svsa.model.dynamics import Actuator
@@ -17,7 +17,7 @@ from svsa.packed import pack
 
 EstimateSource = Literal["none", "observer", "own"]
 
-_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}", re.ASCII)
+NAME = re.compile(r"[a-z][a-z0-9_]{0,39}", re.ASCII)
 _ESTIMATE = ("w2", "w4", "w6")
 
 
@@ -40,7 +40,7 @@ class Nothing(NamedTuple):
     nothing: float = 0.0
 
 
-class NoParameters(Checked):
+class NoParameters(LawParameters):
     """The parameters of a law that has none."""
 
 
@@ -50,9 +50,9 @@ class Law:
 
     name: letters, digits and _, as in files and on the wire. title: as in a legend. summary: what
     it does, in a sentence. equation: KaTeX. source: number of the paper's equation, or a DOI.
-    parameters: checked values, each with unit, bound and meaning; those without a default cannot
-    be left out. build: the constants of `control` from them, a named tuple of numbers and of
-    tuples of numbers. control: a compiled function
+    parameters: see `LawParameters`; a law whose parameters are `Gains` takes those of the run.
+    build: the constants of `control` from them, a named tuple of numbers and of tuples of numbers.
+    control: a compiled function
 
         control(nominal, constants, memory, x, reference, estimate, applied, period) → `Torque`
 
@@ -71,13 +71,13 @@ class Law:
     equation: str
     source: str
     control: Any
-    parameters: type[Checked] = NoParameters
+    parameters: type[LawParameters] = NoParameters
     build: Callable[[Any, Setting], tuple[Any, ...]] = lambda parameters, setting: Nothing()
     memory: type[tuple[Any, ...]] = Nothing
     estimate: EstimateSource = "none"
 
     def __post_init__(self) -> None:
-        if not _NAME.fullmatch(self.name):
+        if not NAME.fullmatch(self.name):
             bound = "a small letter, then up to 39 small letters, digits or _"
             raise ParameterError(Violation("name", self.name, "", bound))
         if self.estimate == "own" and self._start.dtype.names[:3] != _ESTIMATE:  # pyright: ignore[reportOptionalSubscript]
@@ -94,7 +94,7 @@ class Law:
         """What it remembers at the start, as words of 64 bits."""
         return self._start.view(np.float64).copy()
 
-    def bind(self, parameters: Checked, setting: Setting) -> BoundLaw:
+    def bind(self, parameters: LawParameters, setting: Setting) -> BoundLaw:
         """The law as the compiled loop calls it; compiled where it has not been before."""
         constants = pack(self.build(parameters, setting))
         is_own = self.estimate == "own"

@@ -2,25 +2,30 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Picture
 
+from svsa.control.installed import list_law_names
 from svsa.experiment.paper import LOAD_TIME_S, get_figure
+from svsa.experiment.result import Result, name_law
 
 if TYPE_CHECKING:
     from svsa.experiment.reproduce import Reproduction
-    from svsa.experiment.result import Result
 
 REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zorder": 3}
-LAW_STYLES = {
-    "fl": {"color": "#D55E00", "linewidth": 1.3, "label": "FL"},
-    "ndobc": {"color": "#0072B2", "linewidth": 1.3, "label": "NDOBC"},
-    "own": {"color": "#009E73", "linewidth": 1.3, "label": "own controller"},
-}
+LAW_COLORS = ("#0072B2", "#D55E00", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+OWN_COLOR = "#009E73"
 CHANNEL_COLORS = ("#0072B2", "#D55E00", "#009E73")
+
+
+def style_law(law: str) -> dict[str, Any]:
+    """How the curves of a law look: each that is installed has a colour until they run out."""
+    laws = list_law_names()
+    color = LAW_COLORS[laws.index(law) % len(LAW_COLORS)] if law in laws else OWN_COLOR
+    return {"color": color, "linewidth": 1.3, "label": name_law(law)}
 
 
 def draw_figure(runs: "Sequence[Reproduction]") -> Picture:
@@ -37,7 +42,7 @@ def draw_figure(runs: "Sequence[Reproduction]") -> Picture:
         first.time_s, first.stiffness_reference_nm_per_rad, label="reference", **REFERENCE_STYLE
     )
     for run in runs:
-        style, result = LAW_STYLES[run.law], run.result
+        style, result = style_law(run.law), run.result
         tracking.plot(result.time_s, np.degrees(result.position_rad), **style)
         error.plot(result.time_s, np.degrees(result.position_error_rad), **style)
         stiffness.plot(result.time_s, result.stiffness_nm_per_rad, **style)
@@ -52,7 +57,7 @@ def draw_figure(runs: "Sequence[Reproduction]") -> Picture:
     return picture
 
 
-def plot_run(result: "Result") -> Picture:
+def plot_run(result: Result) -> Picture:
     """One run: position, its error, stiffness, torques, disturbance true and estimated."""
     picture = Picture(figsize=(8.0, 10.0), layout="constrained")
     position, error, stiffness, torque, disturbance = picture.subplots(5, 1, sharex=True)
@@ -61,7 +66,7 @@ def plot_run(result: "Result") -> Picture:
         time, np.degrees(result.position_reference_rad), label="reference", **REFERENCE_STYLE
     )
     for law, rows in result.list_stretches():
-        style, at = LAW_STYLES.get(law, LAW_STYLES["own"] | {"label": law}), time[rows]
+        style, at = style_law(law), time[rows]
         position.plot(at, np.degrees(result.position_rad[rows]), **style)
         error.plot(at, np.degrees(result.position_error_rad[rows]), **style)
         stiffness.plot(at, result.stiffness_nm_per_rad[rows], **style)

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from svsa.checked import check_number
+from svsa.control.installed import get_title
+from svsa.control.law import NAME
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.channels import Channels
 from svsa.extras import list_missing, require_extra
@@ -130,9 +132,9 @@ class Result(Channels):
     def _describe(self) -> tuple[str, str]:
         """The run in two lines: what it is, and how it went."""
         period = self.configuration.sampling.period_s
-        beside = f" beside {', '.join(_name(r.law) for r in self.rivals)}" if self.rivals else ""
+        beside = f" beside {', '.join(name_law(r.law) for r in self.rivals)}" if self.rivals else ""
         stretches = self.list_stretches()
-        laws = " → ".join(_name(law) for law, _ in stretches)
+        laws = " → ".join(name_law(law) for law, _ in stretches)
         called = f"{self.name}: " if self.name else ""
         first = (
             f"{called}{laws}{beside}, {len(self.samples) * period:g} s at"
@@ -143,7 +145,7 @@ class Result(Channels):
         else:
             law, rows = stretches[-1]
             m = compute_metrics(self.samples[rows], period)
-            since = f"{_name(law)} since {self.time_s[rows.start]:g} s: " if rows.start else ""
+            since = f"{name_law(law)} since {self.time_s[rows.start]:g} s: " if rows.start else ""
             second = (
                 f"{since}position error {math.degrees(m.rms_position_error_rad):.4g}° rms,"
                 f" {math.degrees(m.peak_position_error_rad):.4g}° peak; stiffness error"
@@ -169,5 +171,8 @@ def build_results(
     return Result(configuration, rows, fault, rivals, law, commands, name)
 
 
-def _name(law: str) -> str:
-    return "own controller" if law == "own" else law.upper()
+def name_law(law: str) -> str:
+    """What controlled, in words: a law's title, "own controller", or a lane as it was called."""
+    if law == "own":
+        return "own controller"
+    return get_title(law) if NAME.fullmatch(law) else law

@@ -7,7 +7,7 @@ from pydantic import model_validator
 
 from svsa.checked import Checked, Number, check_number, quantity
 from svsa.control.gains import Gains
-from svsa.control.installed import LawName
+from svsa.control.installed import LawName, ParametersByLaw
 from svsa.errors import ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
@@ -20,13 +20,17 @@ from svsa.runtime.command import Command, build_command
 class Change(Checked):
     """What becomes different at a time of a run; what is left out stays.
 
-    A law, gains, an observer, a reference of position or stiffness, the true plant, the nominal
-    model or effects hold from the first tick at or after `at_s`; a load comes on then.
+    A law, gains, parameters of laws, an observer, a reference of position or stiffness, the true
+    plant, the nominal model or effects hold from the first tick at or after `at_s`; a load comes on
+    then.
     """
 
     at_s: Number = quantity("s", "Time of the run", ge=0, le=1e6)
     law: LawName | None = quantity("", "Name of a law that is installed", default=None)
     gains: Gains | None = None
+    parameters: ParametersByLaw | None = quantity(
+        "", "Parameters of laws that have their own, by the law's name", default=None
+    )
     observer: ObserverBandwidth | None = None
     position: PositionReference | None = None
     stiffness: StiffnessReference | None = None

@@ -9,7 +9,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from svsa.checked import Whole
 from svsa.control.gains import Gains
-from svsa.control.installed import LawName
+from svsa.control.installed import LawName, ParametersByLaw
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.explanation import explain
 from svsa.observer.disturbance import ObserverBandwidth
@@ -44,6 +44,9 @@ KINDS: dict[str, CommandKind] = {
         "Laws changed",
     ),
     "gains": CommandKind(Run.set_gains, TypeAdapter(Gains), "Gains changed"),
+    "parameters": CommandKind(
+        Run.set_parameters, TypeAdapter(ParametersByLaw), "Parameters changed"
+    ),
     "observer": CommandKind(Run.set_observer, TypeAdapter(ObserverBandwidth), "Observer changed"),
     "actuator": CommandKind(Run.set_actuator, TypeAdapter(ActuatorParameters), "Plant changed"),
     "nominal": CommandKind(

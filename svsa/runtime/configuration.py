@@ -6,11 +6,20 @@ from pathlib import Path
 from typing import Any, Self
 
 import tomli_w
-from pydantic import model_validator
+from pydantic import ValidationInfo, field_validator, model_validator
 
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.control.gains import Gains
-from svsa.control.installed import PAPERS_LAW, LawName
+from svsa.control.installed import (
+    PAPERS_LAW,
+    LaneParameters,
+    LawName,
+    ParametersByLaw,
+    get_law,
+    has_own_parameters,
+    read_parameters,
+)
+from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
@@ -45,16 +54,36 @@ class Lane(Checked):
     """A controller with a plant of its own: same references, loads and noise as the others."""
 
     law: LawName = quantity("", "Name of a law that is installed")
-    gains: Gains | None = quantity("", "Its gains; left out, those of the run", default=None)
+    gains: Gains | None = quantity(
+        "", "Gains of a law that takes such (FL, NDOBC); left out, those of the run", default=None
+    )
+    parameters: LaneParameters = quantity(
+        "", "Parameters of a law that has its own; left out, those of the run", default=None
+    )
     observer: ObserverBandwidth | None = quantity(
         "", "Its observer; left out, that of the run", default=None
     )
+
+    @field_validator("parameters")
+    @classmethod
+    def _read_parameters(cls, given: Any, info: ValidationInfo) -> LawParameters | None:
+        law = info.data.get("law")
+        return given if given is None or law is None else read_parameters(law, given)
+
+    def controlled_by(self, law: str) -> Self:
+        """The lane with another law: gains and observer stay, parameters go with their law."""
+        return self if law == self.law else self.changed(law=law, parameters=None)
 
 
 class Configuration(Design):
     """Everything that decides a run, besides the commands given while it runs."""
 
     law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
+    parameters: ParametersByLaw = quantity(
+        "",
+        "Parameters of laws that have their own, by the law's name; else its defaults",
+        default={},
+    )
     rivals: tuple[Lane, ...] = quantity(
         "",
         "Controllers that run beside the first, each on a plant of its own",
@@ -79,6 +108,16 @@ class Configuration(Design):
         """The run's own controller and its rivals."""
         return (Lane(law=self.law), *self.rivals)
 
+    def get_parameters(self, lane: Lane) -> LawParameters:
+        """What the law of a lane is set to: the lane's own, the run's, or its defaults.
+
+        Raises `ParameterError` for a law that is not installed and not set either.
+        """
+        if not has_own_parameters(lane.law):
+            return lane.gains or self.gains
+        given = lane.parameters or self.parameters.get(lane.law)
+        return get_law(lane.law).parameters() if given is None else given
+
     def controlled_by(self, laws: Sequence[str]) -> Self:
         """The first lanes with these laws, in this order; gains and observers stay theirs.
 
@@ -87,7 +126,9 @@ class Configuration(Design):
         if not 1 <= len(laws) <= len(self.lanes):
             bound = f"1 to {len(self.lanes)} laws, one a lane from the first on"
             raise ParameterError(Violation("laws", list(laws), "", bound))
-        changed = [lane.changed(law=law) for lane, law in zip(self.rivals, laws[1:], strict=False)]
+        changed = [
+            lane.controlled_by(law) for lane, law in zip(self.rivals, laws[1:], strict=False)
+        ]
         return self.changed(law=laws[0], rivals=(*changed, *self.rivals[len(changed) :]))
 
 

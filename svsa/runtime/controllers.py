@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from svsa.control.gains import Gains
-from svsa.control.installed import get_law
+from svsa.control.installed import get_law, get_title, is_installed
+from svsa.control.parameters import LawParameters, UnreadParameters
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.runtime.configuration import Configuration, Lane
 
@@ -21,7 +21,7 @@ class Controller(NamedTuple):
 
     place: str
     law: str
-    gains: Gains
+    parameters: LawParameters
     observer: ObserverBandwidth | None
     copy: int
 
@@ -59,15 +59,18 @@ def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]
     names: dict[Controller, str] = {}
     for one in every:
         alike = [other for other in every if (other.place, other.law) == (one.place, one.law)]
-        words = [one.place, get_law(one.law).title, *_tell_apart(one, alike)]
+        words = [one.place, get_title(one.law), *_tell_apart(one, alike)]
         names[one] = " ".join(filter(None, words))
     return _number_doubles(names)
 
 
 def _build(configuration: Configuration, lane: Lane, place: str) -> Controller:
+    if not is_installed(lane.law):
+        written = lane.parameters or configuration.parameters.get(lane.law) or UnreadParameters()
+        return Controller(place, lane.law, written, None, 1)
     is_observing = get_law(lane.law).estimate == "observer"
     observer = (lane.observer or configuration.observer) if is_observing else None
-    return Controller(place, lane.law, lane.gains or configuration.gains, observer, 1)
+    return Controller(place, lane.law, configuration.get_parameters(lane), observer, 1)
 
 
 def _is_copy_of(held: Controller | None, controller: Controller) -> bool:
@@ -75,28 +78,21 @@ def _is_copy_of(held: Controller | None, controller: Controller) -> bool:
 
 
 def _tell_apart(one: Controller, alike: Sequence[Controller]) -> list[str]:
-    """Each of β, ωq and ωσ in which these differ, rad/s; ω is that of all poles together."""
+    """Each number in which these differ, by its symbol; β is the observer's, rad/s."""
     described = [_describe(controller) for controller in alike]
     own = _describe(one)
     return [
         f"{symbol} {value}"
         for symbol, value in own.items()
-        if any(other[symbol] != value for other in described)
+        if any(other.get(symbol) != value for other in described)
     ]
 
 
 def _describe(controller: Controller) -> dict[str, str]:
     betas = controller.observer.bandwidth_rad_per_s if controller.observer else ()
     shown = betas[:1] if len(set(betas)) == 1 else betas
-    (c0, *_), (s0, _) = (
-        controller.gains.position_coefficients,
-        controller.gains.stiffness_coefficients,
-    )
-    return {
-        "β": "/".join(f"{beta:.3g}" for beta in shown),
-        "ωq": f"{c0**0.25:.3g}",
-        "ωσ": f"{s0**0.5:.3g}",
-    }
+    beta = {"β": "/".join(f"{beta:.3g}" for beta in shown)} if betas else {}
+    return beta | controller.parameters.describe()
 
 
 def _number_doubles(names: dict[Controller, str]) -> dict[Controller, str]:

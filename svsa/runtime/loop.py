@@ -135,7 +135,7 @@ def bind_law(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundL
     """The law of one lane among its blocks; compiled where it has not been before."""
     b = blocks
     setting = Setting(b.nominal, b.domain, b.torque1_max, b.torque2_max, b.period)
-    return get_law(lane.law).bind(lane.gains or configuration.gains, setting)
+    return get_law(lane.law).bind(configuration.get_parameters(lane), setting)
 
 
 @compiled

@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.control.gains import Gains
-from svsa.control.installed import LawName, get_law
-from svsa.errors import Fault, StateError
+from svsa.control.installed import check_installed, get_law
+from svsa.control.parameters import LawParameters
+from svsa.errors import Fault, ParameterError, StateError
 from svsa.model.domain import INSIDE
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
 from svsa.model.spring import compute_stiffness
@@ -71,6 +72,7 @@ class Run:
         controller: Controller | None = None,
         start: Start | None = None,
     ) -> None:
+        check_laws(configuration)
         self.configuration = configuration
         self.steps = steps
         self._controller = controller
@@ -135,7 +137,7 @@ class Run:
 
     def _name_lane(self, number: int) -> str:
         """The law of a lane, with its number where another has the same; "" where it is alone."""
-        laws = [lane.law.upper() for lane in self.configuration.lanes]
+        laws = [get_law(lane.law).title for lane in self.configuration.lanes]
         if len(laws) == 1:
             return ""
         law = laws[number]
@@ -159,18 +161,19 @@ class Run:
         self._stiffness = push_trajectory(self._stiffness, reference, self.time_s)
         self._configure(stiffness=reference)
 
-    def set_law(self, law: LawName) -> None:
+    def set_law(self, law: str) -> None:
         """Control the first lane with this law from now on."""
         self.set_laws((law,))
 
-    def set_laws(self, laws: tuple[LawName, ...]) -> None:
+    def set_laws(self, laws: tuple[str, ...]) -> None:
         """Control the first lanes with these laws from now on; their plants stay as they are.
 
         A law that comes remembers nothing. Raises `ParameterError` where there are fewer lanes
         than laws.
         """
-        before = self.configuration.lanes
-        self.configuration = self.configuration.controlled_by(laws)
+        before, configuration = self.configuration.lanes, self.configuration.controlled_by(laws)
+        check_laws(configuration)
+        self.configuration = configuration
         self.lanes = [
             _follow_law(lane, old.law, new.law)
             for lane, old, new in zip(self.lanes, before, self.configuration.lanes, strict=True)
@@ -180,6 +183,10 @@ class Run:
     def set_gains(self, gains: Gains) -> None:
         """Use these gains from now on."""
         self._configure(gains=gains)
+
+    def set_parameters(self, parameters: dict[str, LawParameters]) -> None:
+        """Use these parameters of laws, by the law's name, from now on; memories stay."""
+        self._configure(parameters=parameters)
 
     def set_observer(self, observer: ObserverBandwidth) -> None:
         """Use these observer bandwidths from now on."""
@@ -203,6 +210,7 @@ class Run:
         A rival that ran before goes on; a new one begins where the first lane is.
         """
         before, configuration = self.configuration, self.configuration.changed(rivals=rivals)
+        check_laws(configuration)
         origins = find_origins(before.rivals, rivals)
         self.lanes = [
             _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
@@ -269,6 +277,15 @@ def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | No
             left[origin] = None
         origins.append(origin)
     return origins
+
+
+def check_laws(configuration: Configuration) -> None:
+    """Raise `ParameterError` where a lane's law is not installed."""
+    for number, lane in enumerate(configuration.lanes):
+        try:
+            check_installed(lane.law)
+        except ParameterError as error:
+            raise error.within(f"rivals[{number - 1}].law" if number else "law") from None
 
 
 def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from svsa.control.installed import get_law, list_law_names
+from svsa.control.installed import PAPERS_LAW, get_title, list_law_names
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
 from svsa.runtime.command import KINDS, Command
 from svsa.runtime.configuration import Configuration
@@ -162,20 +162,23 @@ class Timeline:
         for lane, controller in zip(self.lanes, present, strict=True):
             if not lane or lane[-1].end_tick is not None:
                 number = self._numbers.setdefault(controller, len(self._numbers) + 1)
-                lane.append(Stretch(controller, number, self._find_ink(controller), tick))
+                lane.append(Stretch(controller, number, self._find_ink(controller, present), tick))
 
-    def _find_ink(self, controller: Controller) -> int:
-        """The one that it has, its law's own where that is free, else the first free one."""
+    def _find_ink(self, controller: Controller, present: Sequence[Controller]) -> int:
+        """The one that it has, its law's own where that is free, else the first free one.
+
+        What is its law's own is left to laws that control a lane now.
+        """
         used = {one.controller: one.ink for lane in self.lanes for one in lane}
         if controller in used:
             return used[controller]
+        customary = {law: ink for ink, law in enumerate(list_law_names())}
         taken = set(used.values())
-        laws = list_law_names()
-        customary = laws.index(controller.law)
-        if customary not in taken:
-            return customary
-        free = (ink for ink in range(len(laws), len(laws) + len(taken) + 1) if ink not in taken)
-        return next(free)
+        own = customary.get(controller.law)
+        if own is not None and own not in taken:
+            return own
+        taken |= {customary[one.law] for one in present if one.law in customary}
+        return next(ink for ink in itertools.count() if ink not in taken)
 
 
 def name_stretches(lanes: Sequence[Sequence[Stretch]]) -> dict[Controller, str]:
@@ -196,7 +199,8 @@ def read_timeline(
     `ParameterError` or `StateError` for commands that this run cannot have had.
     """
     first_tick, end_tick = ticks
-    timeline, run = Timeline(configuration, is_bench, kept_ticks=0), Run(configuration)
+    timeline = Timeline(configuration, is_bench, kept_ticks=0)
+    run = Run(configuration.changed(law=PAPERS_LAW, rivals=()))  # for its loads only
     for command in commands:
         if command.tick > first_tick:
             timeline.kept_ticks = math.inf
@@ -243,7 +247,7 @@ def _configure(configuration: Configuration, command: Command, is_bench: bool) -
             return configuration.controlled_by(complete_laws((command.argument,), is_bench))
         case "laws":
             return configuration.controlled_by(complete_laws(command.argument, is_bench))
-        case "gains" | "observer" | "rivals":
+        case "gains" | "parameters" | "observer" | "rivals":
             return configuration.changed(**{command.kind: command.argument})
         case _:
             return configuration
@@ -254,7 +258,7 @@ def describe_change(command: Command, before: Configuration) -> str:
     if command.kind in ("law", "laws"):
         law = command.argument if command.kind == "law" else command.argument[0]
         if law != before.law:
-            return f"{get_law(before.law).title} → {get_law(law).title}"
+            return f"{get_title(before.law)} → {get_title(law)}"
     return KINDS[command.kind].label
 
 

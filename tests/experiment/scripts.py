@@ -18,7 +18,8 @@ CRASH = svsa.ConstantLoad(torque_nm=(30.0, 0.0, 0.0))
 torques = st.tuples(*[st.floats(-0.5, 0.5)] * 3)
 onsets = st.none() | st.floats(0.0, 0.6)
 fades = st.floats(0.05, 0.5)
-laws = st.sampled_from(["fl", "ndobc"])
+laws = st.sampled_from(["fl", "ndobc", "fl_integral"])
+integral_poles = st.fixed_dictionaries({"position_pole_rad_per_s": st.floats(30.0, 70.0)})
 gains = st.builds(
     lambda p, s: svsa.Gains.from_poles([-p] * 4, [-s] * 2), st.floats(20, 80), st.floats(20, 60)
 )
@@ -68,7 +69,8 @@ effects = st.sampled_from([svsa.IDEAL, svsa.RIG, EVERY_EFFECT]) | st.builds(
     gravity=st.none() | st.builds(LinkGravity, moment_nm=st.floats(0.0, 1.0)),
 )
 rivals = st.lists(
-    st.builds(svsa.Lane, law=laws, gains=st.none() | gains, observer=st.none() | observers),
+    st.builds(svsa.Lane, law=laws, gains=st.none() | gains, observer=st.none() | observers)
+    | st.builds(svsa.Lane, law=st.just("fl_integral"), parameters=integral_poles),
     max_size=3,
 ).map(tuple)
 
@@ -78,6 +80,7 @@ ARGUMENTS = {
     "law": laws,
     "laws": st.lists(laws, min_size=1, max_size=4).map(tuple),
     "gains": gains,
+    "parameters": st.fixed_dictionaries({"fl_integral": integral_poles}),
     "observer": observers,
     "actuator": actuators,
     "nominal": actuators,

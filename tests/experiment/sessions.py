@@ -49,3 +49,8 @@ def advance(run, ticks):
 
 def list_events(session):
     return [(event.tick, event.kind) for event in session.events]
+
+
+def list_lanes(run):
+    """The state of every lane, memory of the law and all, as values that compare."""
+    return [(*lane._replace(memory=()), *lane.memory.tolist()) for lane in run.lanes]

@@ -71,7 +71,7 @@ def test_a_change_that_cannot_be_is_refused(commands: list, words: str) -> None:
 
 
 def test_a_change_of_nothing_and_an_unknown_word_are_refused() -> None:
-    with pytest.raises(svsa.ParameterError, match="of law, gains, observer, position"):
+    with pytest.raises(svsa.ParameterError, match="of law, gains, parameters, observer, position"):
         svsa.Change(at_s=1.0)
     with pytest.raises(svsa.ParameterError, match="controller"):
         svsa.Change(at_s=1.0, controller="fl")  # pyright: ignore[reportCallIssue]

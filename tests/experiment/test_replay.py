@@ -125,7 +125,7 @@ GARBAGE = {
     "no argument": ({"tick": 3, "kind": "load"}, "load"),
     "an unknown load": ({"tick": 3, "kind": "load", "argument": {"kind": "wind"}}, "kind"),
     "a field too much": ({"tick": 3, "kind": "load", "argument": PAPER | {"x": 1}}, "x is 1"),
-    "an unknown law": ({"tick": 3, "kind": "law", "argument": "pid"}, "here: ndobc, fl"),
+    "no name of a law": ({"tick": 3, "kind": "law", "argument": "P I D"}, "here: ndobc, fl"),
     "a number as a text": ({"tick": 3, "kind": "unload", "argument": "1"}, "whole number"),
     "a list": ([], "command"),
     "null": (None, "command"),

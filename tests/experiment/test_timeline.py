@@ -80,7 +80,7 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
         session.step(tick - session.run.tick)
         session.change("observer", observer)
         timeline.take(session.commands[-1])
-    assert [one.ink for one in timeline.list_stretches()[0]] == [2, 0]
+    assert [one.ink for one in timeline.list_stretches()[0]] == [1, 0]
 
 
 def test_a_bench_and_its_twin_stay_in_the_names():

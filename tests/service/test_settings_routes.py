@@ -77,7 +77,7 @@ REFUSED = [
         "N·m/rad",
         "from 1.7 to",
     ),
-    ("PUT", "law", {"law": "pid"}, "law", "", "'ndobc' or 'fl'"),
+    ("PUT", "law", {"law": "pid"}, "law", "", "installed here: ndobc, fl"),
     ("PUT", "gains", {}, "gains", "", "poles or coefficients"),
     (
         "PUT",
@@ -121,7 +121,7 @@ REFUSED = [
         {"rivals": [{"law": "fl"}, {"law": "pid"}]},
         "rivals[1].law",
         "",
-        "'ndobc' or 'fl'",
+        "installed here: ndobc, fl",
     ),
     (
         "PUT",

@@ -1,4 +1,4 @@
-"""The lab itself: health, the paper's figures, login."""
+"""The lab itself: health, the laws, the paper's figures, login."""
 
 from typing import Annotated
 
@@ -11,6 +11,7 @@ from svsa_server.access import COOKIE, SharedSecret
 from svsa_server.errors import ErrorModel
 from svsa_server.lab_schemas import FigureState, Health, LoginRequest
 from svsa_server.laboratory import SHARED_SESSION
+from svsa_server.law_schemas import LawState, list_laws
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.turn import TurnRoute
 
@@ -30,6 +31,12 @@ def quick_stop(request: Request) -> None:
     """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
     laboratory = request.app.state.laboratory
     laboratory.get(SHARED_SESSION).quick_stop()
+
+
+@router.get("/laws")
+async def read_laws() -> list[LawState]:
+    """The control laws that are installed, the paper's first, each with its own parameters."""
+    return list_laws()
 
 
 @router.get("/figures")

@@ -1,10 +1,13 @@
 """Set what a session follows, how it is controlled, and what it is made of."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter, Body
 
 from svsa.checked import Checked
+from svsa.control.installed import check_installed, read_parameters
+from svsa.control.parameters import LawParameters
+from svsa.errors import ParameterError
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import Effects
@@ -99,6 +102,32 @@ def set_gains(
 ) -> SessionState:
     """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
     session.patch("gains", lambda configuration: request.apply_to(configuration.gains))
+    return build_state(session)
+
+
+@router.put("/parameters")
+def set_parameters(
+    session: NamedSession,
+    request: Annotated[
+        dict[str, dict[str, Any]],
+        Body(examples=[{"fl_integral": {"position_pole_rad_per_s": 54.6}}]),
+    ],
+) -> SessionState:
+    """New parameters of laws that have their own, by the law's name (see `GET /laws`).
+
+    What is left out stays.
+    """
+    configuration = session.run.configuration
+    changed: dict[str, LawParameters] = {}
+    for law, given in request.items():
+        try:
+            check_installed(law)
+            before = configuration.parameters.get(law)
+            kept = before.model_dump() if before is not None else {}
+            changed[law] = read_parameters(law, kept | given)
+        except ParameterError as error:
+            raise error.within(law) from None
+    session.change("parameters", configuration.parameters | changed)
     return build_state(session)
 
 

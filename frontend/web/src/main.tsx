@@ -39,6 +39,7 @@ import { startFrames } from "./plots/frame";
 import { followHistory } from "./runs/place";
 import { watchRecording } from "./runs/saved";
 import { watchGraphics } from "./scene/viewer";
+import { openLaws } from "./state/laws";
 import { openStream, watchNetwork } from "./state/session";
 
 render(<App />, document.getElementById("app") as HTMLElement);
@@ -52,4 +53,5 @@ watchDesign();
 watchGraphics();
 watchHold();
 watchRecording();
+void openLaws();
 openStream();

@@ -40,6 +40,7 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
     return Configuration(
         **dict(design),
         law=wanted.law,
+        parameters=wanted.parameters,
         rivals=(Lane(law=wanted.law),),
         effects=effects,
         position=wanted.position,

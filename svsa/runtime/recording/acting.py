@@ -19,6 +19,7 @@ _BY_COMMAND = (
     "law",
     "rivals",
     "gains",
+    "parameters",
     "observer",
     "effects",
     "actuator",
@@ -73,7 +74,7 @@ def _split_laws(rivals: Any, commands: Commands) -> Commands:
         laws = _read(KINDS["laws"].argument, argument) if kind == "laws" else None
         lanes = _read(KINDS["rivals"].argument, rivals) if laws else None
         if laws and lanes is not None:
-            given = [lane.changed(law=law) for lane, law in zip(lanes, laws[1:], strict=False)]
+            given = [lane.controlled_by(law) for lane, law in zip(lanes, laws[1:], strict=False)]
             rivals = (*given, *lanes[len(given) :])
             split += [(tick, {"kind": "law", "argument": laws[0]})]
             split += [(tick, {"kind": "rivals", "argument": rivals})]

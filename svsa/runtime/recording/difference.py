@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from svsa.control.gains import Gains
+from svsa.control.parameters import LawParameters
 from svsa.runtime.recording.acting import SETTINGS, Acting, read_acting
 from svsa.runtime.recording.reader import Record
 from svsa.runtime.recording.settings import NO_LOAD
@@ -17,6 +18,7 @@ from svsa.runtime.recording.wording import (
     describe_load,
     describe_motion,
     describe_stiffness,
+    tell_law,
 )
 
 Value = str | float | bool | None
@@ -28,6 +30,7 @@ _GROUPS = {
     "law": "Controller",
     "rivals": "Controller",
     "gains": "Controller",
+    "parameters": "Controller",
     "observer": "Controller",
     "effects": "Realism",
     "actuator": "Plant",
@@ -93,16 +96,21 @@ def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]
     if value is None:
         yield (_TITLES[setting], ""), UNKNOWN
     elif setting == "law":
-        yield ("Law", ""), value.upper()
+        yield ("Law", ""), tell_law(value)
     elif setting == "rivals":
         yield ("Beside it", ""), describe_lanes(value) or "nothing"
         for number, lane in enumerate(value, 2):
             if lane.gains is not None:
                 yield from _flatten_gains(lane.gains, f"lane {number}, ")
+            if lane.parameters is not None:
+                yield from _flatten_parameters(lane.law, lane.parameters, f"lane {number}, ")
             if lane.observer is not None:
                 yield from _flatten_observer(lane.observer, f"lane {number}, ")
     elif setting == "gains":
         yield from _flatten_gains(value, "")
+    elif setting == "parameters":
+        for law, parameters in value.items():
+            yield from _flatten_parameters(law, parameters, "")
     elif setting == "observer":
         yield from _flatten_observer(value, "")
     else:
@@ -113,6 +121,14 @@ def _flatten_gains(gains: Gains, lane: str) -> Iterator[tuple[tuple[str, str], V
     for axis, roots in (("position", gains.position_roots), ("stiffness", gains.stiffness_roots)):
         name = f"{lane}{axis} poles, {_ANGULAR}"
         yield (name[:1].upper() + name[1:], ""), tell_poles(roots)
+
+
+def _flatten_parameters(
+    law: str, parameters: LawParameters, lane: str
+) -> Iterator[tuple[tuple[str, str], Value]]:
+    for symbol, told in parameters.describe().items():
+        name = f"{lane}{tell_law(law)} {symbol}"
+        yield (name[:1].upper() + name[1:], ""), told
 
 
 def _flatten_observer(observer: Any, lane: str) -> Iterator[tuple[tuple[str, str], Value]]:
@@ -178,6 +194,7 @@ _TITLES = {
     "law": "Law",
     "rivals": "Lanes",
     "gains": "Gains",
+    "parameters": "Parameters of laws",
     "observer": "Observer",
     "effects": "Realism",
     "actuator": "Plant",
@@ -188,9 +205,12 @@ _TITLES = {
 _TELL: dict[str, Callable[[Any], str]] = {
     "position": describe_motion,
     "stiffness": describe_stiffness,
-    "law": str.upper,
+    "law": tell_law,
     "rivals": describe_lanes,
     "gains": lambda gains: ", ".join(str(told) for _, told in _flatten_gains(gains, "")),
+    "parameters": lambda value: ", ".join(
+        f"{name} {told}" for (name, _), told in _flatten("parameters", value)
+    ),
     "observer": lambda observer: ", ".join(f"{b:g}" for b in observer.bandwidth_rad_per_s),
     "effects": describe_effects,
     "actuator": _tell_model,

@@ -23,6 +23,7 @@ from svsa.runtime.recording.wording import (
     describe_motion,
     describe_stiffness,
     follow,
+    tell_law,
 )
 
 NO_LOAD = "no load"
@@ -30,6 +31,7 @@ _DOT = " · "
 _PLANTS = {"bench": "bench", "emulated": "emulated bench"}
 _OWN = {
     "gains": "gains",
+    "parameters": "parameters of laws",
     "observer": "observer",
     "actuator": "plant",
     "nominal": "model",
@@ -134,7 +136,7 @@ def _describe_laws(acting: Acting, header: RecordHeader) -> str:
     every = [lanes or () for lanes in acting.get_values("rivals")]
     if any(1 + len(lanes) != len(header.lanes) for lanes in every):
         every = [()]
-    first = follow(UNKNOWN if law is None else law.upper() for law in acting.get_values("law"))
+    first = follow(UNKNOWN if law is None else tell_law(law) for law in acting.get_values("law"))
     is_twin = header.plant != "simulated" and bool(every[0])
     beside = follow(describe_lanes(lanes[1:] if is_twin else lanes) for lanes in every)
     others = ["twin", beside] if is_twin else [beside]
@@ -177,7 +179,7 @@ def _find_own(acting: Acting) -> list[str]:
         title
         for name, title in _OWN.items()
         if any(
-            value is not None and value != getattr(prototype, name)
+            value is not None and value != getattr(prototype, name, {})
             for value in acting.get_values(name)
         )
     ]

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
+from svsa.control.installed import get_law, is_installed
 from svsa.plant.disturbances import (
     PAPER_ARM_M,
     ConstantLoad,
@@ -77,10 +78,16 @@ def describe_stiffness(reference: StiffnessReference | None) -> str:
 
 def describe_lanes(lanes: Sequence[Lane]) -> str:
     """Controllers side by side: "FL", "FL vs NDOBC (own gains)"."""
-    return VERSUS.join(
-        f"{lane.law.upper()}{' (own gains)' if lane.gains or lane.observer else ''}"
-        for lane in lanes
-    )
+    return VERSUS.join(f"{tell_law(lane.law)}{_tell_own(lane)}" for lane in lanes)
+
+
+def tell_law(name: str) -> str:
+    """The title of a law, or the name of one that is not installed."""
+    return get_law(name).title if is_installed(name) else name
+
+
+def _tell_own(lane: Lane) -> str:
+    return " (own gains)" if lane.gains or lane.observer or lane.parameters else ""
 
 
 def compute_mean(reference: StiffnessReference | None) -> float | None:

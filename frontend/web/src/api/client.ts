@@ -10,6 +10,7 @@ import type {
   EffectsRequest,
   Figure,
   Law,
+  LawRow,
   Load,
   Method,
   PositionReference,
@@ -51,6 +52,10 @@ export const putStiffness = (reference: Sent<StiffnessReference>) =>
 export const putLaw = (law: Law, rivals: readonly Law[]) =>
   call("put", "/law", rivals.length === 0 ? { law } : { law, rival_laws: [...rivals] });
 export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
+/** By the law's name; what is left out stays. */
+export const putParameters = (parameters: Body<"put", "/parameters">[0]) =>
+  call("put", "/parameters", parameters);
+export const readLaws = () => request("get", "laws") as Promise<LawRow[]>;
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
 export const putLanes = (laws: readonly Law[]) =>

@@ -65,6 +65,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/laws": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Laws
+         * @description The control laws that are installed, the paper's first, each with its own parameters.
+         */
+        get: operations["read_laws_api_v1_laws_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/figures": {
         parameters: {
             query?: never;
@@ -544,6 +564,28 @@ export interface paths {
          * @description New gains, as poles or coefficients; refused with the roots when not Hurwitz.
          */
         put: operations["set_gains_api_v1_sessions__session__gains_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/parameters": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Set Parameters
+         * @description New parameters of laws that have their own, by the law's name (see `GET /laws`).
+         *
+         *     What is left out stays.
+         */
+        put: operations["set_parameters_api_v1_sessions__session__parameters_put"];
         post?: never;
         delete?: never;
         options?: never;
@@ -1497,6 +1539,15 @@ export interface components {
             /** Stiffness */
             stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
             gains: components["schemas"]["GainsState"];
+            /**
+             * Parameters
+             * @description Of laws that have their own, by the law's name: all that were set, and those of the laws that control lanes
+             */
+            parameters: {
+                [key: string]: {
+                    [key: string]: unknown;
+                };
+            };
             observer: components["schemas"]["ObserverBandwidth"];
             limits: components["schemas"]["Limits"];
             actuator: components["schemas"]["ActuatorParameters"];
@@ -1751,7 +1802,7 @@ export interface components {
             figure: "4a" | "4b" | "5";
             /**
              * Law
-             * @description Name of a law that is installed
+             * @description Name of a law that is installed: see GET /laws
              * @default ndobc
              */
             law: string;
@@ -2024,8 +2075,15 @@ export interface components {
              * @description Name of a law that is installed
              */
             law: string;
-            /** @description Its gains; left out, those of the run */
+            /** @description Gains of a law that takes such (FL, NDOBC); left out, those of the run */
             gains?: components["schemas"]["Gains"] | null;
+            /**
+             * Parameters
+             * @description Parameters of a law that has its own; left out, those of the run
+             */
+            parameters?: {
+                [key: string]: unknown;
+            } | null;
             /** @description Its observer; left out, that of the run */
             observer?: components["schemas"]["ObserverBandwidth"] | null;
         };
@@ -2090,7 +2148,7 @@ export interface components {
         LawRequest: {
             /**
              * Law
-             * @description Name of a law that is installed
+             * @description Name of a law that is installed: see GET /laws
              */
             law: string;
             /**
@@ -2099,6 +2157,49 @@ export interface components {
              * @default []
              */
             rival_laws: string[];
+        };
+        /**
+         * LawState
+         * @description A law that is installed, in its own words.
+         */
+        LawState: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /** Summary */
+            summary: string;
+            /**
+             * Equation
+             * @description KaTeX
+             */
+            equation: string;
+            /**
+             * Source
+             * @description Number of the paper's equation, a DOI, or empty
+             */
+            source: string;
+            /**
+             * Estimate
+             * @description Whose ŵ it acts on
+             * @enum {string}
+             */
+            estimate: "none" | "observer" | "own";
+            /**
+             * Takes Gains
+             * @description Its parameters are the session's gains, of Eq 25
+             */
+            takes_gains: boolean;
+            /**
+             * Parameters
+             * @description Its own; none where it takes gains
+             */
+            parameters: components["schemas"]["ParameterState"][];
+            /**
+             * Problem
+             * @description Why it cannot be used; null where it can
+             */
+            problem: string | null;
         };
         /**
          * Limits
@@ -2557,6 +2658,40 @@ export interface components {
              * @description The text of the file
              */
             toml: string;
+        };
+        /**
+         * ParameterState
+         * @description A parameter of a law.
+         */
+        ParameterState: {
+            /** Name */
+            name: string;
+            /**
+             * Symbol
+             * @description What it is called in short
+             */
+            symbol: string;
+            /** Meaning */
+            meaning: string;
+            /**
+             * Unit
+             * @description "1" or empty where it has none
+             */
+            unit: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "number" | "numbers" | "flag" | "text";
+            /** Default */
+            default: number | boolean | string | number[];
+            /**
+             * Least
+             * @description Null where nothing bounds it from below
+             */
+            least: number | null;
+            /** Most */
+            most: number | null;
         };
         /**
          * PositionSeries
@@ -3337,7 +3472,7 @@ export interface components {
             figure: "4a" | "4b" | "5";
             /**
              * Law
-             * @description Name of a law that is installed
+             * @description Name of a law that is installed: see GET /laws
              * @default ndobc
              */
             law: string;
@@ -3947,6 +4082,35 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_laws_api_v1_laws_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LawState"][];
+                };
             };
             /** @description From a page of another site, or for another host than this one. */
             403: {
@@ -5642,6 +5806,94 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["GainsRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    set_parameters_api_v1_sessions__session__parameters_put: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": {
+                    [key: string]: {
+                        [key: string]: unknown;
+                    };
+                };
             };
         };
         responses: {

@@ -15,7 +15,10 @@ export type EffectsRequest = {
     : Effects[K];
 };
 export type ActuatorParameters = Configuration["actuator"];
+/** The name of a law. */
 export type Law = Configuration["law"];
+export type LawRow = Schemas["LawState"];
+export type LawParameter = Schemas["ParameterState"];
 export type Speed = SessionState["speed"];
 export type LoadRow = Schemas["LoadState"];
 export type LaneRow = SessionState["lanes"][number];

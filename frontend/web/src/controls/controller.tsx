@@ -3,20 +3,19 @@ import { putLaw } from "../api/client";
 import type { SessionState } from "../api/types";
 import { perform } from "../state/actions";
 import { lawsBeside } from "../state/lanes";
+import { brokenLaws, lawOf, usableLaws } from "../state/laws";
 import { text } from "../text/en";
 import { Choice } from "./choice";
 import { Compare } from "./compare";
 import { Gains } from "./gains";
 import { Group } from "./group";
+import { LawForm } from "./law";
 import { Problem } from "./problem";
-
-const LAWS = [
-  { value: "fl", label: text.controller.fl },
-  { value: "ndobc", label: text.controller.ndobc },
-] as const;
 
 export function Controller({ state }: { state: SessionState }) {
   const { law, gains } = state.configuration;
+  const present = lawOf(law);
+  const options = usableLaws.value.map(({ name, title }) => ({ value: name, label: title }));
   const id = useId();
   return (
     <Group
@@ -25,7 +24,7 @@ export function Controller({ state }: { state: SessionState }) {
       aside={
         <Choice
           label={text.controller.law}
-          options={LAWS}
+          options={options}
           value={law}
           describedBy={id}
           onChoose={(next) =>
@@ -35,11 +34,17 @@ export function Controller({ state }: { state: SessionState }) {
       }
     >
       <p class="hint is-about" id={id}>
-        {law === "fl" ? text.controller.flDoes : text.controller.ndobcDoes}
+        {present?.summary}
       </p>
       <Problem control="controller.law" />
       <Compare state={state} />
-      <Gains gains={gains} />
+      {present && !present.takes_gains && <LawForm law={present} state={state} />}
+      {(!present || present.takes_gains) && <Gains gains={gains} />}
+      {brokenLaws.value.map(({ name, problem }) => (
+        <p class="problem" key={name}>
+          {problem}
+        </p>
+      ))}
     </Group>
   );
 }

@@ -1,6 +1,7 @@
 import { putObserver } from "../api/client";
 import type { SessionState } from "../api/types";
 import { shownAs } from "../quantities";
+import { lawOf } from "../state/laws";
 import { text } from "../text/en";
 import { Field } from "./field";
 import { Group } from "./group";
@@ -10,6 +11,7 @@ const RANGE: SliderRange = { min: 2, max: 300, logarithmic: true };
 
 export function Observer({ state }: { state: SessionState }) {
   const { law, observer } = state.configuration;
+  const present = lawOf(law);
   const bandwidth = observer.bandwidth_rad_per_s;
   const sendOne = (changed: number, beta: number) => {
     const next: typeof bandwidth = [...bandwidth];
@@ -19,7 +21,9 @@ export function Observer({ state }: { state: SessionState }) {
   const isSpread = bandwidth.some((beta) => beta !== bandwidth[0]);
   return (
     <Group title={text.observer.title} topic="disturbance">
-      {law === "fl" && <p class="hint">{text.observer.unused}</p>}
+      {present && present.estimate !== "observer" && (
+        <p class="hint">{text.observer.unused(present.title)}</p>
+      )}
       <Field
         name="observer.all"
         {...shownAs("bandwidth_rad_per_s")}

@@ -1,4 +1,7 @@
+import type { LawRow } from "../api/types";
 import { Popup } from "../panel/popup";
+import { laws } from "../state/laws";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { EQUATIONS, type Equation, type Topic } from "./equations";
 import { Formula } from "./formula";
@@ -36,10 +39,23 @@ function EquationRow({ equation }: { equation: Equation }) {
   );
 }
 
+/** Beside the paper's two laws, those that control lanes now: in their own words. */
+export function equationsOf(topic: Topic, controlling: readonly LawRow[]): readonly Equation[] {
+  const printed = EQUATIONS[topic];
+  if (topic !== "controller") return printed;
+  const own = controlling.filter(({ name }) => !printed.some(({ law }) => law === name));
+  return [
+    ...own.map(({ title, equation }) => ({ tex: `\\text{${title}:}\\quad ${equation}` })),
+    ...printed,
+  ];
+}
+
 export function EquationCard({ topic }: { topic: Topic }) {
+  const names = new Set(session.value?.lanes.map(({ law }) => law));
+  const controlling = laws.value.filter(({ name, equation }) => equation && names.has(name));
   return (
     <div class="equation-card">
-      {EQUATIONS[topic].map((equation) => (
+      {equationsOf(topic, controlling).map((equation) => (
         <EquationRow key={equation.tex} equation={equation} />
       ))}
     </div>

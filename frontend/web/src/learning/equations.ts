@@ -6,6 +6,8 @@ export interface Equation {
   tex: string;
   /** As the paper prints it, where that is wrong. */
   printed?: string;
+  /** The law whose equation this is: it stands here with what the paper prints. */
+  law?: string;
   /** Key of the words in `text.equations.notes`. */
   note?: NoteKey;
 }
@@ -129,11 +131,13 @@ export const EQUATIONS: Record<Topic, readonly Equation[]> = {
   controller: [
     {
       number: "36",
+      law: "fl",
       tex: String.raw`\text{FL:}\quad u=A^{-1}\,(b-v)`,
       printed: String.raw`u=A^{-1}\,(v-b)`,
     },
     {
       number: "24",
+      law: "ndobc",
       tex: String.raw`\text{NDOBC:}\quad u=A^{-1}\,(b-v-\Gamma\hat w)`,
       printed: String.raw`u=A^{-1}\,(-b+v+\Gamma\hat w)`,
       note: "signLaw",

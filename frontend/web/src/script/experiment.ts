@@ -6,7 +6,7 @@ type Values = Record<string, unknown>;
 type Step = { method: "PUT" | "POST" | "PATCH" | "DELETE"; path: string; body?: unknown };
 
 const IN_TRY = "    ";
-const SETTINGS = ["position", "stiffness", "gains", "observer"] as const;
+const SETTINGS = ["position", "stiffness", "gains", "parameters", "observer"] as const;
 const MODELS = ["actuator", "nominal"] as const;
 
 const isSame = (one: unknown, other: unknown) => JSON.stringify(one) === JSON.stringify(other);

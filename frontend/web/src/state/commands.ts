@@ -9,9 +9,10 @@ import {
   startRecording,
   stopRecording,
 } from "../api/client";
-import type { SessionState } from "../api/types";
+import type { Law, SessionState } from "../api/types";
 import { perform } from "./actions";
-import { otherLaw, rivalsOf } from "./lanes";
+import { rivalsOf } from "./lanes";
+import { otherLaw } from "./laws";
 import { hungWeights, nextWeight } from "./load";
 
 /** Names of the controls that show why a command was refused. */
@@ -30,8 +31,13 @@ export function toggleRecording({ recording }: SessionState): Promise<boolean> {
 }
 
 export function toggleCompare(state: SessionState): Promise<boolean> {
-  const laws = rivalsOf(state).length > 0 ? [] : [otherLaw(state.configuration.law)];
-  return perform(CONTROL.compare, () => putLanes(laws));
+  const other = otherLaw(state.configuration.law);
+  return compareWith(rivalsOf(state).length > 0 || other === undefined ? null : other);
+}
+
+/** Run this law beside the session's own, or none. */
+export function compareWith(law: Law | null): Promise<boolean> {
+  return perform(CONTROL.compare, () => putLanes(law === null ? [] : [law]));
 }
 
 async function removeWeights(state: SessionState): Promise<SessionState> {

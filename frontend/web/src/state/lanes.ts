@@ -3,8 +3,6 @@ import { computed } from "@preact/signals";
 import type { LaneRow, Law, SessionState } from "../api/types";
 import { session } from "./session";
 
-export const otherLaw = (law: Law): Law => (law === "fl" ? "ndobc" : "fl");
-
 /** The controllers set beside the session's own; a bench's simulated twin is none of them. */
 export const rivalsOf = ({ configuration: { rivals }, bench }: SessionState) =>
   bench === null ? rivals : rivals.slice(1);

@@ -96,9 +96,6 @@ export const controlsText = {
     law: "Control law",
     fl: "FL",
     ndobc: "NDOBC",
-    flDoes: "Feedback linearization cancels the model it knows; a load it does not know stays.",
-    ndobcDoes:
-      "Feedback linearization, and an observer that estimates the unknown load and cancels it.",
   },
   gains: {
     coefficients: "Gains, coefficient by coefficient",
@@ -110,7 +107,7 @@ export const controlsText = {
     all: "Bandwidth β",
     each: "Each channel by itself",
     spread: "The channels differ; the slider sets all three.",
-    unused: "FL does not use the estimate; the observer runs beside it.",
+    unused: (law: string) => `${law} does not use this estimate; the observer runs beside it.`,
   },
   load: {
     title: "Load",

@@ -210,6 +210,7 @@ export const plotsText = {
   },
   compare: {
     with: (law: string) => `Compare with ${law}`,
+    law: "Law beside",
     does: "Runs beside, on an actuator of its own, with the same motion, load and noise.",
     whileRecording: "A recording has the same lanes throughout: stop it first.",
     versus: (names: readonly string[]) => names.join(" against "),

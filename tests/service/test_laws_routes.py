@@ -1,0 +1,79 @@
+"""Laws over REST: what each says of itself, its own parameters, and lanes that hold any law."""
+
+import pytest
+
+from tests.lab import Lab
+
+FASTER = {"fl_integral": {"position_pole_rad_per_s": 70.0}}
+
+
+def test_every_installed_law_says_what_it_is(lab: Lab) -> None:
+    laws = {law["name"]: law for law in lab.client.get("/api/v1/laws").raise_for_status().json()}
+    assert list(laws)[:1] == ["ndobc"]
+    assert {name: law["takes_gains"] for name, law in laws.items()} == {
+        "ndobc": True,
+        "fl": True,
+        "fl_integral": False,
+    }
+    integral = laws["fl_integral"]
+    assert integral["problem"] is None
+    assert "int" in integral["equation"]
+    assert integral["parameters"][0] == {
+        "name": "position_pole_rad_per_s",
+        "symbol": "a",
+        "meaning": "a of (s + a)⁵, the position's",
+        "unit": "rad/s",
+        "kind": "number",
+        "default": 54.6,
+        "least": 5.0,
+        "most": 150.0,
+    }
+
+
+def test_parameters_are_set_by_law_and_what_is_left_out_stays(lab: Lab) -> None:
+    lab.client.put(lab.session + "/law", json={"law": "fl_integral"}).raise_for_status()
+    held = lab.read()["configuration"]["parameters"]["fl_integral"]
+    assert held == {"position_pole_rad_per_s": 54.6, "stiffness_pole_rad_per_s": 32.9}
+    state = lab.client.put(lab.session + "/parameters", json=FASTER).raise_for_status().json()
+    changed = held | FASTER["fl_integral"]
+    assert state["configuration"]["parameters"]["fl_integral"] == changed
+    other = {"fl_integral": {"stiffness_pole_rad_per_s": 30.0}}
+    state = lab.client.put(lab.session + "/parameters", json=other).raise_for_status().json()
+    assert state["configuration"]["parameters"]["fl_integral"] == changed | other["fl_integral"]
+
+
+@pytest.mark.parametrize(
+    ("path", "body", "words"),
+    [
+        ("law", {"law": "pid"}, "installed here: ndobc, fl"),
+        ("lanes", {"rivals": [{"law": "pid"}]}, "installed here: ndobc, fl"),
+        ("lanes", {"rivals": [{"law": "ndobc", "parameters": {"a": 1}}]}, "takes the run's gains"),
+        ("parameters", {"pid": {}}, "installed here"),
+        ("parameters", {"ndobc": {}}, "takes the run's gains"),
+        (
+            "parameters",
+            {"fl_integral": {"position_pole_rad_per_s": 1e9}},
+            "fl_integral.position_pole_rad_per_s is 1e+09 rad/s: it must be at most 150 rad/s",
+        ),
+        ("parameters", {"fl_integral": {"color": 1.0}}, "fl_integral.color"),
+    ],
+)
+def test_what_is_wrong_is_refused_by_name_and_changes_nothing(
+    lab: Lab, path: str, body: dict, words: str
+) -> None:
+    before = lab.read()["configuration"]
+    answer = lab.client.put(f"{lab.session}/{path}", json=body)
+    assert answer.status_code == 422
+    assert words in answer.json()["message"]
+    assert lab.read()["configuration"] == before
+
+
+def test_the_same_law_twice_with_other_parameters_side_by_side(lab: Lab) -> None:
+    lab.client.put(lab.session + "/law", json={"law": "fl_integral"}).raise_for_status()
+    rivals = [{"law": "fl_integral", "parameters": FASTER["fl_integral"]}, {"law": "fl"}]
+    body = {"rivals": rivals}
+    state = lab.client.put(lab.session + "/lanes", json=body).raise_for_status().json()
+    names = [lane["name"] for lane in state["lanes"]]
+    assert names[1:] == ["FL + I a 70", "FL"]
+    assert names[0].startswith("FL + I a ")
+    assert state["configuration"]["rivals"][0]["parameters"]["stiffness_pole_rad_per_s"] == 32.9
