@@ -12,9 +12,10 @@ import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
+from svsa.runtime.measured_window import trace_record
 from svsa.runtime.recording.reader import open_record
 from svsa.runtime.resimulation import compare_with_simulation
-from svsa_server.lanes import list_record_stretches, name_lanes, trace_record
+from svsa_server.lanes import list_record_stretches, name_lanes
 from svsa_server.replay_export import list_marks
 
 EXAMPLE = Path(__file__).parents[1] / "data" / "example_law"
