@@ -53,7 +53,7 @@ def test_parameters_are_set_by_law_and_what_is_left_out_stays(lab: Lab) -> None:
         (
             "parameters",
             {"fl_integral": {"position_pole_rad_per_s": 200.0}},
-            "fl_integral.position_pole_rad_per_s is 200 rad/s: it must be at most 150 rad/s",
+            "fl_integral.position_pole_rad_per_s is 200.0 rad/s: it must be at most 150 rad/s",
         ),
         ("parameters", {"fl_integral": {"color": 1.0}}, "fl_integral.color"),
     ],
