@@ -42,6 +42,8 @@ LANES = 32
 REPEATS = 15
 BENCH_TICKS = 1000
 FIGURE, LAW = "4a", "ndobc"
+COMPILE = ("from svsa.cli import main; main()", "compile")
+FIRST_RUN = (f"import svsa; svsa.simulate({FIGURE!r}, {LAW!r})",)
 
 
 class CLoop(NamedTuple):
@@ -155,13 +157,13 @@ def measure_bench_tick(run: Run, repeats: int = REPEATS) -> float:
 
 
 def measure_start() -> dict[str, float]:
-    """CPU seconds of `svsa compile` where nothing is compiled, and of the same once it is."""
+    """CPU seconds of `svsa compile` where nothing is compiled, then of a first run in Python."""
+    costs = []
     with tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder:
-        costs = []
-        for _ in range(2):
+        for program in (COMPILE, FIRST_RUN):
             begin = resource.getrusage(resource.RUSAGE_CHILDREN)
-            subprocess.run(
-                [sys.executable, "-c", "from svsa.cli import main; main()", "compile"],
+            subprocess.run(  # noqa: S603  this program itself
+                [sys.executable, "-c", *program],
                 env=os.environ | {"SVSA_CACHE": folder},
                 check=True,
                 capture_output=True,
