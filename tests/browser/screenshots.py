@@ -14,6 +14,7 @@ from tests.lab import Lab, run_lab
 FOLDER = Path(__file__).parents[2] / "frontend" / "screenshots"
 COLORS = 256
 SETTLE_MS = 3000
+LONGEST_MS = 90_000
 
 
 def compare(lab: Lab, seconds: float = 9.0) -> None:
@@ -53,6 +54,7 @@ def show_design(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name="Place poles").click()
     page.get_by_role("spinbutton", name=re.compile("^Position")).first.fill("45")
     page.keyboard.press("Enter")
+    page.get_by_text("What this would do").wait_for(timeout=LONGEST_MS)
 
 
 def show_overlay(page: Page, lab: Lab) -> None:
