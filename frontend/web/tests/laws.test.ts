@@ -25,13 +25,17 @@ it("any number of laws: the one beside is the first other one that works", async
 });
 
 it("a parameter has a slider where both its ends are bounded", async () => {
-  const { changedAt, rangeOf } = await import("../src/controls/law");
+  const { changedAt, isWordy, rangeOf } = await import("../src/controls/law");
   const row = { ...RATE, default: 2 };
   expect(rangeOf({ ...row, least: 1, most: 150 })).toEqual({
     range: { min: 1, max: 150, logarithmic: true },
   });
   expect(rangeOf({ ...row, least: 0, most: 3 }).range?.logarithmic).toBe(false);
   expect(rangeOf({ ...row, least: null, most: 3 })).toEqual({});
+  expect([isWordy({ ...row, least: 1, most: 2 })]).toEqual([false]);
+  expect(isWordy({ ...row, meaning: "Rate of the link's own motion", least: 1, most: 2 })).toBe(
+    true,
+  );
   expect(changedAt(2, null, 3)).toBe(3);
   expect(changedAt([1, 2, 3], 1, 5)).toEqual([1, 5, 3]);
 });

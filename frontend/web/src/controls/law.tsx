@@ -3,6 +3,8 @@ import type { LawParameter, LawRow, SessionState } from "../api/types";
 import { Field } from "./field";
 import type { SliderRange } from "./scale";
 
+const LONGEST_LABEL = 18;
+
 type Value = string | number | boolean | readonly number[];
 
 /** A slider where both ends are bounded; by decades where they are far apart. */
@@ -10,6 +12,10 @@ export function rangeOf({ least, most }: LawParameter): { range?: SliderRange } 
   if (least === null || most === null) return {};
   return { range: { min: least, max: most, logarithmic: least > 0 && most / least >= 10 } };
 }
+
+/** A meaning that leaves no room for the slider stands above it, which then has the symbol. */
+export const isWordy = ({ symbol, meaning }: LawParameter): boolean =>
+  symbol !== "" && meaning.length > LONGEST_LABEL;
 
 /** Of several numbers each has its place. */
 export function changedAt(held: Value, index: number | null, value: number): Value {
@@ -20,13 +26,16 @@ export function changedAt(held: Value, index: number | null, value: number): Val
 function Parameter({ law, row, held }: { law: LawRow; row: LawParameter; held: Value }) {
   const unit = row.unit === "1" ? "" : row.unit;
   const places = row.kind === "numbers" ? (held as number[]).map((_, index) => index) : [null];
+  const label = isWordy(row) ? row.symbol : row.meaning;
   return (
     <>
+      {isWordy(row) && <p class="hint">{row.meaning}</p>}
       {places.map((index) => (
         <Field
           key={index}
           name={`parameters.${law.name}.${row.name}${index === null ? "" : `[${index}]`}`}
-          label={index === null ? row.meaning : `${row.meaning} ${index + 1}`}
+          label={index === null ? label : `${label} ${index + 1}`}
+          {...(isWordy(row) ? { labelRest: row.meaning } : {})}
           unit={unit}
           value={index === null ? (held as number) : ((held as number[])[index] as number)}
           {...rangeOf(row)}
