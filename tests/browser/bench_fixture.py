@@ -30,6 +30,8 @@ BENCH: dict[str, Any] = {
         "silent_s": None,
         "stopped_by": None,
         "unreachable": None,
+        "step": None,
+        "starting_s": None,
         "rate_hz": 1000.0,
         "ticks": 182_341,
         "skipped_ticks": 3,
