@@ -4,6 +4,7 @@ import asyncio
 import time
 import types
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -93,7 +94,8 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[BenchProcesses, Lin
     monkeypatch.setattr(launch, "_watch", lambda *_: types.SimpleNamespace(stop=lambda _: None))
     monkeypatch.setattr(launch, "END_S", 0.0)
     configuration = get_figure("4a").build_configuration()
-    processes = BenchProcesses("bench.toml", configuration, LONG_S, launch.keep_quiet, let_pass)
+    processes = BenchProcesses(Path("bench.toml"), configuration, let_pass)
+    processes.wait_until_ready(LONG_S, lambda *_: None)
     theirs.receive(LONG_S)
     yield processes, theirs
     theirs.close()
