@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.runtime.measured_window import MeasuredWindow
+from svsa.records.measured_window import MeasuredWindow
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay_curves import compute_metrics, list_events, pack_curves
 from svsa_scene.replay_motion import POSE_CHANNELS, record_motion

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from svsa.runtime.command import KINDS
-from svsa.runtime.measured_window import MeasuredWindow, summarize
-from svsa.runtime.metrics import MEASURED, RunningMetrics
+from svsa.records.measured_window import MeasuredWindow, summarize
+from svsa.run.command import KINDS
+from svsa.run.metrics import MEASURED, RunningMetrics
 from svsa.signals import PLOTTED
 from svsa_scene.replay_packing import ArrayPack
 
@@ -91,7 +91,7 @@ def compute_metrics(
     samples: Array, channels: Sequence[str], period_s: float, window: MeasuredWindow
 ) -> list[dict[str, float | None]]:
     """For each lane its metrics over these samples of a window, in SI, as
-    `svsa.runtime.metrics.Metrics`; none without the channels for it, or without numbers.
+    `svsa.run.metrics.Metrics`; none without the channels for it, or without numbers.
     """
     if not set(MEASURED) <= set(channels):
         return []

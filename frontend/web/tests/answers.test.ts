@@ -25,7 +25,7 @@ async function load(server: Server) {
   const { perform, problem } = await import("../src/state/actions");
   const { told } = await import("../src/api/outcome");
   const { session } = await import("../src/state/session");
-  const { calls } = await import("../src/script/calls");
+  const { calls } = await import("../src/api/calls");
   const { text } = await import("../src/text/en");
   session.value = { ...STATE, tick: 0, status: "paused" } as never;
   const words = text.connection;

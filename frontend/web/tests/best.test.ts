@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { bestOf } from "../src/layout/best";
+import { bestOf } from "../src/widgets/best";
 
 describe("bestOf", () => {
   it.each([

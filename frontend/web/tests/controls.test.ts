@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from "vitest";
-import { positionOf, STEPS, valueAt } from "../src/controls/scale";
 import { backoffMs, type Finding, StreamConnection } from "../src/stream/connection";
+import { positionOf, STEPS, valueAt } from "../src/widgets/scale";
 
 describe("slider scale", () => {
   const even = { min: -90, max: 90, step: 1 };

@@ -41,7 +41,7 @@ it("a parameter has a slider where both its ends are bounded", async () => {
 });
 
 it("a law that controls stands among the equations in its own words, the paper's once", async () => {
-  const { equationsOf } = await import("../src/learning/equation");
+  const { equationsOf } = await import("../src/equations/equation");
   const printed = equationsOf("controller", []).length;
   const found = equationsOf("controller", [law("ndobc"), law("motor_pd", { title: "PD" })]);
   expect(found).toHaveLength(printed + 1);

@@ -1,6 +1,6 @@
 import katex from "katex";
 import { describe, expect, it } from "vitest";
-import { EQUATIONS, TOPICS } from "../src/learning/equations";
+import { EQUATIONS, TOPICS } from "../src/equations/equations";
 import { type Course, judge, measure, type Numbers, sliceCourse } from "../src/learning/outcome";
 import { text } from "../src/text/en";
 

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from "vitest";
+import { calls, clearCalls, noteCall, noteDownload } from "../src/api/calls";
 import type { RunOrigin } from "../src/api/types";
-import { calls, clearCalls, noteCall, noteDownload } from "../src/script/calls";
 import { stepOf, writeExperiment } from "../src/script/experiment";
 import { callInPython, toPython } from "../src/script/python";
 import { toSnippet, toSnippets } from "../src/script/snippets";

@@ -1,6 +1,6 @@
 /** What became of a request whose answer did not come: the server is asked until it says. */
 import { signal } from "@preact/signals";
-import { answerCall } from "../script/calls";
+import { answerCall } from "./calls";
 import { NotCarriedOutError, RefusedError, type UnansweredError } from "./errors";
 import { request } from "./request";
 import type { OutcomeState } from "./types";

@@ -1,5 +1,5 @@
 /** One request to the server, and which session the page is about. */
-import { noteCall } from "../script/calls";
+import { noteCall } from "./calls";
 import { LockedError, RefusedError, UnansweredError } from "./errors";
 import { client, drawText } from "./identity";
 import type { Method, Refusal } from "./types";

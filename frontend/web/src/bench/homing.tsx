@@ -1,11 +1,11 @@
 import { useId } from "preact/hooks";
 import { confirmHome } from "../api/client";
 import type { Axis, BenchState } from "../api/types";
-import { Problem } from "../controls/problem";
 import { perform } from "../state/actions";
 import { mayCommand } from "../state/control";
 import { personName, rememberPerson } from "../state/preferences";
 import { text } from "../text/en";
+import { Problem } from "../widgets/problem";
 import { allowedOn } from "./status";
 
 const { homing: words } = text.bench;

@@ -1,9 +1,9 @@
 import { useId, useState } from "preact/hooks";
 import type { BenchState } from "../api/types";
-import { Problem } from "../controls/problem";
 import { mark } from "../state/bench";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
+import { Problem } from "../widgets/problem";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
 import { HoldRow } from "./holdrow";

@@ -1,5 +1,4 @@
 import { useId, useState } from "preact/hooks";
-import { Problem } from "../controls/problem";
 import {
   CONTROL_OF_SESSION,
   confirmControl,
@@ -10,6 +9,7 @@ import {
 import { defaultName, LONGEST_NAME, personName } from "../state/preferences";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
+import { Problem } from "../widgets/problem";
 
 const words = text.control;
 

@@ -6,7 +6,7 @@ import { CONTROL, compareWith, toggleCompare } from "../state/commands";
 import { rivalsOf } from "../state/lanes";
 import { otherLaw, titleOf, usableLaws } from "../state/laws";
 import { text } from "../text/en";
-import { Problem } from "./problem";
+import { Problem } from "../widgets/problem";
 
 /** Another law beside the session's own, switched on and off; of several others, which one. */
 export function Compare({ state }: { state: SessionState }) {

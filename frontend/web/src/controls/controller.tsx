@@ -5,12 +5,12 @@ import { perform } from "../state/actions";
 import { lawsBeside } from "../state/lanes";
 import { brokenLaws, lawOf, usableLaws } from "../state/laws";
 import { text } from "../text/en";
-import { Choice } from "./choice";
+import { Choice } from "../widgets/choice";
+import { Problem } from "../widgets/problem";
 import { Compare } from "./compare";
 import { Gains } from "./gains";
 import { Group } from "./group";
 import { LawForm } from "./law";
-import { Problem } from "./problem";
 
 export function Controller({ state }: { state: SessionState }) {
   const { law, gains } = state.configuration;

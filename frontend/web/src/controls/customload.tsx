@@ -4,9 +4,9 @@ import type { Load } from "../api/types";
 import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
-import { Choice } from "./choice";
+import { Choice } from "../widgets/choice";
+import { Problem } from "../widgets/problem";
 import { NumberBox } from "./numberbox";
-import { Problem } from "./problem";
 
 type Kind = "constant" | "pulse" | "sine";
 type Channel = "0" | "1" | "2";

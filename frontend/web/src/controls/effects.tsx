@@ -5,8 +5,8 @@ import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { EFFECTS, type Effect } from "../state/effects";
 import { text } from "../text/en";
+import { Problem } from "../widgets/problem";
 import { Field } from "./field";
-import { Problem } from "./problem";
 
 const words = text.realism;
 type ValueKey = keyof typeof words.values;

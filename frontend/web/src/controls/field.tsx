@@ -1,9 +1,9 @@
 import { useId } from "preact/hooks";
 import { text } from "../text/en";
 import { formatInput } from "../units";
+import { Problem } from "../widgets/problem";
+import { positionOf, type SliderRange, STEPS, valueAt } from "../widgets/scale";
 import { type HeldNumber, useDraft } from "./draft";
-import { Problem } from "./problem";
-import { positionOf, type SliderRange, STEPS, valueAt } from "./scale";
 
 export interface FieldProps extends HeldNumber {
   label: string;

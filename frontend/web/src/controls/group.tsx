@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
-import { EquationButton } from "../learning/equation";
-import type { Topic } from "../learning/equations";
+import { EquationButton } from "../equations/equation";
+import type { Topic } from "../equations/equations";
 
 interface GroupProps {
   title: string;

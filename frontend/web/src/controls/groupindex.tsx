@@ -1,6 +1,6 @@
 import type { RefObject } from "preact";
-import { goTo, headingOf, useBelow } from "../panel/below";
 import { text } from "../text/en";
+import { goTo, headingOf, useBelow } from "../widgets/below";
 
 /** The groups that are scrolled out of sight below; a touch goes there. */
 export function GroupIndex({ groups }: { groups: RefObject<HTMLElement | null> }) {

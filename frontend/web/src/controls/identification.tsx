@@ -3,8 +3,8 @@ import type { SessionState } from "../api/types";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
 import { formatSeconds } from "../units";
+import { Problem } from "../widgets/problem";
 import { Group } from "./group";
-import { Problem } from "./problem";
 
 const words = text.identification;
 

@@ -1,7 +1,7 @@
 import { putParameters } from "../api/client";
 import type { LawParameter, LawRow, SessionState } from "../api/types";
+import type { SliderRange } from "../widgets/scale";
 import { Field } from "./field";
-import type { SliderRange } from "./scale";
 
 const LONGEST_LABEL = 18;
 

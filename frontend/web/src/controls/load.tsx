@@ -4,10 +4,10 @@ import { perform } from "../state/actions";
 import { isRealBench, isWeight, presentLoads, type WeightForm, weightForm } from "../state/load";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
-import { Choice } from "./choice";
+import { Choice } from "../widgets/choice";
+import { Problem } from "../widgets/problem";
 import { CustomLoad } from "./customload";
 import { Group } from "./group";
-import { Problem } from "./problem";
 
 const FORMS: readonly { value: WeightForm; label: string }[] = [
   { value: "paper", label: text.load.paper },

@@ -5,7 +5,7 @@ import { mayCommand } from "../state/control";
 import { hungWeights, isRealBench, nextWeightAt, weightForm } from "../state/load";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
-import { Problem } from "./problem";
+import { Problem } from "../widgets/problem";
 
 function WeightPicture({ isHung }: { isHung: boolean }) {
   return (

@@ -3,9 +3,9 @@ import type { SessionState } from "../api/types";
 import { shownAs } from "../quantities";
 import { lawOf } from "../state/laws";
 import { text } from "../text/en";
+import type { SliderRange } from "../widgets/scale";
 import { Field } from "./field";
 import { Group } from "./group";
-import type { SliderRange } from "./scale";
 
 const RANGE: SliderRange = { min: 2, max: 300, logarithmic: true };
 

@@ -4,8 +4,8 @@ import type { ActuatorParameters } from "../api/types";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
+import { Problem } from "../widgets/problem";
 import { type HeldNumber, useDraft } from "./draft";
-import { Problem } from "./problem";
 
 const words = text.realism;
 type Key = keyof typeof words.names;

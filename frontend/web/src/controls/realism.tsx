@@ -3,11 +3,11 @@ import type { SessionState } from "../api/types";
 import { perform } from "../state/actions";
 import { PRESETS, type Preset, presetOf } from "../state/effects";
 import { text } from "../text/en";
-import { Choice } from "./choice";
+import { Choice } from "../widgets/choice";
+import { Problem } from "../widgets/problem";
 import { EffectList } from "./effects";
 import { Group } from "./group";
 import { ParameterTable } from "./parameters";
-import { Problem } from "./problem";
 
 const words = text.realism;
 const CHOICES = (Object.keys(PRESETS) as Preset[]).map((value) => ({

@@ -2,9 +2,9 @@ import type { ComponentChildren } from "preact";
 import type { Follows } from "../api/references";
 import type { PositionReference, StiffnessReference } from "../api/types";
 import { text } from "../text/en";
-import { Choice, type Option } from "./choice";
+import { Choice, type Option } from "../widgets/choice";
+import { Problem } from "../widgets/problem";
 import { Group } from "./group";
-import { Problem } from "./problem";
 import { Shaped } from "./shaped";
 import type { Shape } from "./shapes";
 

@@ -11,12 +11,12 @@ import type { PositionReference, Sent, StiffnessReference } from "../api/types";
 import { explain, perform } from "../state/actions";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
-import { Choice } from "./choice";
+import { Choice } from "../widgets/choice";
+import { Problem } from "../widgets/problem";
 import { Course } from "./course";
 import { readLevels, writeLevels } from "./levels";
 import { Levels, Series } from "./listed";
 import { NumberBox } from "./numberbox";
-import { Problem } from "./problem";
 import { buildReference, FIRST, INPUTS, type Input, SHAPES, type Shape } from "./shapes";
 
 const words = text.references;

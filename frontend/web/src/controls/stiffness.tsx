@@ -4,9 +4,9 @@ import type { Sent, SessionState, StiffnessReference } from "../api/types";
 import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
+import type { SliderRange } from "../widgets/scale";
 import { Field } from "./field";
 import { type Kind, kindOf, ReferenceGroup } from "./reference";
-import type { SliderRange } from "./scale";
 
 type Sine = Extract<StiffnessReference, { kind: "sine" }>;
 

@@ -1,7 +1,7 @@
 import { useId, useState } from "preact/hooks";
-import { positionOf, type SliderRange, STEPS, valueAt } from "../controls/scale";
 import { text } from "../text/en";
 import { formatInput } from "../units";
+import { positionOf, type SliderRange, STEPS, valueAt } from "../widgets/scale";
 import { draft, type Group, tryObserver, tryPoles } from "./draft";
 import { allAt, areTogether, bandwidthOf } from "./poles";
 

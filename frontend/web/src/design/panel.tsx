@@ -1,8 +1,8 @@
 import { useEffect } from "preact/hooks";
-import { Problem } from "../controls/problem";
-import { Panel } from "../panel/panel";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
+import { Panel } from "../widgets/panel";
+import { Problem } from "../widgets/problem";
 import { Bandwidths } from "./bandwidths";
 import {
   apply,

@@ -1,7 +1,7 @@
-import { Problem } from "../controls/problem";
-import { PanelButton } from "../panel/panelbutton";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
+import { PanelButton } from "../widgets/panelbutton";
+import { Problem } from "../widgets/problem";
 import { discard, inUse, isOpen } from "./draft";
 import { steps, undo } from "./history";
 import { describePoles } from "./words";

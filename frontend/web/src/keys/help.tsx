@@ -1,10 +1,10 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
-import { Panel } from "../panel/panel";
-import { PanelButton } from "../panel/panelbutton";
 import { bench } from "../state/bench";
 import { areKeysOn, chooseKeys } from "../state/preferences";
 import { text } from "../text/en";
+import { Panel } from "../widgets/panel";
+import { PanelButton } from "../widgets/panelbutton";
 import { isHelpOpen } from "./keys";
 
 const { keys } = text;

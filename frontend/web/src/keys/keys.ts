@@ -3,7 +3,6 @@ import { signal } from "@preact/signals";
 import { pause } from "../api/client";
 import type { SessionState } from "../api/types";
 import { canHold, hold, letGo } from "../bench/hold";
-import { closeNewest } from "../panel/escape";
 import { toggleZoom } from "../plots/eventzoom";
 import { place, toggleRuns } from "../runs/place";
 import { pressStop } from "../safety/stop";
@@ -19,6 +18,7 @@ import {
 } from "../state/commands";
 import { areKeysOn } from "../state/preferences";
 import { isLive, session } from "../state/session";
+import { closeNewest } from "../widgets/escape";
 import { type Command, endsHold, findCommand, focusOf } from "./shortcuts";
 
 const HOLD_GRIP = "key";

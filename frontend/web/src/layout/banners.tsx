@@ -1,11 +1,11 @@
 import { reset, stopRecording } from "../api/client";
 import { told } from "../api/outcome";
 import { ControlBanner } from "../control/banner";
-import { Problem } from "../controls/problem";
 import { StopBanners } from "../safety/stopbanner";
 import { perform } from "../state/actions";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
+import { Problem } from "../widgets/problem";
 
 /** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */
 function Told({ now }: { now: NonNullable<typeof told.value> }) {

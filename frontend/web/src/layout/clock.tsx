@@ -1,7 +1,7 @@
 import { samples } from "../state/session";
 import { text } from "../text/en";
 import { formatTime } from "../units";
-import { useLiveText } from "./live";
+import { useLiveText } from "../widgets/live";
 
 const readTime = () => formatTime(samples.ring.newestTime || 0);
 

@@ -5,8 +5,8 @@ import { Swatch } from "../plots/legend";
 import { samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
-import { bestOf } from "./best";
-import { useLiveText } from "./live";
+import { bestOf } from "../widgets/best";
+import { useLiveText } from "../widgets/live";
 import { recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;

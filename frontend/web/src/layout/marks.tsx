@@ -4,7 +4,7 @@ import emulatedIcon from "../icons/emulated.svg";
 import realIcon from "../icons/real.svg";
 import { mark } from "../state/bench";
 import { text } from "../text/en";
-import { PlantMark } from "./plantmark";
+import { PlantMark } from "../widgets/plantmark";
 
 const ICONS = { emulated: emulatedIcon, real: realIcon } as const;
 

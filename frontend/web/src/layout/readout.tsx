@@ -2,7 +2,7 @@ import type { SessionState } from "../api/types";
 import { isLive, samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
-import { useLiveText } from "./live";
+import { useLiveText } from "../widgets/live";
 import { type Recovery, recoveryOf, sinceOf } from "./window";
 
 const degrees = (rad: number | null | undefined) =>

@@ -1,10 +1,10 @@
 import { signal } from "@preact/signals";
-import { Panel } from "../panel/panel";
-import { PanelButton } from "../panel/panelbutton";
+import { EquationCard } from "../equations/equation";
+import { TOPICS, type Topic } from "../equations/equations";
 import { text } from "../text/en";
+import { Panel } from "../widgets/panel";
+import { PanelButton } from "../widgets/panelbutton";
 import { Claims } from "./claims";
-import { EquationCard } from "./equation";
-import { TOPICS, type Topic } from "./equations";
 import { startTour } from "./tour";
 
 const words = text.learning;

@@ -1,8 +1,8 @@
 import { signal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { closeOnEscape } from "../panel/escape";
 import { remember, remembered } from "../state/storage";
 import { text } from "../text/en";
+import { closeOnEscape } from "../widgets/escape";
 
 const STORE = "svsa.tour";
 const GAP_PX = 12;

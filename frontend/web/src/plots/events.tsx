@@ -1,8 +1,8 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
-import { closeOnEscape } from "../panel/escape";
 import { session } from "../state/session";
 import { text } from "../text/en";
+import { closeOnEscape } from "../widgets/escape";
 import { onFrame, shareOf } from "./frame";
 import { isLoad } from "./marks";
 import { shownRing } from "./span";

@@ -1,5 +1,5 @@
-import { Popup } from "../panel/popup";
 import { text } from "../text/en";
+import { Popup } from "../widgets/popup";
 import { ChannelChoice } from "./channelchoice";
 import { CHANNELS_BY_UNIT, type ChannelName, unitOf } from "./channels";
 import type { Trace } from "./definitions";

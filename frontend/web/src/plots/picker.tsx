@@ -1,5 +1,5 @@
-import { Popup } from "../panel/popup";
 import { text } from "../text/en";
+import { Popup } from "../widgets/popup";
 import { ChannelChoice } from "./channelchoice";
 import { addOwnPlot, MOST_PLOTS, PRESET_NAMES, resetPlots, setups, togglePreset } from "./setups";
 

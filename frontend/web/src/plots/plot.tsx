@@ -1,5 +1,5 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { EquationButton } from "../learning/equation";
+import { EquationButton } from "../equations/equation";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";

@@ -1,8 +1,8 @@
 import type { RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { goTo, useBelow } from "../panel/below";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
+import { goTo, useBelow } from "../widgets/below";
 import { CursorHandles, CursorLines } from "./cursorlines";
 import { areCursorsOn, releaseCursors } from "./cursors";
 import { EventMarks } from "./events";

@@ -1,6 +1,6 @@
-import { useLiveText } from "../layout/live";
 import { chooseWindow, WINDOWS_S, type WindowS, windowS } from "../state/preferences";
 import { text } from "../text/en";
+import { useLiveText } from "../widgets/live";
 import { areCursorsOn, toggleCursors } from "./cursors";
 import { isZoomOn, toggleZoom } from "./eventzoom";
 import { PlotPicker } from "./picker";

@@ -1,7 +1,7 @@
 /** The run inside the page: JSON, and arrays of numbers packed into one compressed text. */
 import type { Metrics } from "../api/types";
-import { type Mark, markOf } from "../layout/plantmark";
 import type { Measured } from "../runs/measured";
+import { type Mark, markOf } from "../state/plant";
 import { type Packed, unpack } from "./packing";
 
 export interface Track {

@@ -1,7 +1,7 @@
 /** The page of an exported run; `window.svsaReplay` lets a console or a test move it. */
 import "uplot/dist/uPlot.min.css";
 import "../theme.css";
-import "../layout/plantmark.css";
+import "../widgets/plantmark.css";
 import "../scene/labels.css";
 import "../plots/plots.css";
 import "./replay.css";

@@ -1,10 +1,10 @@
 import { effect } from "@preact/signals";
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { PlantMark } from "../layout/plantmark";
 import { inkOf } from "../plots/inks";
 import { SceneLabels } from "../scene/labels";
 import { theme } from "../state/preferences";
 import { text } from "../text/replay";
+import { PlantMark } from "../widgets/plantmark";
 import { timeS } from "./clock";
 import { findMark, type Recording, type Run } from "./data";
 import { answerKey } from "./keys";

@@ -1,11 +1,11 @@
 import { useState } from "preact/hooks";
+import { noteDownload } from "../api/calls";
 import { addressOf, branchRun, exportPath } from "../api/runs";
 import type { ExportName, RunDetails } from "../api/types";
-import { Popup } from "../panel/popup";
-import { noteDownload } from "../script/calls";
 import { CopyButton } from "../script/copybutton";
 import { makeRunScript, scriptProblem } from "../script/repeat";
 import { text } from "../text/en";
+import { Popup } from "../widgets/popup";
 import { putIntoTrash } from "./list";
 import { goTo, linkTo } from "./place";
 import { attempt } from "./problem";

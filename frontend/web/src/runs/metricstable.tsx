@@ -1,8 +1,8 @@
 import type { Metrics } from "../api/types";
-import { bestOf } from "../layout/best";
 import { Swatch } from "../plots/legend";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
+import { bestOf } from "../widgets/best";
 import { describeMeasured } from "./measured";
 import { nameCurve, type Overlaid } from "./overlaid";
 

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import { replayAddress } from "../api/runs";
-import { answerKey } from "../keys/keys";
+import { pressStop } from "../safety/stop";
 import { theme } from "../state/preferences";
 import { text } from "../text/en";
 
@@ -16,7 +16,10 @@ const ASK_MS = 200;
 
 /** The replay has keys of its own; only the quick stop goes through. */
 function passStop(event: KeyboardEvent): void {
-  if (event.key === "Escape" && event.shiftKey) answerKey(event);
+  if (event.key !== "Escape" || !event.shiftKey) return;
+  event.preventDefault();
+  event.stopPropagation();
+  void pressStop();
 }
 
 /** The replay page of a run; made anew where the theme changes, at the moment that was shown. */

@@ -1,7 +1,8 @@
 import { useEffect, useState } from "preact/hooks";
 import type { RunSummary } from "../api/types";
-import { markOf, PlantMark } from "../layout/plantmark";
+import { markOf } from "../state/plant";
 import { text } from "../text/en";
+import { PlantMark } from "../widgets/plantmark";
 import { COLUMNS } from "./columns";
 import { excerpt, searchedWords } from "./found";
 import { chosen, MOST_CHOSEN, putIntoTrash, takeBack, toggleChosen } from "./list";

@@ -2,10 +2,10 @@ import type { ComponentChildren } from "preact";
 import { clearBench, restartBench } from "../api/client";
 import type { BenchState, SessionState } from "../api/types";
 import { allowedOn, isLoopLost, isQuickStop, isStoppedSimulation } from "../bench/status";
-import { Problem } from "../controls/problem";
 import { perform } from "../state/actions";
 import { isLive, session } from "../state/session";
 import { text } from "../text/en";
+import { Problem } from "../widgets/problem";
 import { stop } from "./stop";
 
 interface StopNoticeProps {

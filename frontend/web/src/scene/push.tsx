@@ -1,10 +1,10 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { Problem } from "../controls/problem";
-import { closeOnEscape } from "../panel/escape";
 import { samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
+import { closeOnEscape } from "../widgets/escape";
+import { Problem } from "../widgets/problem";
 import { heldTorque, keepPush } from "./hold";
 import { angleSeen, pullOf } from "./ray";
 import { cameraNow } from "./viewer";

@@ -1,10 +1,10 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { type Call, calls, clearCalls } from "../api/calls";
 import { API } from "../api/request";
-import { Choice } from "../controls/choice";
 import { text } from "../text/en";
 import { formatTime } from "../units";
-import { type Call, calls, clearCalls } from "./calls";
+import { Choice } from "../widgets/choice";
 import { saveText } from "./copy";
 import { CopyButton } from "./copybutton";
 import { makeExperimentScript, scriptProblem } from "./repeat";

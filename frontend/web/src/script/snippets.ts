@@ -1,5 +1,5 @@
 /** One call in the words of a shell and of Python. */
-import type { Call } from "./calls";
+import type { Call } from "../api/calls";
 import { toPython } from "./python";
 
 export const LANGUAGES = ["python", "curl"] as const;

@@ -1,6 +1,6 @@
 /** The bench of the session, and what stands for it on every screen. */
 import { computed } from "@preact/signals";
-import type { Mark } from "../layout/plantmark";
+import type { Mark } from "./plant";
 import { session } from "./session";
 
 export const bench = computed(() => session.value?.bench ?? null);

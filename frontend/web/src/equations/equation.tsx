@@ -1,8 +1,8 @@
 import type { LawRow } from "../api/types";
-import { Popup } from "../panel/popup";
 import { laws } from "../state/laws";
 import { session } from "../state/session";
 import { text } from "../text/en";
+import { Popup } from "../widgets/popup";
 import { EQUATIONS, type Equation, type Topic } from "./equations";
 import { Formula } from "./formula";
 

@@ -1,0 +1,1 @@
+"""The RoboModule drives and their bus."""

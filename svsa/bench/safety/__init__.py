@@ -1,0 +1,1 @@
+"""What watches a bench, and what is done when something is wrong."""

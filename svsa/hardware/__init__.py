@@ -1,1 +1,0 @@
-"""The bench: drives on CAN, encoders, states, limits."""

@@ -1,0 +1,1 @@
+"""Parameters of the actuator from a recorded run."""

@@ -1,0 +1,1 @@
+"""The control loop, compiled: many ticks a call, tick by tick, and around a measured plant."""

@@ -1,1 +1,0 @@
-"""The loop, runs, sessions and their clocks."""
