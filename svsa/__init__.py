@@ -8,18 +8,15 @@
 Units are SI; every name ends in its unit.
 """
 
-from importlib.metadata import PackageNotFoundError, version
-
-from svsa import design
+from svsa import design, paper
 from svsa.control.gains import Gains
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
-from svsa.experiment import paper
 from svsa.experiment.channels import ChannelName
 from svsa.experiment.recorded import export_run, open_run, resimulate, runs
 from svsa.experiment.reproduce import reproduce
 from svsa.experiment.result import Result
 from svsa.experiment.simulate import simulate
-from svsa.extras import DISTRIBUTION, MissingExtraError
+from svsa.extras import MissingExtraError
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import (
@@ -32,6 +29,7 @@ from svsa.plant.disturbances import (
     SineLoad,
 )
 from svsa.plant.effects import IDEAL, RIG, Effects
+from svsa.records.catalogue.runs import Catalogue
 from svsa.reference.chirp import ChirpPosition, ChirpStiffness
 from svsa.reference.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
 from svsa.reference.preview import sample_reference
@@ -39,9 +37,9 @@ from svsa.reference.series import SeriesPosition, SeriesStiffness
 from svsa.reference.series_csv import read_series
 from svsa.reference.sine import ConstantPosition, ConstantStiffness, SinePosition, SineStiffness
 from svsa.reference.steps import StepsPosition, StepsStiffness
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.change import Change
-from svsa.runtime.configuration import (
+from svsa.release import __version__ as __version__
+from svsa.run.change import Change
+from svsa.run.configuration import (
     Configuration,
     Design,
     Lane,
@@ -49,11 +47,6 @@ from svsa.runtime.configuration import (
     read_design,
     write_design,
 )
-
-try:
-    __version__ = version(DISTRIBUTION)
-except PackageNotFoundError:
-    __version__ = "0+uninstalled"
 
 __all__ = [
     "IDEAL",

@@ -16,13 +16,13 @@ from rich.progress import Progress
 from rich.table import Table
 
 import svsa
+from svsa.bench.cli import bench_check, bench_home
 from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_title
 from svsa.errors import SvsaError
-from svsa.experiment.identify_command import identify
 from svsa.extras import require_extra
-from svsa.hardware.command import bench_check, bench_home
-from svsa.rig.command import rig
+from svsa.identification.cli import identify
+from svsa.rig.cli import rig
 
 if TYPE_CHECKING:
     from svsa.experiment.reproduce import Reproduction
@@ -64,8 +64,8 @@ def reproduce(
     ] = False,
 ) -> None:
     """Run the paper's figures with FL and NDOBC: 4A, 4B, 5 simulated, 6A, 6B, 7 through CAN."""
-    from svsa.experiment.paper import FIGURES
     from svsa.experiment.reproduce import reproduce as run_figures
+    from svsa.paper import FIGURES
 
     if not as_json:
         require_extra("plot")
@@ -124,8 +124,8 @@ def measure_costs(
 def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) -> None:
     """Print the frames of a bench as a DBC file, which CAN tools read to decode a capture."""
     require_extra("bench")
-    from svsa.hardware.bench import read_bench
-    from svsa.hardware.dbc import describe_bench
+    from svsa.bench.drives.dbc import describe_bench
+    from svsa.bench.file import read_bench
 
     print(describe_bench(read_bench(file)))
 
@@ -140,7 +140,7 @@ def prepare() -> None:
     """Have the control loop compiled, and say so where it takes long."""
     from svsa.control.installed import list_law_names
     from svsa.experiment.simulate import simulate
-    from svsa.runtime.loop import advance
+    from svsa.loop.loop import advance
 
     if is_compiled_before(advance):
         text = "Loading the compiled control loop …"

@@ -6,7 +6,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.plant.disturbances import PAPER_TORQUE_NM, ConstantLoad, Load, PaperLoad
 from svsa.reference.paper import FIGURE_REFERENCES, ON_BENCH
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import Configuration, Design, load_prototype
+from svsa.run.configuration import Configuration, Design, load_prototype
 
 LOAD_TIME_S = 5.0
 DURATION_S = 20.0

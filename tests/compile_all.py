@@ -8,8 +8,8 @@ import svsa
 from svsa.cli import prepare
 from svsa.control.installed import list_law_names
 from svsa.experiment.bench_run import LockstepBench
-from svsa.experiment.identification import identify
-from svsa.experiment.paper import FIGURES
+from svsa.identification.identify import identify
+from svsa.paper import FIGURES
 from svsa.plant.disturbances import ConstantLoad
 from tests.experiment.excited_run import build_configuration, build_run, play
 from tests.hardware.in_process_rig import start_in_process

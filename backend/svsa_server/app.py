@@ -7,8 +7,8 @@ from collections.abc import AsyncIterator
 from fastapi import APIRouter, FastAPI
 
 import svsa
-from svsa.runtime.configuration import load_prototype, read_design
-from svsa.runtime.session import Session
+from svsa.run.configuration import load_prototype, read_design
+from svsa.session.session import Session
 from svsa_server.access import AccessGuard, SharedSecret
 from svsa_server.bench_start import open_bench
 from svsa_server.config import Settings

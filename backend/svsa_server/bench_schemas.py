@@ -4,9 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, Field
 
+from svsa.bench.homing import Axis
+from svsa.bench.realtime.loss import Stopper
 from svsa.checked import Checked, quantity
-from svsa.hardware.homing import Axis
-from svsa.runtime.realtime.loss import Stopper
 
 LoopStateName = Literal["ticking", "silent", "gone", "starting"]
 BenchStatusName = Literal["off", "reset", "config", "mode", "ready", "run", "ramp", "fault"]

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from rich.console import Console
 
 from svsa.errors import SvsaError
-from svsa.runtime.realtime.session import BenchSession
-from svsa.runtime.session import Session
+from svsa.session.bench import BenchSession
+from svsa.session.session import Session
 from svsa_server.turn import take_turn
 
 REPEAT_S = 10.0

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from svsa.hardware.homing import STEPS, Axis, get_instruction
-from svsa.runtime.realtime.memory import LATENESS_EDGES_S, read_quantile
-from svsa.runtime.realtime.session import BenchSession
+from svsa.bench.homing import STEPS, Axis, get_instruction
+from svsa.bench.realtime.memory import LATENESS_EDGES_S, read_quantile
+from svsa.session.bench import BenchSession
 from svsa_server.bench_schemas import BenchState, HomingState, LoopState, LoopStateName
 
 _BINS_A_WIRE_BIN = 25

@@ -14,7 +14,7 @@ from urllib.parse import unquote
 from weakref import WeakKeyDictionary
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.runtime.session import Session
+from svsa.session.session import Session
 from svsa_server.control_schemas import LONGEST_NAME, ControlState
 
 CLIENT_HEADER = "SVSA-Client"

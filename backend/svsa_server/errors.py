@@ -15,8 +15,8 @@ from starlette.routing import compile_path
 
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.explanation import explain_problems
-from svsa.runtime.catalogue.entry import CatalogueError, UnknownRunError
-from svsa.runtime.recording.header import RecordError
+from svsa.records.catalogue.entry import CatalogueError, UnknownRunError
+from svsa.records.header import RecordError
 from svsa_server.control import HeldError
 from svsa_server.heavy_work import RETRY_AFTER_S, BusyError
 

@@ -6,8 +6,8 @@ from collections import deque
 from weakref import WeakKeyDictionary
 
 from svsa.errors import StateError, SvsaError
-from svsa.experiment.excitation import EXCITATION_DURATION_S, build_commands
-from svsa.runtime.session import Session
+from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
+from svsa.session.session import Session
 from svsa_server.recording_schemas import ExcitationState
 from svsa_server.turn import take_turn
 

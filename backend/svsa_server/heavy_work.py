@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import IO, TypeVar
 
 from svsa.errors import SvsaError
-from svsa.experiment.export import export
-from svsa.runtime.recording.reader import open_record
-from svsa.runtime.resimulation import Comparison, compare_with_simulation
+from svsa.export.formats import export
+from svsa.records.reader import open_record
+from svsa.records.resimulation import Comparison, compare_with_simulation
 
 MOST_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
 RETRY_AFTER_S = 5

@@ -9,15 +9,15 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from svsa.bench.file import read_bench
 from svsa.errors import StateError
-from svsa.experiment.paper import get_figure
-from svsa.hardware.bench import read_bench
+from svsa.paper import get_figure
 from svsa.plant.disturbances import Load
 from svsa.rig.control import RigControl, RigError
-from svsa.runtime.command import Command
-from svsa.runtime.configuration import Configuration, Design
-from svsa.runtime.realtime.session import BenchSession, Hands
-from svsa.runtime.session import Session
+from svsa.run.command import Command
+from svsa.run.configuration import Configuration, Design
+from svsa.session.bench import BenchSession, Hands
+from svsa.session.session import Session
 from svsa_server.control import get_hand
 from svsa_server.errors import UnknownError
 from svsa_server.turn import let_pass

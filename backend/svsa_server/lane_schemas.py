@@ -2,8 +2,8 @@
 
 from pydantic import BaseModel, Field
 
-from svsa.runtime.metrics import Metrics
-from svsa.runtime.timeline import WindowKind
+from svsa.run.metrics import Metrics
+from svsa.run.timeline import WindowKind
 
 
 class Period(BaseModel):

@@ -4,9 +4,9 @@ them, from when on, under which name and in which ink.
 
 from collections.abc import Sequence
 
-from svsa.runtime.recording.reader import Record
-from svsa.runtime.session import KEPT_S, Session
-from svsa.runtime.timeline import Stretch, Timeline, Window, name_stretches
+from svsa.records.reader import Record
+from svsa.run.timeline import Stretch, Timeline, Window, name_stretches
+from svsa.session.session import KEPT_S, Session
 from svsa_server.lane_schemas import StretchState, WindowState
 
 MOST_STRETCHES = 200

@@ -14,7 +14,7 @@ from svsa.control.installed import (
 from svsa.control.law import EstimateSource
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
-from svsa.runtime.configuration import Lane
+from svsa.run.configuration import Lane
 
 
 def _check_lane(lane: Lane) -> Lane:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from svsa.plant.disturbances import get_hung_mass
-from svsa.runtime.session import Session
+from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose, RivalPose
 from svsa_server.lanes import list_session_stretches

@@ -8,11 +8,11 @@ from datetime import UTC, datetime
 from typing import Any, NoReturn
 
 import svsa
-from svsa.runtime.catalogue.entry import CatalogueError
-from svsa.runtime.catalogue.runs import Catalogue, build_run_id
-from svsa.runtime.recording.header import RecordHeader
-from svsa.runtime.recording.recorder import Recorder
-from svsa.runtime.session import Session
+from svsa.records.catalogue.entry import CatalogueError
+from svsa.records.catalogue.runs import Catalogue, build_run_id
+from svsa.records.header import RecordHeader
+from svsa.records.recorder import Recorder
+from svsa.session.session import Session
 from svsa.signals import CHANNELS
 
 FINISH_TIMEOUT_S = 10.0

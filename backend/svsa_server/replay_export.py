@@ -7,11 +7,11 @@ import numpy as np
 
 from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import PushLoad, get_hung_mass
-from svsa.runtime.command import Command, list_loads
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.measured_window import find_measured_window, trace_record
-from svsa.runtime.recording.reader import Record
-from svsa.runtime.resimulation import read_origin
+from svsa.records.measured_window import find_measured_window, trace_record
+from svsa.records.reader import Record
+from svsa.records.resimulation import read_origin
+from svsa.run.command import Command, list_loads
+from svsa.run.configuration import Configuration
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay import build_replay_html
 from svsa_server.lane_schemas import StretchState

@@ -6,17 +6,17 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from svsa.checked import Checked, quantity
 from svsa.errors import ParameterError, Violation
-from svsa.runtime.catalogue.entry import RunState
-from svsa.runtime.measured_window import MeasuredWindow
-from svsa.runtime.metrics import Metrics
-from svsa.runtime.recording.header import (
+from svsa.records.catalogue.entry import RunState
+from svsa.records.header import (
     LONGEST_NAME,
     LONGEST_NOTES,
     LONGEST_TAG,
     MOST_TAGS,
     PlantKind,
 )
-from svsa.runtime.recording.settings import RunSettings
+from svsa.records.measured_window import MeasuredWindow
+from svsa.records.settings import RunSettings
+from svsa.run.metrics import Metrics
 from svsa.signals import Channel
 from svsa_server.lane_schemas import StretchState, WindowState
 

@@ -4,7 +4,7 @@ import asyncio
 import logging
 import time
 
-from svsa.runtime.session import Session
+from svsa.session.session import Session
 from svsa_server.laboratory import SHARED_SESSION, Laboratory
 from svsa_server.pose import read_pose
 from svsa_server.scene_bridge import SceneBridge

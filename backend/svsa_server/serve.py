@@ -8,7 +8,7 @@ from rich.console import Console
 
 from svsa.cli import prepare
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.runtime.configuration import read_design
+from svsa.run.configuration import read_design
 from svsa_server.config import Settings
 from svsa_server.console import HINT, watch_keyboard
 

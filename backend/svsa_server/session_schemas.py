@@ -7,11 +7,11 @@ from pydantic import BaseModel, Field
 from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.errors import Fault
-from svsa.experiment.paper import get_figure
+from svsa.paper import get_figure
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
-from svsa.runtime.configuration import MOST_LANES, Configuration, Design
-from svsa.runtime.session import Event
+from svsa.run.configuration import MOST_LANES, Configuration, Design
+from svsa.session.session import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
 from svsa_server.lane_schemas import LaneMetrics, LaneState, WindowState

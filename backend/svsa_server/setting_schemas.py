@@ -11,7 +11,7 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import MOST_LANES, Lane
+from svsa.run.configuration import MOST_LANES, Lane
 from svsa_server.gain_schemas import GainsState
 from svsa_server.law_schemas import InstalledLane
 

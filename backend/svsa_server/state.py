@@ -9,12 +9,12 @@ import numpy as np
 from svsa.control.gains import Gains
 from svsa.control.installed import has_own_parameters
 from svsa.plant.disturbances import ScheduledLoad
-from svsa.runtime.configuration import Configuration, Lane
-from svsa.runtime.metrics import Metrics
-from svsa.runtime.realtime.session import BenchSession
-from svsa.runtime.recording.header import BranchPoint
-from svsa.runtime.recording.recorder import Recorder
-from svsa.runtime.session import Session
+from svsa.records.header import BranchPoint
+from svsa.records.recorder import Recorder
+from svsa.run.configuration import Configuration, Lane
+from svsa.run.metrics import Metrics
+from svsa.session.bench import BenchSession
+from svsa.session.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
 from svsa_server.control import build_control

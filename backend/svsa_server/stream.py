@@ -16,7 +16,7 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from svsa.errors import ParameterError, Violation
-from svsa.runtime.session import Session
+from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.control import asking, get_hand, read_client
 from svsa_server.session_schemas import SessionProgress, SessionState

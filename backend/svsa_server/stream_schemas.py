@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, Number, Whole, quantity
-from svsa.runtime.configuration import MOST_LANES
+from svsa.run.configuration import MOST_LANES
 from svsa.signals import PLOTTED
 from svsa_server.session_schemas import SessionProgress, SessionState
 

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import tomli_w
 
+from svsa.bench.file import BenchFile
 from svsa.checked import Checked, Flag, Whole, quantity
 from svsa.errors import ParameterError, Violation
-from svsa.hardware.bench import BenchFile
 from svsa.toml_file import read_toml
 
 SUFFIX = ".calibration.toml"

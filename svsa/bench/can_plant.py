@@ -5,20 +5,20 @@ import math
 
 import can
 
+from svsa.bench.calibration import Calibration, list_problems
+from svsa.bench.clock import BenchClock
+from svsa.bench.drives.bus import BUS_TROUBLE, DELIVERY_S, open_bus
+from svsa.bench.drives.conversion import build_motor_scale, compute_current_ma
+from svsa.bench.drives.drive import Drive, build_broadcast_resets
+from svsa.bench.drives.phase import Phase
+from svsa.bench.file import BenchFile
+from svsa.bench.homing import Axis
+from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.guard import Guard
+from svsa.bench.safety.heartbeat import Heartbeats, Slot
+from svsa.bench.safety.machine import NO_TORQUE, BenchStatus, Conditions, Machine
+from svsa.bench.sensing import Reading, Sensing
 from svsa.errors import Fault, StateError, SvsaError
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.bus import BUS_TROUBLE, DELIVERY_S, open_bus
-from svsa.hardware.calibration import Calibration, list_problems
-from svsa.hardware.clock import BenchClock
-from svsa.hardware.conversion import build_motor_scale, compute_current_ma
-from svsa.hardware.drive import Drive, build_broadcast_resets
-from svsa.hardware.faults import Alarm
-from svsa.hardware.guard import Guard
-from svsa.hardware.heartbeat import Heartbeats, Slot
-from svsa.hardware.homing import Axis
-from svsa.hardware.machine import NO_TORQUE, BenchStatus, Conditions, Machine
-from svsa.hardware.phase import Phase
-from svsa.hardware.sensing import Reading, Sensing
 from svsa.signals import Disturbance, State, Torque
 
 HOME_TOLERANCE_RAD = 0.05

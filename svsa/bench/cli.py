@@ -38,8 +38,8 @@ def bench_check(
 ) -> None:
     """Test a bench step by step: bus, drives, encoders, and with --move signs and latency."""
     require_extra("bench")
-    from svsa.hardware.check import check_bench
-    from svsa.hardware.check.step import Result
+    from svsa.bench.check import check_bench
+    from svsa.bench.check.step import Result
 
     console = Console(highlight=False)
     if move and not yes:
@@ -75,10 +75,10 @@ def bench_home(
 ) -> None:
     """Write the calibration record of a bench: who saw it at its zero marks, and its zero."""
     require_extra("bench")
-    from svsa.hardware.bench import read_bench
-    from svsa.hardware.calibration import list_problems
-    from svsa.hardware.homing import STEPS, Homing
-    from svsa.hardware.zero import calibrate
+    from svsa.bench.calibration import list_problems
+    from svsa.bench.file import read_bench
+    from svsa.bench.homing import STEPS, Homing
+    from svsa.bench.zero import calibrate
 
     console = Console(highlight=False)
     bench = read_bench(file)

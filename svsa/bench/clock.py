@@ -7,8 +7,8 @@ from typing import Protocol
 
 import can
 
+from svsa.bench.emulation import ADVANCE_ID, decode_time, encode_time
 from svsa.errors import SvsaError
-from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
 
 _CLOCK_MONOTONIC = 1
 _TIMER_ABSTIME = 1

@@ -91,7 +91,7 @@ class TimingSettings(Checked):
 
 
 class SafetySettings(Checked):
-    """Limits beside those of the motors; see `svsa.hardware.guard`."""
+    """Limits beside those of the motors; see `svsa.bench.safety.guard`."""
 
     torque_rate_nm_per_s: Number = quantity("N·m/s", "Fastest change of torque", gt=0, le=1e6)
     disturbance_max_nm: Number = quantity(

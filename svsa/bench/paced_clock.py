@@ -7,8 +7,8 @@ wall all the same.
 
 import math
 
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.clock import BenchClock, LockstepClock, WallClock
+from svsa.bench.clock import BenchClock, LockstepClock, WallClock
+from svsa.bench.file import BenchFile
 
 CATCH_UP_S = 0.05
 """What was lost beyond this is not made up for by ticks in a row without a rest."""

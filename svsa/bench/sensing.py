@@ -6,18 +6,18 @@ from typing import NamedTuple
 
 import can
 
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.bus import BUS_TROUBLE, take_waiting
-from svsa.hardware.clock import BenchClock
-from svsa.hardware.conversion import MotorScale, Unwrapped, build_deflection_scale
-from svsa.hardware.drive import Drive, list_command_ids
-from svsa.hardware.emulation import EMULATED_ID
-from svsa.hardware.encoders import read_source
-from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.faults import Alarm
-from svsa.hardware.phase import Phase
-from svsa.hardware.robomodule import LENGTH
-from svsa.hardware.standstill import NewCounts
+from svsa.bench.clock import BenchClock
+from svsa.bench.drives.bus import BUS_TROUBLE, take_waiting
+from svsa.bench.drives.conversion import MotorScale, Unwrapped, build_deflection_scale
+from svsa.bench.drives.drive import Drive, list_command_ids
+from svsa.bench.drives.phase import Phase
+from svsa.bench.drives.robomodule import LENGTH
+from svsa.bench.emulation import EMULATED_ID
+from svsa.bench.encoders import read_source
+from svsa.bench.encoders.source import EncoderError
+from svsa.bench.file import BenchFile
+from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.standstill import NewCounts
 from svsa.signals import Measurement, State
 
 MOST_FRAMES_A_TICK = 200

@@ -6,18 +6,18 @@ from pathlib import Path
 
 import numpy as np
 
-from svsa.errors import StateError
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.bus import open_bus
-from svsa.hardware.calibration import (
+from svsa.bench.calibration import (
     Calibration,
     compute_fingerprint,
     find_calibration,
     write_calibration,
 )
-from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.homing import Homing
-from svsa.hardware.probe import BusOpener, Clock, Probe
+from svsa.bench.check.probe import BusOpener, Clock, Probe
+from svsa.bench.drives.bus import open_bus
+from svsa.bench.encoders.source import EncoderError
+from svsa.bench.file import BenchFile
+from svsa.bench.homing import Homing
+from svsa.errors import StateError
 
 LISTEN_S = 0.5
 STILL_COUNTS = 2

@@ -4,7 +4,7 @@ A, B, C, D = svsa.design.linearize(15.0)
 plant = control.ss(*svsa.design.linearize(15.0))         # python-control
 """
 
-from svsa.experiment.linear_model import LinearModel, linearize
-from svsa.experiment.prediction import Prediction, predict
+from svsa.design.linear_model import LinearModel, linearize
+from svsa.design.prediction import Prediction, predict
 
 __all__ = ["LinearModel", "Prediction", "linearize", "predict"]

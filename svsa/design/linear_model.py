@@ -10,7 +10,7 @@ from svsa.model.dynamics import build_actuator
 from svsa.model.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
 from svsa.model.spring import compute_spring_derivatives
 from svsa.parameters import ActuatorParameters
-from svsa.runtime.configuration import Design, load_prototype
+from svsa.run.configuration import Design, load_prototype
 from svsa.signals import CHANNELS
 
 STATES = (

@@ -6,12 +6,12 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.control.call import build_call, read_estimate
+from svsa.loop.loop import LaneState, apply_torque, decide, observe
 from svsa.model.dynamics import compute_internal_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, RIG, Effects, build_bench
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.loop import LaneState, apply_torque, decide, observe
-from svsa.runtime.run import Run
+from svsa.run.configuration import Configuration
+from svsa.run.run import Run
 from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
 
 _STEP = 1e-6

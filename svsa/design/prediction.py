@@ -6,13 +6,13 @@ from typing import Literal
 
 import numpy as np
 
-from svsa.experiment.loop_noise import LoopNoise, choose_sensing, compute_loop_noise
-from svsa.experiment.steady_error import SteadyError, compute_fl_steady_error
+from svsa.design.loop_noise import LoopNoise, choose_sensing, compute_loop_noise
+from svsa.design.steady_error import SteadyError, compute_fl_steady_error
 from svsa.plant.disturbances import PAPER_TORQUE_NM, PaperLoad
 from svsa.plant.effects import Effects
 from svsa.reference.sine import ConstantPosition
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.run import Run
+from svsa.run.configuration import Configuration
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Disturbance
 
 LOAD = Disturbance(PAPER_TORQUE_NM, PAPER_TORQUE_NM, PAPER_TORQUE_NM)

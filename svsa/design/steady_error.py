@@ -15,7 +15,7 @@ from svsa.model.lever import (
     compute_lever_ratio_slope,
 )
 from svsa.model.linearization import compute_linearization
-from svsa.runtime.configuration import Configuration
+from svsa.run.configuration import Configuration
 from svsa.signals import Disturbance, State
 
 _CLOSE = 1e-6

@@ -9,19 +9,19 @@ from pathlib import Path
 
 import numpy as np
 
+from svsa.bench.calibration import find_calibration
+from svsa.bench.can_plant import CanPlant
+from svsa.bench.clock import LockstepClock
+from svsa.bench.file import BenchFile, read_bench
+from svsa.bench.realtime.configuration import build_bench_configuration, build_guard
+from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import FaultError, StateError
-from svsa.experiment.paper import LOAD_TIME_S, Figure
 from svsa.experiment.result import Result
-from svsa.hardware.bench import BenchFile, read_bench
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant
-from svsa.hardware.clock import LockstepClock
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.hardware.machine import BenchStatus
+from svsa.paper import LOAD_TIME_S, Figure
 from svsa.rig.launch import RunningRig, start_rig
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.realtime.configuration import build_bench_configuration, build_guard
-from svsa.runtime.realtime.loop import BenchLoop
+from svsa.run.configuration import Configuration
 from svsa.signals import CHANNELS
 
 RIG_BENCH = Path(__file__).parent.parent / "rig" / "bench.toml"

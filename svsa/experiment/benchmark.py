@@ -20,20 +20,20 @@ import numpy as np
 
 from svsa.control.call import build_call
 from svsa.control.feedback_linearization import build_gains
-from svsa.experiment.paper import DURATION_S, LOAD_TIME_S, get_figure
 from svsa.experiment.simulate import simulate
-from svsa.model.lever import compute_lever_ratio_slope
-from svsa.packed import pack
-from svsa.plant.disturbances import PAPER_TORQUE_NM
-from svsa.runtime.loop import advance
-from svsa.runtime.measured import (
+from svsa.loop.loop import advance
+from svsa.loop.measured import (
     Actuation,
     BenchConstants,
     Carried,
     follow_and_decide,
     publish_and_foresee,
 )
-from svsa.runtime.run import Run
+from svsa.model.lever import compute_lever_ratio_slope
+from svsa.packed import pack
+from svsa.paper import DURATION_S, LOAD_TIME_S, get_figure
+from svsa.plant.disturbances import PAPER_TORQUE_NM
+from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
 C_LOOP = Path(__file__).parents[2] / "tests" / "bench" / "loop.c"

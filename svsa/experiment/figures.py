@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Picture
 
 from svsa.control.installed import list_law_names
-from svsa.experiment.paper import LOAD_TIME_S, get_figure
 from svsa.experiment.result import Result, name_law
+from svsa.paper import LOAD_TIME_S, get_figure
 
 if TYPE_CHECKING:
     from svsa.experiment.reproduce import Reproduction

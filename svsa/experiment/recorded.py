@@ -4,11 +4,11 @@ from pathlib import Path
 
 from svsa.errors import ParameterError
 from svsa.experiment.result import Result, build_results
-from svsa.runtime.catalogue.entry import RunPage
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.recording.header import HEADER_FILE, RecordError
-from svsa.runtime.recording.reader import Record, open_record
-from svsa.runtime.resimulation import Comparison, compare_with_simulation, read_origin
+from svsa.records.catalogue.entry import RunPage
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.header import HEADER_FILE, RecordError
+from svsa.records.reader import Record, open_record
+from svsa.records.resimulation import Comparison, compare_with_simulation, read_origin
 from svsa.signals import CHANNEL_NAMES
 
 
@@ -68,7 +68,7 @@ def resimulate(run: str | Path) -> Comparison:
 
 
 def export_run(run: str | Path, kind: str, target: Path | str) -> None:
-    """Write a recorded run as "csv", "parquet", "mat" or "mcap"; see `svsa.experiment.export`."""
-    from svsa.experiment.export import export  # late: what the formats need takes a second
+    """Write a recorded run as "csv", "parquet", "mat" or "mcap"; see `svsa.export.formats`."""
+    from svsa.export.formats import export  # late: what the formats need takes a second
 
     export(find_record(run), kind, target)

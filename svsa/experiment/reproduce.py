@@ -5,7 +5,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from svsa.errors import FaultError
-from svsa.experiment.paper import (
+from svsa.experiment.result import Result
+from svsa.experiment.simulate import simulate
+from svsa.extras import require_extra
+from svsa.paper import (
     BEFORE_S,
     BENCH_FIGURES,
     DURATION_S,
@@ -15,9 +18,6 @@ from svsa.experiment.paper import (
     STEADY_S,
     get_figure,
 )
-from svsa.experiment.result import Result
-from svsa.experiment.simulate import simulate
-from svsa.extras import require_extra
 
 LAWS = ("fl", "ndobc")
 

@@ -18,9 +18,9 @@ from svsa.control.law import NAME
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.channels import Channels
 from svsa.extras import list_missing, require_extra
-from svsa.runtime.command import Command
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.metrics import Metrics, compute_metrics
+from svsa.run.command import Command
+from svsa.run.configuration import Configuration
+from svsa.run.metrics import Metrics, compute_metrics
 from svsa.signals import CHANNEL_NAMES, CHANNELS
 
 if TYPE_CHECKING:

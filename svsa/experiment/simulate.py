@@ -8,13 +8,13 @@ import numpy as np
 
 from svsa.checked import check_number
 from svsa.errors import ParameterError, Violation
-from svsa.experiment.paper import DURATION_S, get_figure
 from svsa.experiment.result import Result, build_results
-from svsa.runtime.change import Change, build_commands
-from svsa.runtime.command import play
-from svsa.runtime.configuration import Configuration, Design, read_design
-from svsa.runtime.run import Run
-from svsa.runtime.stepwise import Controller
+from svsa.loop.stepwise import Controller
+from svsa.paper import DURATION_S, get_figure
+from svsa.run.change import Change, build_commands
+from svsa.run.command import play
+from svsa.run.configuration import Configuration, Design, read_design
+from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
 MOST_TICKS = 5_000_000

@@ -5,8 +5,8 @@ from typing import IO
 import pyarrow as pa
 import pyarrow.csv
 
-from svsa.runtime.recording.reader import Record
-from svsa.runtime.recording.stream import build_schema
+from svsa.records.reader import Record
+from svsa.records.stream import build_schema
 
 
 def write_csv(record: Record, stream: IO[bytes]) -> None:

@@ -5,12 +5,12 @@ from pathlib import Path
 from typing import IO, NamedTuple
 
 from svsa.errors import ParameterError, Violation
-from svsa.experiment.export_csv import write_csv
-from svsa.experiment.export_mat import write_mat
-from svsa.experiment.export_mcap import write_mcap
-from svsa.runtime.recording.header import RecordError
-from svsa.runtime.recording.parquet import write_parquet
-from svsa.runtime.recording.reader import Record
+from svsa.export.csv import write_csv
+from svsa.export.mat import write_mat
+from svsa.export.mcap import write_mcap
+from svsa.records.header import RecordError
+from svsa.records.parquet import write_parquet
+from svsa.records.reader import Record
 
 LONGEST_FILE_NAME = 80
 

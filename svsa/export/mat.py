@@ -11,8 +11,8 @@ from typing import IO, Any
 import numpy as np
 from scipy.io import savemat
 
-from svsa.runtime.recording.header import RecordError
-from svsa.runtime.recording.reader import Record
+from svsa.records.header import RecordError
+from svsa.records.reader import Record
 
 MOST_BYTES_A_LANE = 2**31 - 2**20
 LONGEST_WORD = 63

@@ -14,10 +14,10 @@ from typing import IO, Any, NamedTuple
 import msgspec
 from mcap.writer import Writer
 
-import svsa
-from svsa.experiment.export_mcap_schemas import COMMAND, JOINT_STATES, build_sample_schema
-from svsa.runtime.recording.header import RecordHeader
-from svsa.runtime.recording.reader import Record
+from svsa.export.mcap_schemas import COMMAND, JOINT_STATES, build_sample_schema
+from svsa.records.header import RecordHeader
+from svsa.records.reader import Record
+from svsa.release import __version__
 
 NANOSECONDS = 1_000_000_000
 ROWS_A_STRETCH = 4096
@@ -46,7 +46,7 @@ def write_mcap(record: Record, stream: IO[bytes]) -> None:
     began_ns = round(datetime.fromisoformat(header.created).timestamp() * NANOSECONDS)
     period_ns = header.period_s * NANOSECONDS
     writer = Writer(stream)
-    writer.start(library=f"svsa {svsa.__version__}")
+    writer.start(library=f"svsa {__version__}")
     topics = _add_topics(writer, header)
     _write_commands(writer, record, began_ns, period_ns)
     for tick, lanes in _iterate_rows(record):

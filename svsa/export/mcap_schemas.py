@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from svsa.runtime.recording.header import RecordHeader
+from svsa.records.header import RecordHeader
 
 _TIMESTAMP: dict[str, Any] = {
     "type": "object",

@@ -10,8 +10,8 @@ from rich.progress import Progress
 from rich.table import Table
 
 if TYPE_CHECKING:
-    from svsa.experiment.identification import Identification
-    from svsa.runtime.recording.reader import Record
+    from svsa.identification.identify import Identification
+    from svsa.records.reader import Record
 
 
 def identify(
@@ -24,8 +24,8 @@ def identify(
     ] = False,
 ) -> None:
     """Estimate inertias, dampings, spring and friction from a recorded run."""
-    from svsa.experiment import identification
-    from svsa.runtime.configuration import write_design
+    from svsa.identification import identify as identification
+    from svsa.run.configuration import write_design
 
     record = _open(run)
     with Progress(console=Console(stderr=True), transient=True) as bar:
@@ -44,8 +44,8 @@ def identify(
 
 
 def _open(run: str) -> "Record":
-    from svsa.runtime.catalogue.runs import Catalogue
-    from svsa.runtime.recording.reader import open_record
+    from svsa.records.catalogue.runs import Catalogue
+    from svsa.records.reader import open_record
 
     return open_record(Path(run)) if Path(run).is_dir() else Catalogue().open(run)
 

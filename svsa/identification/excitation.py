@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 
 from svsa.reference.sine import ConstantPosition, ConstantStiffness, SinePosition, SineStiffness
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.command import Command, build_command
+from svsa.run.command import Command, build_command
 
 EXCITATION_DURATION_S = 32.0
 

@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from svsa.experiment.identification_guess import guess_parameters, guess_states
-from svsa.experiment.identification_problem import SHAPE, UNKNOWNS, Point, Problem
-from svsa.experiment.identification_record import Evidence, IdentificationError
+from svsa.identification.guess import guess_parameters, guess_states
+from svsa.identification.problem import SHAPE, UNKNOWNS, Point, Problem
+from svsa.identification.record import Evidence, IdentificationError
 
 _FIRST_DEVIATION = np.array([2e-5, 2e-5, 2e-4])
 _LEAST_DEVIATION = 1e-9

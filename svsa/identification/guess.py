@@ -9,8 +9,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import savgol_filter
 
-from svsa.experiment.identification_kernel import STATES, Parameters, compute_unit_torques
-from svsa.experiment.identification_record import Evidence
+from svsa.identification.kernel import STATES, Parameters, compute_unit_torques
+from svsa.identification.record import Evidence
 
 _WINDOW_S = 0.012
 _CREEP_RAD_PER_S = 0.05

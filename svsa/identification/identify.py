@@ -5,13 +5,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.stats import t as student
 
-from svsa.experiment.identification_fit import Progress, fit
-from svsa.experiment.identification_guess import guess_noise, guess_states
-from svsa.experiment.identification_kernel import Parameters
-from svsa.experiment.identification_record import Evidence, IdentificationError, read_evidence
+from svsa.identification.fit import Progress, fit
+from svsa.identification.guess import guess_noise, guess_states
+from svsa.identification.kernel import Parameters
+from svsa.identification.record import Evidence, IdentificationError, read_evidence
 from svsa.parameters import ActuatorParameters
-from svsa.runtime.configuration import Configuration, Design
-from svsa.runtime.recording.reader import Record
+from svsa.records.reader import Record
+from svsa.run.configuration import Configuration, Design
 
 CONFIDENCE = 0.95
 LARGEST_INTERVAL = 0.5

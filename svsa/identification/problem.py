@@ -6,14 +6,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from svsa.experiment.identification_kernel import (
+from svsa.identification.kernel import (
     OUTPUTS,
     STATES,
     Parameters,
     differentiate,
     simulate,
 )
-from svsa.experiment.identification_record import Evidence
+from svsa.identification.record import Evidence
 
 UNKNOWNS = len(Parameters._fields)
 _STATE_STEPS = np.array([1e-5, 1e-4, 1e-5, 1e-4, 1e-5, 1e-4])

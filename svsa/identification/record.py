@@ -11,16 +11,16 @@ import numpy as np
 from scipy.signal import lfilter
 
 from svsa.errors import SvsaError
-from svsa.experiment.identification_kernel import UNLOADED, Setting, Torques, measure
+from svsa.identification.kernel import UNLOADED, Setting, Torques, measure
 from svsa.model.dynamics import build_actuator
 from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio
 from svsa.plant.disturbances import follow_loads
 from svsa.plant.effects import build_bench
-from svsa.runtime.command import Command
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.recording.reader import Record
-from svsa.runtime.resimulation import read_origin
+from svsa.records.reader import Record
+from svsa.records.resimulation import read_origin
+from svsa.run.command import Command
+from svsa.run.configuration import Configuration
 
 SEGMENT_S = 0.25
 LEAST_SEGMENTS = 24

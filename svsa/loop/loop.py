@@ -18,41 +18,34 @@ import numpy as np
 from svsa.borrowed import borrow
 from svsa.compilation import compiled
 from svsa.control.call import BoundLaw, build_call, compute_law, read_estimate
-from svsa.control.installed import get_law
-from svsa.control.law import Setting
 from svsa.control.limits import limit_torque
 from svsa.model.domain import (
     INSIDE,
     NOT_FINITE,
     Domain,
-    build_domain,
     check_domain,
     compute_deflection_limit,
 )
 from svsa.model.dynamics import (
     Acceleration,
     Actuator,
-    build_actuator,
     compute_deflection,
     compute_internal_torque,
     compute_unexplained_torque,
 )
-from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.disturbance import (
-    compute_shares,
     correct_disturbance_estimate,
     update_disturbance_estimate,
 )
 from svsa.observer.state import build_measured_state, update_state_estimate
 from svsa.plant.disturbances import LoadTable, compute_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
-from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench, build_bench
+from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench
 from svsa.plant.integration import compute_plant_rate, integrate_from
 from svsa.plant.sensors import are_exact, read_sensors
 from svsa.reference.transition import Stack, compute_trajectory
-from svsa.runtime.configuration import Configuration, Lane
 from svsa.signals import Disturbance, Reference, State, Torque
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -110,32 +103,6 @@ def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
     """A lane at its start. memory: of its law. x: where its plant is, which is known."""
     asked = (0.0,) * (2 * MOST_DELAY_SAMPLES + 2)
     return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, asked, memory)
-
-
-def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: int = 1) -> Blocks:
-    """The blocks of one lane. mu0: lever ratio at θ2 = 0. steps: RK4 steps a period."""
-    c = configuration
-    limited = c.effects.torque_limits
-    estimation = c.effects.estimation
-    return Blocks(
-        plant=build_actuator(c.actuator, mu0),
-        nominal=build_actuator(c.nominal, mu0),
-        shares=compute_shares(lane.observer or c.observer, c.sampling.period_s),
-        torque1_max=c.limits.torque1_nm if limited else math.inf,
-        torque2_max=c.limits.torque2_nm if limited else math.inf,
-        bench=build_bench(c.effects, c.seed, c.actuator, c.sampling.period_s),
-        decay=exp(-estimation.corner_rad_per_s * c.sampling.period_s) if estimation else 0.0,
-        domain=build_domain(c.actuator, c.limits),
-        period=c.sampling.period_s,
-        steps=steps,
-    )
-
-
-def bind_law(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
-    """The law of one lane among its blocks; compiled where it has not been before."""
-    b = blocks
-    setting = Setting(b.nominal, b.domain, b.torque1_max, b.torque2_max, b.period)
-    return get_law(lane.law).bind(configuration.get_parameters(lane), setting)
 
 
 @compiled

@@ -1,7 +1,7 @@
 """The loop's pieces where the plant is a bench: what is measured takes the place of x.
 
 A tick on a bench is read → follow → decide → write → publish → foresee: the loop of
-`svsa.runtime.loop`, cut open where the bench is read.
+`svsa.loop.loop`, cut open where the bench is read.
 """
 
 import math
@@ -9,13 +9,13 @@ from typing import NamedTuple
 
 from svsa.compilation import compiled
 from svsa.control.call import Call, read_estimate
+from svsa.loop.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks, decide, observe
 from svsa.model.domain import compute_deflection_limit
 from svsa.model.dynamics import ExternalLoad, compute_acceleration
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.state import predict_state
 from svsa.plant.drive import compute_late_torque
-from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks, decide, observe
 from svsa.signals import Disturbance, Measurement, Reference, State, Torque
 
 

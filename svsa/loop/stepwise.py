@@ -1,6 +1,6 @@
 """The same loop tick by tick from Python, for a controller that is not compiled.
 
-The pieces are those of `svsa.runtime.loop`, and so are the samples.
+The pieces are those of `svsa.loop.loop`, and so are the samples.
 """
 
 import math
@@ -10,9 +10,9 @@ import numpy as np
 
 from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
+from svsa.loop.loop import Blocks, Inputs, LaneState, apply_torque, read_reference
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
 from svsa.model.dynamics import compute_internal_torque
-from svsa.runtime.loop import Blocks, Inputs, LaneState, apply_torque, read_reference
 from svsa.signals import Disturbance, Reference, State, Torque
 
 Controller = Callable[[float, Reference, State, Disturbance], tuple[float, float]]
@@ -26,7 +26,7 @@ def advance_stepwise(
     samples: np.ndarray,
     controller: Controller,
 ) -> tuple[LaneState, int, int]:
-    """As `svsa.runtime.loop.advance`, with the torque from `controller`.
+    """As `svsa.loop.loop.advance`, with the torque from `controller`.
 
     controller: time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`) → (u1, u2), N·m. Raises
     `ParameterError` where it returns anything but two numbers.

@@ -8,10 +8,10 @@ from pydantic import TypeAdapter, ValidationError
 from svsa.errors import ParameterError
 from svsa.parameters import Limits
 from svsa.plant.disturbances import Load, ScheduledLoad, follow_loads
-from svsa.runtime.command import KINDS
-from svsa.runtime.configuration import Sampling
-from svsa.runtime.recording.header import RecordHeader
-from svsa.runtime.recording.parquet import Commands
+from svsa.records.header import RecordHeader
+from svsa.records.parquet import Commands
+from svsa.run.command import KINDS
+from svsa.run.configuration import Sampling
 
 _BY_COMMAND = (
     "position",

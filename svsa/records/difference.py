@@ -8,10 +8,10 @@ from pydantic import BaseModel
 
 from svsa.control.gains import Gains
 from svsa.control.parameters import LawParameters
-from svsa.runtime.recording.acting import SETTINGS, Acting, read_acting
-from svsa.runtime.recording.reader import Record
-from svsa.runtime.recording.settings import NO_LOAD
-from svsa.runtime.recording.wording import (
+from svsa.records.acting import SETTINGS, Acting, read_acting
+from svsa.records.reader import Record
+from svsa.records.settings import NO_LOAD
+from svsa.records.wording import (
     UNKNOWN,
     describe_effects,
     describe_lanes,

@@ -5,7 +5,7 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 
 from svsa.errors import Fault
-from svsa.runtime.recording.header import RecordError, replace_file
+from svsa.records.header import RecordError, replace_file
 
 FAULT_FILE = "fault.json"
 _FAULT = TypeAdapter(Fault)

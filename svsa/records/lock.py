@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from svsa.runtime.recording.header import STREAM_FILE
+from svsa.records.header import STREAM_FILE
 
 if sys.platform == "win32":
 

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from svsa.errors import SvsaError
-from svsa.runtime.command import list_loads
-from svsa.runtime.metrics import Metrics, RunningMetrics
-from svsa.runtime.recording.reader import Record
-from svsa.runtime.resimulation import read_origin
-from svsa.runtime.timeline import Timeline, Window, WindowKind, name_stretches, read_timeline
+from svsa.records.reader import Record
+from svsa.records.resimulation import read_origin
+from svsa.run.command import list_loads
+from svsa.run.metrics import Metrics, RunningMetrics
+from svsa.run.timeline import Timeline, Window, WindowKind, name_stretches, read_timeline
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import IO, Any, NamedTuple
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from svsa.runtime.recording.header import (
+from svsa.records.header import (
     COMMANDS_FILE,
     PARQUET_FILE,
     STREAM_FILE,
@@ -18,7 +18,7 @@ from svsa.runtime.recording.header import (
     RecordHeader,
     read_header,
 )
-from svsa.runtime.recording.stream import build_schema, read_stream
+from svsa.records.stream import build_schema, read_stream
 
 COMMANDS_KEY = b"svsa.commands"
 ROWS_A_GROUP = 65_536

@@ -9,16 +9,16 @@ import numpy as np
 import pyarrow as pa
 
 from svsa.errors import Fault
-from svsa.runtime.recording.fault import read_fault
-from svsa.runtime.recording.header import (
+from svsa.records.fault import read_fault
+from svsa.records.header import (
     PARQUET_FILE,
     STREAM_FILE,
     RecordError,
     RecordHeader,
     read_header,
 )
-from svsa.runtime.recording.lock import claim
-from svsa.runtime.recording.parquet import (
+from svsa.records.lock import claim
+from svsa.records.parquet import (
     ROWS_A_GROUP,
     Commands,
     Finished,
@@ -26,7 +26,7 @@ from svsa.runtime.recording.parquet import (
     open_parquet,
     read_commands,
 )
-from svsa.runtime.recording.stream import (
+from svsa.records.stream import (
     TIME,
     build_batch,
     build_schema,

@@ -15,10 +15,10 @@ from typing import Any, Literal
 import numpy as np
 
 from svsa.errors import Fault
-from svsa.runtime.recording.fault import write_fault
-from svsa.runtime.recording.header import RecordError, RecordHeader
-from svsa.runtime.recording.parquet import ROWS_A_GROUP, measure_bytes, write_command
-from svsa.runtime.recording.writer import RecordWriter
+from svsa.records.fault import write_fault
+from svsa.records.header import RecordError, RecordHeader
+from svsa.records.parquet import ROWS_A_GROUP, measure_bytes, write_command
+from svsa.records.writer import RecordWriter
 
 FLUSH_PERIOD_S = 0.2
 LONGEST_CLOSE_S = 5.0

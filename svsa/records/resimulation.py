@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from svsa.runtime.command import Command, read_command, simulate_again
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.recording.header import RecordError
-from svsa.runtime.recording.reader import Record
+from svsa.records.header import RecordError
+from svsa.records.reader import Record
+from svsa.run.command import Command, read_command, simulate_again
+from svsa.run.configuration import Configuration
 
 
 @dataclass(frozen=True)

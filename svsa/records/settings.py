@@ -7,12 +7,10 @@ switched to before the first sample, or a load planned for after the last, is no
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from svsa.reference.paper import References, find_figure
-from svsa.runtime.configuration import load_prototype
-from svsa.runtime.recording.acting import Acting, read_acting
-from svsa.runtime.recording.header import RecordHeader
-from svsa.runtime.recording.parquet import Commands
-from svsa.runtime.recording.wording import (
+from svsa.records.acting import Acting, read_acting
+from svsa.records.header import RecordHeader
+from svsa.records.parquet import Commands
+from svsa.records.wording import (
     MOST_STEPS,
     UNKNOWN,
     VERSUS,
@@ -25,6 +23,8 @@ from svsa.runtime.recording.wording import (
     follow,
     tell_law,
 )
+from svsa.reference.paper import References, find_figure
+from svsa.run.configuration import load_prototype
 
 NO_LOAD = "no load"
 _DOT = " · "

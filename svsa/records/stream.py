@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import pyarrow as pa
 
-from svsa.runtime.recording.header import RecordError, RecordHeader
+from svsa.records.header import RecordError, RecordHeader
 
 HEADER_KEY = b"svsa.header"
 TIME = "time_s"

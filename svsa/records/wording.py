@@ -23,7 +23,7 @@ from svsa.reference.trajectories import (
     SineStiffness,
     StiffnessReference,
 )
-from svsa.runtime.configuration import Lane
+from svsa.run.configuration import Lane
 
 UNKNOWN = "?"
 MOST_STEPS = 3

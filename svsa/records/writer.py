@@ -6,16 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
-from svsa.runtime.recording.header import (
+from svsa.records.header import (
     COMMANDS_FILE,
     STREAM_FILE,
     RecordError,
     RecordHeader,
     write_header,
 )
-from svsa.runtime.recording.lock import take_lock
-from svsa.runtime.recording.parquet import ROWS_A_GROUP, Commands, Finished, finish, write_command
-from svsa.runtime.recording.stream import END_OF_STREAM, TIME, build_batch, build_schema, write_all
+from svsa.records.lock import take_lock
+from svsa.records.parquet import ROWS_A_GROUP, Commands, Finished, finish, write_command
+from svsa.records.stream import END_OF_STREAM, TIME, build_batch, build_schema, write_all
 
 _FLAGS = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_BINARY", 0)
 

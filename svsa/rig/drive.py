@@ -7,7 +7,7 @@ current is held for ever.
 
 import math
 
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.robomodule import (
     Address,
     Command,
     Current,

@@ -2,7 +2,7 @@
 
 import math
 
-from svsa.hardware.robomodule import FILLER
+from svsa.bench.drives.robomodule import FILLER
 from svsa.rig.frame import Frame
 from svsa.rig.parameters import RigDeflection
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, decode_time, encode_time
+from svsa.bench.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, decode_time, encode_time
 from svsa.rig.frame import Frame, FrameServer
 from svsa.rig.rig import Rig
 

@@ -26,7 +26,7 @@ class RunningRig(NamedTuple):
 @contextlib.contextmanager
 def start_rig(lockstep: bool = True, idle_s: float = 120.0, *options: str) -> Iterator[RunningRig]:
     """A rig on free ports of this machine, ended at the end; raises `RigError`."""
-    command = [sys.executable, "-m", "svsa.rig.command", "--port", "0", "--control-port", "0"]
+    command = [sys.executable, "-m", "svsa.rig.cli", "--port", "0", "--control-port", "0"]
     command += ["--idle-s", str(idle_s), *options, *(["--lockstep"] if lockstep else [])]
     process = subprocess.Popen(  # noqa: S603
         command, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True

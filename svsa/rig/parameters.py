@@ -11,7 +11,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import CurrentLag, Friction, LinkGravity
-from svsa.runtime.configuration import load_prototype
+from svsa.run.configuration import load_prototype
 from svsa.toml_file import read_toml
 
 HOME_STIFFNESS_NM_PER_RAD = 30.0

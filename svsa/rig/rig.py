@@ -10,7 +10,7 @@ import random
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID, EMULATED_PERIOD_S
+from svsa.bench.emulation import EMULATED_DATA, EMULATED_ID, EMULATED_PERIOD_S
 from svsa.model.dynamics import compute_deflection
 from svsa.plant.disturbances import Load
 from svsa.rig.drive import ERROR_PERIOD_US, EmulatedDrive

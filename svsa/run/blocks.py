@@ -1,15 +1,16 @@
 """A lane of a configuration as constants of the compiled loop."""
 
 import math
-from svsa.control.installed import get_law
+
 from svsa.control.call import BoundLaw
+from svsa.control.installed import get_law
 from svsa.control.law import Setting
+from svsa.loop.loop import Blocks
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
 from svsa.model.exponential import exp
 from svsa.observer.disturbance import compute_shares
 from svsa.plant.effects import build_bench
-from svsa.loop.loop import Blocks
 from svsa.run.configuration import Configuration, Lane
 
 

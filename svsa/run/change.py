@@ -14,7 +14,7 @@ from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.command import Command, build_command
+from svsa.run.command import Command, build_command
 
 
 class Change(Checked):

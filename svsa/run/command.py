@@ -17,8 +17,8 @@ from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load, ScheduledLoad, follow_loads
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.runtime.configuration import Configuration, Lane
-from svsa.runtime.run import Run
+from svsa.run.configuration import Configuration, Lane
+from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
 STRETCH_TICKS = 10_000

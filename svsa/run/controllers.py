@@ -7,7 +7,7 @@ from typing import NamedTuple
 from svsa.control.installed import get_law, get_title, is_installed
 from svsa.control.parameters import LawParameters, UnreadParameters
 from svsa.observer.disturbance import ObserverBandwidth
-from svsa.runtime.configuration import Configuration, Lane
+from svsa.run.configuration import Configuration, Lane
 
 BENCH_LANES = ("Bench", "Twin")
 

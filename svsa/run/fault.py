@@ -1,6 +1,7 @@
 """Why a run ended, in words and numbers."""
 
 from svsa.errors import Fault
+from svsa.loop.loop import Blocks
 from svsa.model.domain import (
     DEFLECTION_LIMIT,
     FAULT_CODES,
@@ -12,7 +13,6 @@ from svsa.model.domain import (
 from svsa.model.dynamics import compute_deflection
 from svsa.model.lever import compute_lever_ratio, compute_zero_stiffness_deflection
 from svsa.model.spring import compute_stiffness
-from svsa.runtime.loop import Blocks
 from svsa.signals import State
 
 

@@ -9,6 +9,8 @@ from svsa.control.gains import Gains
 from svsa.control.installed import check_installed, get_law
 from svsa.control.parameters import LawParameters
 from svsa.errors import Fault, ParameterError, StateError
+from svsa.loop.loop import AT_REST, Inputs, LaneState, advance, build_lane_state
+from svsa.loop.stepwise import Controller, advance_stepwise
 from svsa.model.domain import INSIDE
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
 from svsa.model.spring import compute_stiffness
@@ -30,18 +32,9 @@ from svsa.reference.trajectories import (
     get_range,
 )
 from svsa.reference.transition import Stack, build_stack, push_trajectory
-from svsa.runtime.configuration import MOST_LOADS, Configuration, Lane
-from svsa.runtime.fault import build_fault
-from svsa.runtime.loop import (
-    AT_REST,
-    Inputs,
-    LaneState,
-    advance,
-    bind_law,
-    build_blocks,
-    build_lane_state,
-)
-from svsa.runtime.stepwise import Controller, advance_stepwise
+from svsa.run.blocks import bind_law, build_blocks
+from svsa.run.configuration import MOST_LOADS, Configuration, Lane
+from svsa.run.fault import build_fault
 from svsa.signals import State
 
 

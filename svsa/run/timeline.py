@@ -12,15 +12,15 @@ from typing import Literal, NamedTuple
 
 from svsa.control.installed import PAPERS_LAW, get_title, list_law_names
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
-from svsa.runtime.command import KINDS, Command
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.controllers import (
+from svsa.run.command import KINDS, Command
+from svsa.run.configuration import Configuration
+from svsa.run.controllers import (
     Controller,
     complete_laws,
     list_controllers,
     name_controllers,
 )
-from svsa.runtime.run import Run, find_origins
+from svsa.run.run import Run, find_origins
 
 MOST_WINDOWS = 1000
 MOST_STRETCHES = 1000

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from svsa.runtime.metrics import RunningMetrics
+from svsa.run.metrics import RunningMetrics
 
 Lanes = list[RunningMetrics | None]
 

@@ -5,25 +5,25 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from svsa.bench.calibration import find_calibration, list_problems
+from svsa.bench.file import read_bench
+from svsa.bench.homing import STEPS, Axis
+from svsa.bench.realtime.configuration import build_bench_configuration
+from svsa.bench.realtime.launch import BenchProcesses, Rest, Teller, keep_quiet
+from svsa.bench.realtime.loss import LOSSES, Loss, find_loss, is_supervised
+from svsa.bench.safety.machine import MOVING, BenchStatus
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
-from svsa.hardware.bench import read_bench
-from svsa.hardware.calibration import find_calibration, list_problems
-from svsa.hardware.homing import STEPS, Axis
-from svsa.hardware.machine import MOVING, BenchStatus
+from svsa.loop.loop import AT_REST
 from svsa.plant.disturbances import Load
+from svsa.records.header import PlantKind
+from svsa.records.recorder import Recorder
 from svsa.reference.trajectories import Trajectory
-from svsa.runtime.command import Command, build_command
-from svsa.runtime.configuration import Configuration, Lane
-from svsa.runtime.loop import AT_REST
-from svsa.runtime.realtime.configuration import build_bench_configuration
-from svsa.runtime.realtime.launch import BenchProcesses, Rest, Teller, keep_quiet
-from svsa.runtime.realtime.loss import LOSSES, Loss, find_loss, is_supervised
-from svsa.runtime.realtime.run import BenchRun
-from svsa.runtime.recording.header import PlantKind
-from svsa.runtime.recording.recorder import Recorder
-from svsa.runtime.run import Start
-from svsa.runtime.session import Session, Status
+from svsa.run.command import Command, build_command
+from svsa.run.configuration import Configuration, Lane
+from svsa.run.run import Start
+from svsa.session.bench_run import BenchRun
+from svsa.session.session import Session, Status
 from svsa.signals import State
 
 UNWATCHED_S = 1.0

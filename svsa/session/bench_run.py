@@ -4,11 +4,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from svsa.bench.realtime.memory import LoopMemory
 from svsa.model.domain import INSIDE
-from svsa.runtime.configuration import Configuration, Lane
-from svsa.runtime.controllers import complete_laws
-from svsa.runtime.realtime.memory import LoopMemory
-from svsa.runtime.run import Run, Start, find_origins
+from svsa.run.configuration import Configuration, Lane
+from svsa.run.controllers import complete_laws
+from svsa.run.run import Run, Start, find_origins
 from svsa.signals import CHANNEL_INDEX
 
 if TYPE_CHECKING:

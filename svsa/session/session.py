@@ -9,15 +9,15 @@ from typing import Any, Literal, Self
 from svsa.errors import Fault, StateError
 from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load, ScheduledLoad
-from svsa.runtime.clock import SimulationClock
-from svsa.runtime.command import Command, build_command
-from svsa.runtime.configuration import MOST_LANES, Configuration
-from svsa.runtime.history import History
-from svsa.runtime.recording.header import BranchPoint, PlantKind
-from svsa.runtime.recording.recorder import Recorder
-from svsa.runtime.run import Run
-from svsa.runtime.timeline import Timeline, describe_change, describe_load
-from svsa.runtime.window_metrics import WindowMetrics
+from svsa.records.header import BranchPoint, PlantKind
+from svsa.records.recorder import Recorder
+from svsa.run.command import Command, build_command
+from svsa.run.configuration import MOST_LANES, Configuration
+from svsa.run.run import Run
+from svsa.run.timeline import Timeline, describe_change, describe_load
+from svsa.run.window_metrics import WindowMetrics
+from svsa.session.clock import SimulationClock
+from svsa.session.history import History
 
 HISTORY_TICKS = 32_768
 KEPT_S = 60.0

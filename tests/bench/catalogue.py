@@ -7,12 +7,12 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from svsa.runtime.catalogue.database import Database
-from svsa.runtime.catalogue.entry import RunEntry
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.measured_window import MeasuredWindow
-from svsa.runtime.metrics import Metrics
-from svsa.runtime.recording.settings import RunSettings
+from svsa.records.catalogue.database import Database
+from svsa.records.catalogue.entry import RunEntry
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.measured_window import MeasuredWindow
+from svsa.records.settings import RunSettings
+from svsa.run.metrics import Metrics
 
 RUNS = 10_000
 PAGE = 20

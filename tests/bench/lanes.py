@@ -9,13 +9,14 @@ import svsa
 from svsa.control.feedback_linearization import build_gains
 from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
+from svsa.loop.loop import Inputs, advance_tick, build_lane_state
+from svsa.loop.stepwise import Controller
 from svsa.model.dynamics import build_actuator
 from svsa.plant.disturbances import build_load_table
 from svsa.reference.transition import build_stack
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.loop import Inputs, advance_tick, bind_law, build_blocks, build_lane_state
-from svsa.runtime.run import Run
-from svsa.runtime.stepwise import Controller
+from svsa.run.blocks import bind_law, build_blocks
+from svsa.run.configuration import Configuration
+from svsa.run.run import Run
 from svsa.signals import CHANNELS
 from tests.experiment.sessions import EVERY_EFFECT
 

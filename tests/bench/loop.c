@@ -1,4 +1,4 @@
-/* The loop of svsa.runtime.loop for Figure 4A with NDOBC and an ideal bench, as one would write it
+/* The loop of svsa.loop.loop for Figure 4A with NDOBC and an ideal bench, as one would write it
  * in C to be quick: what `svsa bench` holds the compiled equations against.
  *
  * The same work: reference, domain, law, limits, loads, all channels of a sample, one Runge-Kutta

@@ -16,12 +16,12 @@ import time
 from pathlib import Path
 
 from svsa.experiment.bench_run import RIG_BENCH
-from svsa.experiment.paper import CABLE_PULL, get_figure
+from svsa.paper import CABLE_PULL, get_figure
 from svsa.rig.launch import start_rig
 from tests.bench.sessions import watch
 from tests.lab import Lab, run_lab
 
-LOOP = "svsa.runtime.realtime.process"
+LOOP = "svsa.bench.realtime.process"
 
 
 def write_bench(folder: Path, port: int, control_port: int) -> Path:

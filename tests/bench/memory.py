@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 import svsa
-from svsa.runtime.session import Session
+from svsa.session.session import Session
 from tests.experiment.sessions import EVERY_EFFECT
 
 RIVALS = (svsa.Lane(law="fl"), svsa.Lane(law="ndobc"), svsa.Lane(law="fl"))

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from svsa.runtime.catalogue.runs import Catalogue
+from svsa.records.catalogue.runs import Catalogue
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.recording.header import RecordHeader
-from svsa.runtime.recording.writer import write_record
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.header import RecordHeader
+from svsa.records.writer import write_record
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 
 PERIOD_S = 0.001

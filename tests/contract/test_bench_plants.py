@@ -11,23 +11,23 @@ from typing import Any
 import numpy as np
 import pytest
 
+from svsa.bench.calibration import find_calibration
+from svsa.bench.can_plant import CanPlant
+from svsa.bench.clock import LockstepClock
+from svsa.bench.drives.conversion import build_motor_scale, compute_current_ma
+from svsa.bench.drives.phase import Phase
+from svsa.bench.file import BenchFile, BusSettings, read_bench
+from svsa.bench.realtime.configuration import build_bench_configuration, build_guard
+from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.safety.machine import BenchStatus, Conditions, Machine
+from svsa.bench.sensing import Reading
 from svsa.errors import StateError
 from svsa.experiment.bench_run import SampleArray, connect_bench
-from svsa.experiment.paper import get_figure
-from svsa.hardware.bench import BenchFile, BusSettings, read_bench
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant
-from svsa.hardware.clock import LockstepClock
-from svsa.hardware.conversion import build_motor_scale, compute_current_ma
-from svsa.hardware.machine import BenchStatus, Conditions, Machine
-from svsa.hardware.phase import Phase
-from svsa.hardware.sensing import Reading
 from svsa.model.dynamics import compute_deflection
+from svsa.paper import get_figure
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.rig.mechanics import Mechanics
 from svsa.rig.parameters import RigParameters
-from svsa.runtime.realtime.configuration import build_bench_configuration, build_guard
-from svsa.runtime.realtime.loop import BenchLoop
 from svsa.signals import CHANNEL_INDEX, Disturbance, Measurement, State, Torque
 from tests.hardware.wired_bench import RIG_BENCH
 

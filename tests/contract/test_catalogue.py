@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from svsa.errors import ParameterError, StateError
-from svsa.runtime.catalogue.entry import UnknownRunError
-from svsa.runtime.catalogue.runs import Catalogue, build_run_id, find_data_folder
-from svsa.runtime.metrics import compute_metrics
-from svsa.runtime.recording.header import is_run_id
+from svsa.records.catalogue.entry import UnknownRunError
+from svsa.records.catalogue.runs import Catalogue, build_run_id, find_data_folder
+from svsa.records.header import is_run_id
+from svsa.run.metrics import compute_metrics
 
 from .records import PERIOD_S, add, build_header, build_samples, list_ids
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from svsa.experiment.paper import get_figure
+from svsa.paper import get_figure
 from svsa.plant.disturbances import PaperLoad
-from svsa.runtime.catalogue.database import build_order
-from svsa.runtime.catalogue.entry import SORTS
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.configuration import Lane
-from svsa.runtime.recording.header import BranchPoint, read_header, write_header
+from svsa.records.catalogue.database import build_order
+from svsa.records.catalogue.entry import SORTS
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.header import BranchPoint, read_header, write_header
+from svsa.run.configuration import Lane
 from svsa_server.recording import open_catalogue
 
 from .records import Command, add, list_ids, wait_until

@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from svsa.runtime.catalogue.entry import CatalogueError
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.recording.header import RecordError
+from svsa.records.catalogue.entry import CatalogueError
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.header import RecordError
 
 from .records import add, list_ids
 
 CHILD = """
 import os, signal, sys
-from svsa.runtime.catalogue.runs import Catalogue
+from svsa.records.catalogue.runs import Catalogue
 from tests.contract.records import build_header, build_samples
 recorder = Catalogue(sys.argv[1]).record(build_header("run-9"))
 recorder.write_samples(0, build_samples(400))

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from svsa.runtime.catalogue import recovery, runs
-from svsa.runtime.catalogue.entry import RunEntry
-from svsa.runtime.catalogue.recovery import build_entry, describe
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.recording.header import RecordHeader, read_header, write_header
-from svsa.runtime.recording.parquet import measure_bytes
-from svsa.runtime.recording.writer import write_record
+from svsa.records.catalogue import recovery, runs
+from svsa.records.catalogue.entry import RunEntry
+from svsa.records.catalogue.recovery import build_entry, describe
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.header import RecordHeader, read_header, write_header
+from svsa.records.parquet import measure_bytes
+from svsa.records.writer import write_record
 
 from .records import add, build_header, build_samples
 

@@ -6,13 +6,13 @@ from typing import Any
 
 import pytest
 
-from svsa.experiment.paper import get_figure
+from svsa.paper import get_figure
 from svsa.plant.disturbances import MassLoad, PulseLoad
-from svsa.runtime.catalogue.recovery import measure
-from svsa.runtime.configuration import Lane
-from svsa.runtime.measured_window import MeasuredWindow, find_measured_window
-from svsa.runtime.metrics import compute_metrics
-from svsa.runtime.recording.reader import Record, build_record
+from svsa.records.catalogue.recovery import measure
+from svsa.records.measured_window import MeasuredWindow, find_measured_window
+from svsa.records.reader import Record, build_record
+from svsa.run.configuration import Lane
+from svsa.run.metrics import compute_metrics
 
 from .records import PERIOD_S, build_header, build_samples
 

@@ -6,13 +6,13 @@ import pytest
 
 import svsa
 from svsa.errors import Fault
-from svsa.experiment.paper import get_figure
 from svsa.fault_labels import label_fault
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.recording.fault import FAULT_FILE
-from svsa.runtime.recording.header import RecordError
-from svsa.runtime.recording.reader import open_record
-from svsa.runtime.session import Session
+from svsa.paper import get_figure
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.fault import FAULT_FILE
+from svsa.records.header import RecordError
+from svsa.records.reader import open_record
+from svsa.session.session import Session
 
 from .records import build_header, list_ids
 

@@ -15,11 +15,11 @@ import pyarrow.parquet as pq
 import pytest
 
 from svsa.errors import ParameterError, SvsaError
-from svsa.runtime.recording import recorder as recorder_module
-from svsa.runtime.recording.header import RecordError, RecordHeader, parse_header
-from svsa.runtime.recording.reader import open_record, read_record, recover
-from svsa.runtime.recording.recorder import Recorder
-from svsa.runtime.recording.writer import write_record
+from svsa.records import recorder as recorder_module
+from svsa.records.header import RecordError, RecordHeader, parse_header
+from svsa.records.reader import open_record, read_record, recover
+from svsa.records.recorder import Recorder
+from svsa.records.writer import write_record
 from svsa.signals import CHANNELS
 
 from .records import build_header, build_samples, wait_until

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from svsa.runtime.recording.header import RecordError
-from svsa.runtime.recording.reader import read_record, recover
-from svsa.runtime.recording.recorder import Recorder
-from svsa.runtime.recording.writer import write_record
+from svsa.records.header import RecordError
+from svsa.records.reader import read_record, recover
+from svsa.records.recorder import Recorder
+from svsa.records.writer import write_record
 
 from .records import PERIOD_S, build_header, build_samples, wait_until
 

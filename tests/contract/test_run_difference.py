@@ -2,14 +2,14 @@
 
 from typing import Any
 
-from svsa.experiment.paper import get_figure
+from svsa.paper import get_figure
 from svsa.plant.disturbances import PaperLoad
 from svsa.plant.effects import IDEAL, RIG, SensorNoise
+from svsa.records.difference import compare_settings, tell_poles
+from svsa.records.reader import Record, build_record
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
-from svsa.runtime.configuration import Lane
-from svsa.runtime.recording.difference import compare_settings, tell_poles
-from svsa.runtime.recording.reader import Record, build_record
-from svsa.runtime.session import Session
+from svsa.run.configuration import Lane
+from svsa.session.session import Session
 
 from .records import build_samples
 from .test_run_settings import build_header

@@ -4,14 +4,14 @@ from typing import Any
 
 import pytest
 
-from svsa.experiment.paper import get_figure
+from svsa.paper import get_figure
 from svsa.plant.disturbances import MassLoad, PaperLoad, PulseLoad, PushLoad
 from svsa.plant.effects import RIG, Friction
+from svsa.records.header import RecordHeader
+from svsa.records.settings import RunSettings, describe_settings, name_figure
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
-from svsa.runtime.command import Command
-from svsa.runtime.configuration import Configuration, Lane, load_prototype
-from svsa.runtime.recording.header import RecordHeader
-from svsa.runtime.recording.settings import RunSettings, describe_settings, name_figure
+from svsa.run.command import Command
+from svsa.run.configuration import Configuration, Lane, load_prototype
 from svsa.signals import CHANNELS
 
 TICKS = 8000

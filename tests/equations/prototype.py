@@ -13,7 +13,7 @@ from svsa.model.lever import compute_zero_stiffness_deflection
 from svsa.plant.disturbances import build_load_table
 from svsa.plant.effects import build_bench
 from svsa.plant.integration import integrate_period
-from svsa.runtime.configuration import load_prototype
+from svsa.run.configuration import load_prototype
 from svsa.signals import CHANNELS, State, Torque
 
 DESIGN = load_prototype()

@@ -17,7 +17,7 @@ from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.model.linearization import compute_linearization, solve_decoupling
 from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
 from svsa.reference.sine import compute_sine
-from svsa.runtime.run import Run
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Disturbance, Reference, State, Torque
 
 from .prototype import DESIGN, NO_LOADS, K, integrate_ideal, put, record

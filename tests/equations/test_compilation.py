@@ -44,21 +44,21 @@ def test_a_file_counts_with_all_that_it_imports() -> None:
 def test_a_law_is_no_part_of_the_loop() -> None:
     """So that a law that is added or changed compiles neither the loop nor another law."""
     laws = {"control/feedback_linearization.py", "control/ndobc.py"}
-    assert not laws & find_names("runtime/loop.py")
-    assert not laws & find_names("runtime/measured.py")
+    assert not laws & find_names("loop/loop.py")
+    assert not laws & find_names("loop/measured.py")
     assert "control/ndobc.py" not in find_names("control/feedback_linearization.py")
 
 
 def test_files_beside_the_equations_compile_nothing_anew() -> None:
     beside = {
         "cli.py",
-        "runtime/session.py",
-        "runtime/run.py",
-        "runtime/metrics.py",
-        "runtime/command.py",
+        "session/session.py",
+        "run/run.py",
+        "run/metrics.py",
+        "run/command.py",
     }
     assert all((LIBRARY / name).exists() for name in beside)
-    assert not beside & find_names("runtime/loop.py")
+    assert not beside & find_names("loop/loop.py")
 
 
 @pytest.fixture

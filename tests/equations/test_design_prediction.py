@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.experiment.loop_noise import choose_sensing, compute_loop_noise, linearize_tick
-from svsa.experiment.prediction import LOAD, measure_demand, predict
-from svsa.experiment.steady_error import compute_fl_steady_error
+from svsa.design.loop_noise import choose_sensing, compute_loop_noise, linearize_tick
+from svsa.design.prediction import LOAD, measure_demand, predict
+from svsa.design.steady_error import compute_fl_steady_error
 from svsa.plant.effects import Effects, SensorNoise, StateEstimation
-from svsa.runtime.configuration import Configuration
+from svsa.run.configuration import Configuration
 
 
 def build(law: str, sigma: float, **changes: object) -> Configuration:

@@ -22,7 +22,7 @@ from svsa.model.domain import (
 )
 from svsa.model.lever import compute_zero_stiffness_deflection
 from svsa.model.linearization import compute_linearization
-from svsa.runtime.run import Run
+from svsa.run.run import Run
 from svsa.signals import CHANNELS, State
 
 from .prototype import DESIGN, NOMINAL, PLANT, build_state, drawn, lever_ratios, put, springs

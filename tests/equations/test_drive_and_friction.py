@@ -10,23 +10,15 @@ from scipy.integrate import quad
 
 import svsa
 from svsa.control.call import build_call
+from svsa.loop.loop import AT_REST, NO_TORQUE, UNDISTURBED, Inputs, compute_control, read_reference
+from svsa.loop.loop import delay as delay_torque
 from svsa.plant.drive import compute_lagged_torque, compute_late_torque, compute_mean_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, CurrentLag, Friction, build_bench
 from svsa.plant.friction import compute_friction
 from svsa.plant.integration import integrate_period
 from svsa.reference.transition import build_stack
-from svsa.runtime.loop import (
-    AT_REST,
-    NO_TORQUE,
-    UNDISTURBED,
-    Inputs,
-    bind_law,
-    build_blocks,
-    compute_control,
-    read_reference,
-)
-from svsa.runtime.loop import delay as delay_torque
-from svsa.runtime.run import Run
+from svsa.run.blocks import bind_law, build_blocks
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, State, Torque
 
 from .prototype import DESIGN, IDEAL_BENCH, NO_LOADS, PLANT, drawn, record

@@ -8,8 +8,8 @@ import pytest
 import svsa
 from svsa.model.dynamics import ExternalLoad, compute_acceleration, compute_internal_torque
 from svsa.plant.disturbances import build_load_table, compute_load, schedule_load
-from svsa.runtime.configuration import MOST_LOADS
-from svsa.runtime.run import Run
+from svsa.run.configuration import MOST_LOADS
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, Torque
 
 from .prototype import PLANT, build_state, record

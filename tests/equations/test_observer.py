@@ -10,7 +10,7 @@ from svsa.model.dynamics import build_actuator, compute_internal_torque
 from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
 from svsa.plant.disturbances import build_load_table, schedule_load
-from svsa.runtime.run import Run
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, Disturbance, Reference, State, Torque
 
 from .prototype import DESIGN, NOMINAL, PLANT, build_state, integrate_ideal, record

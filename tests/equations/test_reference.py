@@ -17,7 +17,7 @@ from svsa.reference.transition import (
     compute_trajectory,
     push_trajectory,
 )
-from svsa.runtime.run import Run
+from svsa.run.run import Run
 
 from .prototype import differentiate, drawn
 

@@ -3,11 +3,11 @@
 import numpy as np
 
 import svsa
-from svsa.experiment.excitation import EXCITATION_DURATION_S, build_commands
+from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.plant.effects import CurrentLag, Encoders, Friction, StateEstimation
-from svsa.runtime.command import replay
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.recording.reader import build_record
+from svsa.records.reader import build_record
+from svsa.run.command import replay
+from svsa.run.configuration import Configuration
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 from tests.contract.records import build_header
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.plant.effects import CurrentLag, Friction, LinkGravity, SensorNoise
-from svsa.runtime.command import KINDS, read_command, simulate_again
-from svsa.runtime.configuration import Configuration
+from svsa.run.command import KINDS, read_command, simulate_again
+from svsa.run.configuration import Configuration
 
 from .sessions import EVERY_EFFECT, PULSE, build_session
 

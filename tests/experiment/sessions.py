@@ -11,7 +11,7 @@ from svsa.plant.effects import (
     SensorNoise,
     StateEstimation,
 )
-from svsa.runtime.session import Session
+from svsa.session.session import Session
 from svsa.signals import CHANNELS
 
 PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.experiment import benchmark
-from svsa.runtime.run import Run
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX
 
 RUNNER = CliRunner()

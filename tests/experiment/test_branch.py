@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import svsa
-from svsa.runtime.command import Command, build_run_at
-from svsa.runtime.session import Session
+from svsa.run.command import Command, build_run_at
+from svsa.session.session import Session
 
 from .scripts import collect, play, play_busy_session, read, scripted, scripts, wake_sizes, write
 from .sessions import PULSE, advance, build_configuration, build_session, list_lanes, read_samples

@@ -3,9 +3,9 @@
 import numpy as np
 
 import svsa
-from svsa.runtime.clock import SimulationClock
-from svsa.runtime.history import History
-from svsa.runtime.session import HISTORY_TICKS
+from svsa.session.clock import SimulationClock
+from svsa.session.history import History
+from svsa.session.session import HISTORY_TICKS
 
 from .sessions import ALL, build_session, read_samples
 

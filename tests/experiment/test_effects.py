@@ -15,7 +15,7 @@ from svsa.plant.effects import (
     SensorNoise,
     StateEstimation,
 )
-from svsa.runtime.run import Run
+from svsa.run.run import Run
 
 from .sessions import EVERY_EFFECT, advance, build_configuration
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from svsa.experiment.excitation import EXCITATION, EXCITATION_DURATION_S, build_commands
-from svsa.runtime.session import Session
+from svsa.identification.excitation import EXCITATION, EXCITATION_DURATION_S, build_commands
+from svsa.session.session import Session
 
 from .excited_run import DESIGN, build_configuration, get, play
 

@@ -15,11 +15,11 @@ import scipy.io
 from mcap.reader import make_reader
 
 from svsa.errors import ParameterError
-from svsa.experiment.export import EXPORT_KINDS, build_file_name, export
-from svsa.experiment.export_mat import build_identifiers
-from svsa.runtime.recording.header import RecordError
-from svsa.runtime.recording.reader import Record, build_record, open_record
-from svsa.runtime.recording.writer import write_record
+from svsa.export.formats import EXPORT_KINDS, build_file_name, export
+from svsa.export.mat import build_identifiers
+from svsa.records.header import RecordError
+from svsa.records.reader import Record, build_record, open_record
+from svsa.records.writer import write_record
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 
 from ..contract.records import build_header, build_samples

@@ -7,20 +7,20 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.experiment import identification
-from svsa.experiment.identification import ACTUATOR, identify
-from svsa.experiment.identification_kernel import compute_shifted_torque
-from svsa.experiment.identification_record import (
+from svsa.identification import identify as identification
+from svsa.identification.cli import identify as identify_command
+from svsa.identification.identify import ACTUATOR, identify
+from svsa.identification.kernel import compute_shifted_torque
+from svsa.identification.record import (
     IdentificationError,
     build_torques,
     find_loads,
     read_evidence,
 )
-from svsa.experiment.identify_command import identify as identify_command
 from svsa.plant.effects import CurrentLag, Encoders, Friction, SensorNoise
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.command import build_command
-from svsa.runtime.configuration import read_design
+from svsa.records.catalogue.runs import Catalogue
+from svsa.run.command import build_command
+from svsa.run.configuration import read_design
 from svsa.signals import CHANNEL_INDEX
 
 from .excited_run import BENCH, DESIGN, build_configuration, build_run, get, play

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.runtime.metrics import compute_metrics
-from svsa.runtime.run import Run
+from svsa.run.metrics import compute_metrics
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX
 
 from .sessions import (

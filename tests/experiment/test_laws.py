@@ -13,12 +13,12 @@ from svsa.compilation import compiled, watch_compilation
 from svsa.control import installed
 from svsa.control.installed import LawError, get_law, list_law_names
 from svsa.control.law import Law
-from svsa.experiment.loop_noise import linearize_tick
-from svsa.runtime.command import build_command, replay
-from svsa.runtime.controllers import name_controllers
-from svsa.runtime.loop import advance as advance_lane
-from svsa.runtime.run import Run
-from svsa.runtime.session import Session
+from svsa.design.loop_noise import linearize_tick
+from svsa.loop.loop import advance as advance_lane
+from svsa.run.command import build_command, replay
+from svsa.run.controllers import name_controllers
+from svsa.run.run import Run
+from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Torque
 
 from .sessions import PULSE, advance, build_configuration, read_samples

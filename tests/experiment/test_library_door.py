@@ -11,9 +11,9 @@ import pytest
 
 import svsa
 from svsa.experiment.channels import ChannelName, Channels
-from svsa.runtime.recording.reader import open_record
-from svsa.runtime.recording.recorder import Recorder
-from svsa.runtime.session import Session
+from svsa.records.reader import open_record
+from svsa.records.recorder import Recorder
+from svsa.session.session import Session
 from svsa.signals import CHANNEL_NAMES, CHANNELS
 from tests.contract.records import build_header
 

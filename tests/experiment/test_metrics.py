@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from svsa.runtime.metrics import SETTLED_S, RunningMetrics, compute_metrics
+from svsa.run.metrics import SETTLED_S, RunningMetrics, compute_metrics
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 
 T = 0.001

@@ -7,8 +7,8 @@ import pytest
 
 import svsa
 from svsa.reference.series import MOST_ROWS
-from svsa.runtime.command import read_command, simulate_again
-from svsa.runtime.realtime.session import check_takes_no_time
+from svsa.run.command import read_command, simulate_again
+from svsa.session.bench import check_takes_no_time
 from svsa.signals import CHANNEL_INDEX
 
 from .sessions import build_configuration, build_session, read_samples

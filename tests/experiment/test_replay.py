@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 
 import svsa
-from svsa.runtime.command import Command, read_command, replay, simulate_again
-from svsa.runtime.configuration import Configuration
+from svsa.run.command import Command, read_command, replay, simulate_again
+from svsa.run.configuration import Configuration
 
 from .scripts import (
     collect,
@@ -54,8 +54,8 @@ def test_the_same_bits_come_out_of_a_fresh_process():
     program = (
         "import hashlib, json, sys\n"
         "import numpy as np\n"
-        "from svsa.runtime.command import read_command, simulate_again\n"
-        "from svsa.runtime.configuration import Configuration\n"
+        "from svsa.run.command import read_command, simulate_again\n"
+        "from svsa.run.configuration import Configuration\n"
         "written = json.load(sys.stdin)\n"
         "commands = [read_command(command) for command in written['commands']]\n"
         "configuration = Configuration(**written['configuration'])\n"

@@ -5,7 +5,7 @@ import pytest
 
 import svsa
 from svsa.fault_labels import label_fault
-from svsa.runtime.clock import LONGEST_BACKLOG_S
+from svsa.session.clock import LONGEST_BACKLOG_S
 
 from .sessions import PULSE, build_session, list_events, read_samples
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.runtime.command import KINDS, Command, read_command, replay
+from svsa.run.command import KINDS, Command, read_command, replay
 from svsa.signals import CHANNEL_INDEX
 
 from .sessions import PULSE, build_session, list_events, read_samples

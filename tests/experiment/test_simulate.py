@@ -8,7 +8,7 @@ import pandas
 import pytest
 
 import svsa
-from svsa.runtime.run import Run
+from svsa.run.run import Run
 from svsa.signals import CHANNEL_NAMES, CHANNELS
 
 

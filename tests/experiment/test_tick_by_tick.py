@@ -10,19 +10,10 @@ from svsa.control.call import build_call
 from svsa.control.feedback_linearization import build_gains, compute_feedback_linearization
 from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
-from svsa.model.domain import INSIDE, check_domain
-from svsa.model.dynamics import build_actuator, compute_internal_torque
-from svsa.observer.disturbance import update_disturbance_estimate
-from svsa.plant.disturbances import build_load_table, compute_load, schedule_load
-from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
-from svsa.plant.integration import compute_plant_rate, integrate_period
-from svsa.reference.transition import build_stack
-from svsa.runtime.loop import (
+from svsa.loop.loop import (
     Inputs,
     LaneState,
     advance_tick,
-    bind_law,
-    build_blocks,
     build_lane_state,
     compute_control,
     delay,
@@ -30,8 +21,16 @@ from svsa.runtime.loop import (
     read_reference,
     sense,
 )
-from svsa.runtime.loop import advance as advance_lane
-from svsa.runtime.run import Run
+from svsa.loop.loop import advance as advance_lane
+from svsa.model.domain import INSIDE, check_domain
+from svsa.model.dynamics import build_actuator, compute_internal_torque
+from svsa.observer.disturbance import update_disturbance_estimate
+from svsa.plant.disturbances import build_load_table, compute_load, schedule_load
+from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
+from svsa.plant.integration import compute_plant_rate, integrate_period
+from svsa.reference.transition import build_stack
+from svsa.run.blocks import bind_law, build_blocks
+from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
 from .sessions import EVERY_EFFECT, PULSE, advance, build_configuration

@@ -3,8 +3,8 @@
 import pytest
 
 import svsa
-from svsa.runtime.controllers import name_controllers
-from svsa.runtime.timeline import Timeline, Window, read_timeline
+from svsa.run.controllers import name_controllers
+from svsa.run.timeline import Timeline, Window, read_timeline
 
 from .scripts import play_busy_session
 from .sessions import build_configuration, build_session

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import can
 
-from svsa.hardware.bench import BusSettings
+from svsa.bench.file import BusSettings
 from svsa.rig.frame import Frame
 from svsa.rig.rig import Rig
 

@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 import can
 import pytest
 
+from svsa.bench import can_plant
+from svsa.bench.drives.drive import build_broadcast_resets
+from svsa.bench.emulation import ADVANCE_ID, encode_time
+from svsa.bench.safety.faults import FAULTS
+from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.hardware import can_plant
-from svsa.hardware.drive import build_broadcast_resets
-from svsa.hardware.emulation import ADVANCE_ID, encode_time
-from svsa.hardware.faults import FAULTS
-from svsa.hardware.machine import BenchStatus
 from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.faults import (
     BrownOut,

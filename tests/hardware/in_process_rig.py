@@ -9,7 +9,7 @@ from unittest.mock import patch
 
 import can
 
-from svsa.hardware.bench import BusSettings
+from svsa.bench.file import BusSettings
 from svsa.rig.control import RigControl, RigError, answer
 from svsa.rig.exchange import Exchange
 from svsa.rig.frame import Frame
@@ -108,5 +108,5 @@ class InProcessRig:
 def start_in_process() -> Iterator[InProcessRig]:
     """A rig to which every bus goes that a plant opens meanwhile."""
     rig = InProcessRig()
-    with patch("svsa.hardware.can_plant.open_bus", rig.open_bus):
+    with patch("svsa.bench.can_plant.open_bus", rig.open_bus):
         yield rig

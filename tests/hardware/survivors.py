@@ -15,7 +15,7 @@ from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.launch import RunningRig
 from tests.processes import find_child
 
-LOOP, SUPERVISOR = "svsa.runtime.realtime.process", "svsa.hardware.supervisor"
+LOOP, SUPERVISOR = "svsa.bench.realtime.process", "svsa.bench.safety.supervisor"
 LOAD = ConstantLoad(torque_nm=(1.5, 0.0, 0.0))
 PATIENCE_S = 60.0
 ATTEMPTS = 3

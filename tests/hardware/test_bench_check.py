@@ -6,14 +6,22 @@ import itertools
 import can
 import pytest
 
-from svsa.hardware.bench import read_bench
-from svsa.hardware.bus import BusError
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.check import SIGN_STEPS, check_bench
-from svsa.hardware.check.step import Result
-from svsa.hardware.homing import STEPS, Homing
-from svsa.hardware.robomodule import Address, Command, Current, build_id, decode, encode, split_id
-from svsa.hardware.zero import calibrate
+from svsa.bench.calibration import find_calibration
+from svsa.bench.check import SIGN_STEPS, check_bench
+from svsa.bench.check.step import Result
+from svsa.bench.drives.bus import BusError
+from svsa.bench.drives.robomodule import (
+    Address,
+    Command,
+    Current,
+    build_id,
+    decode,
+    encode,
+    split_id,
+)
+from svsa.bench.file import read_bench
+from svsa.bench.homing import STEPS, Homing
+from svsa.bench.zero import calibrate
 from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.faults import (
     BusErrors,

@@ -4,9 +4,9 @@ import pytest
 from typer import Typer
 from typer.testing import CliRunner
 
-from svsa.hardware.bench import read_bench
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.command import bench_check, bench_home
+from svsa.bench.calibration import find_calibration
+from svsa.bench.cli import bench_check, bench_home
+from svsa.bench.file import read_bench
 from svsa.rig.launch import start_rig
 from tests.hardware.bus_in_time import copy_bench
 

@@ -11,11 +11,11 @@ from typing import Any
 
 import pytest
 
+from svsa.bench.safety.faults import FAULTS
+from svsa.bench.safety.guard import OVERLOAD
+from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
 from svsa.experiment.bench_run import LockstepBench, connect_bench
-from svsa.hardware.faults import FAULTS
-from svsa.hardware.guard import OVERLOAD
-from svsa.hardware.machine import BenchStatus
 from svsa.rig.faults import (
     CurrentOffset,
     DriveName,

@@ -7,11 +7,11 @@ import numba
 import pytest
 from rich.console import Console
 
+from svsa.bench.realtime import launch
+from svsa.bench.realtime.launch import BenchError, BenchProcesses
+from svsa.bench.realtime.link import LinkClosedError
 from svsa.compilation import watch_compilation
-from svsa.experiment.paper import get_figure
-from svsa.runtime.realtime import launch
-from svsa.runtime.realtime.launch import BenchError, BenchProcesses
-from svsa.runtime.realtime.link import LinkClosedError
+from svsa.paper import get_figure
 from svsa_server.bench_start import show_steps
 
 

@@ -4,10 +4,7 @@ from datetime import datetime
 
 import pytest
 
-from svsa.errors import ParameterError, StateError
-from svsa.hardware.bench import read_bench
-from svsa.hardware.bus import BusError
-from svsa.hardware.calibration import (
+from svsa.bench.calibration import (
     Calibration,
     compute_fingerprint,
     find_calibration,
@@ -16,9 +13,12 @@ from svsa.hardware.calibration import (
     note_signs,
     write_calibration,
 )
-from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.homing import STEPS, Homing
-from svsa.hardware.zero import calibrate, read_deflection_zero
+from svsa.bench.drives.bus import BusError
+from svsa.bench.encoders.source import EncoderError
+from svsa.bench.file import read_bench
+from svsa.bench.homing import STEPS, Homing
+from svsa.bench.zero import calibrate, read_deflection_zero
+from svsa.errors import ParameterError, StateError
 from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.faults import DropFrames
 from svsa.rig.parameters import RigDeflection, RigParameters

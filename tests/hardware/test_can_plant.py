@@ -6,10 +6,10 @@ import math
 import can
 import pytest
 
+from svsa.bench.drives.robomodule import Feedback, encode
+from svsa.bench.file import read_bench
+from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.hardware.bench import read_bench
-from svsa.hardware.machine import BenchStatus
-from svsa.hardware.robomodule import Feedback, encode
 from svsa.rig.frame import Frame
 from svsa.signals import Torque
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, FakeBeats, WiredBench

@@ -6,13 +6,13 @@ from collections.abc import Callable
 import can
 import pytest
 
+from svsa.bench.drives.drive import build_broadcast_resets, build_zero_currents
+from svsa.bench.drives.robomodule import Current, Feedback, encode
+from svsa.bench.encoders.can_node import CanNode
+from svsa.bench.encoders.source import EncoderError
+from svsa.bench.safety.faults import FAULTS
+from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.hardware.drive import build_broadcast_resets, build_zero_currents
-from svsa.hardware.encoders.can_node import CanNode
-from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.faults import FAULTS
-from svsa.hardware.machine import BenchStatus
-from svsa.hardware.robomodule import Current, Feedback, encode
 from svsa.rig.faults import (
     BrownOut,
     BusErrors,

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from svsa.bench.safety.machine import BenchStatus
 from svsa.experiment.bench_run import LockstepBench, connect_bench
-from svsa.experiment.paper import FIGURES, LOAD_TIME_S, get_figure
-from svsa.hardware.machine import BenchStatus
+from svsa.paper import FIGURES, LOAD_TIME_S, get_figure
 from svsa.plant.disturbances import ConstantLoad
 from svsa.reference.sine import ConstantPosition
 from svsa.rig.launch import start_rig

@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from svsa.hardware.bench import DeflectionSettings, MotorSettings
-from svsa.hardware.conversion import (
+from svsa.bench.drives.conversion import (
     Unwrapped,
     build_deflection_scale,
     build_motor_scale,
     compute_current_ma,
 )
+from svsa.bench.file import DeflectionSettings, MotorSettings
 
 MOTOR = MotorSettings(
     drive_number=1,

@@ -8,11 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import svsa
-from svsa.errors import ParameterError
-from svsa.hardware.bench import read_bench
-from svsa.hardware.dbc import build_dbc, describe_bench
-from svsa.hardware.encoders.can_node import CanNodeSettings
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.dbc import build_dbc, describe_bench
+from svsa.bench.drives.robomodule import (
     LAYOUTS,
     Address,
     Command,
@@ -21,6 +18,9 @@ from svsa.hardware.robomodule import (
     decode,
     encode,
 )
+from svsa.bench.encoders.can_node import CanNodeSettings
+from svsa.bench.file import read_bench
+from svsa.errors import ParameterError
 
 from .test_robomodule import messages
 

@@ -6,8 +6,7 @@ from pathlib import Path
 import can
 import pytest
 
-from svsa.hardware.bench import read_bench
-from svsa.hardware.drive import (
+from svsa.bench.drives.drive import (
     COMMAND_GATE_S,
     FIRST_ANSWER_S,
     MARGIN_S,
@@ -16,8 +15,8 @@ from svsa.hardware.drive import (
     build_broadcast_resets,
     build_zero_currents,
 )
-from svsa.hardware.phase import Phase
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.phase import Phase
+from svsa.bench.drives.robomodule import (
     Command,
     Config,
     Current,
@@ -30,6 +29,7 @@ from svsa.hardware.robomodule import (
     encode,
     split_id,
 )
+from svsa.bench.file import read_bench
 
 BENCH = read_bench(Path(__file__).parents[2] / "svsa" / "rig" / "bench.toml")
 TICK_S = 0.001

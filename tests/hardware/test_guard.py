@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from svsa.hardware.bench import read_bench
-from svsa.hardware.guard import Guard
+from svsa.bench.file import read_bench
+from svsa.bench.realtime.configuration import build_guard, read_bench_design
+from svsa.bench.safety.guard import Guard
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
-from svsa.runtime.realtime.configuration import build_guard, read_bench_design
 from svsa.signals import Disturbance, State, Torque
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
 

@@ -4,10 +4,10 @@ import pytest
 
 import svsa
 from svsa.experiment.bench_run import LockstepBench
-from svsa.experiment.excitation import EXCITATION_DURATION_S, build_commands
-from svsa.experiment.identification import ACTUATOR, identify
-from svsa.experiment.paper import get_figure
-from svsa.runtime.recording.reader import build_record
+from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
+from svsa.identification.identify import ACTUATOR, identify
+from svsa.paper import get_figure
+from svsa.records.reader import build_record
 from svsa.signals import CHANNELS
 from tests.contract.records import build_header
 from tests.hardware.in_process_rig import start_in_process

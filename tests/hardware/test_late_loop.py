@@ -2,12 +2,12 @@
 
 import pytest
 
+from svsa.bench.realtime.configuration import build_bench_configuration
+from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
 from svsa.experiment.bench_run import SampleArray
-from svsa.experiment.paper import get_figure
-from svsa.hardware.machine import BenchStatus
-from svsa.runtime.realtime.configuration import build_bench_configuration
-from svsa.runtime.realtime.loop import BenchLoop
+from svsa.paper import get_figure
 from svsa.signals import State
 
 from .wired_bench import WiredBench

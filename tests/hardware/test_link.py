@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.runtime.realtime.link import MOST_UNSENT_BYTES, LinkClosedError, build_links
+from svsa.bench.realtime.link import MOST_UNSENT_BYTES, LinkClosedError, build_links
 
 
 def test_messages_arrive_whole_and_in_order():

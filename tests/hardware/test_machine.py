@@ -5,14 +5,14 @@ from typing import Any
 
 import pytest
 
+from svsa.bench.drives.phase import Phase
+from svsa.bench.file import read_bench
+from svsa.bench.homing import STEPS
+from svsa.bench.realtime.configuration import build_guard
+from svsa.bench.safety.faults import FAULTS, Alarm
+from svsa.bench.safety.machine import BenchStatus, Conditions, Machine
 from svsa.errors import ParameterError, StateError
 from svsa.fault_labels import FAULT_LABELS
-from svsa.hardware.bench import read_bench
-from svsa.hardware.faults import FAULTS, Alarm
-from svsa.hardware.homing import STEPS
-from svsa.hardware.machine import BenchStatus, Conditions, Machine
-from svsa.hardware.phase import Phase
-from svsa.runtime.realtime.configuration import build_guard
 from svsa.signals import Torque
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
 

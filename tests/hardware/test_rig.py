@@ -4,8 +4,7 @@ import itertools
 
 import pytest
 
-from svsa.hardware.emulation import EMULATED_ID
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.robomodule import (
     Address,
     Command,
     Config,
@@ -17,6 +16,7 @@ from svsa.hardware.robomodule import (
     decode,
     encode,
 )
+from svsa.bench.emulation import EMULATED_ID
 from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.frame import Frame
 from svsa.rig.rig import FRAME_US, Rig

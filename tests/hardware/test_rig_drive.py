@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.robomodule import (
     Command,
     Config,
     Current,

@@ -5,8 +5,8 @@ import itertools
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
+from svsa.bench.drives.robomodule import Command, Current, Mode, decode
 from svsa.errors import ParameterError
-from svsa.hardware.robomodule import Command, Current, Mode, decode
 from svsa.rig.faults import (
     BrownOut,
     BusErrors,

@@ -19,7 +19,7 @@ from svsa.plant.integration import coast, integrate_period
 from svsa.plant.stops import Stops, hit_stops
 from svsa.rig.mechanics import GRID_US, Mechanics
 from svsa.rig.parameters import RigParameters, read_rig
-from svsa.runtime.configuration import load_prototype
+from svsa.run.configuration import load_prototype
 from svsa.signals import State, Torque
 from tests.equations.prototype import PLANT
 

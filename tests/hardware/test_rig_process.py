@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, encode_time
+from svsa.bench.emulation import ADVANCE_ID, EMULATED_ID, encode_time
 from svsa.plant.disturbances import ConstantLoad, MassLoad
 from svsa.rig.control import RigError
 from svsa.rig.faults import Silence

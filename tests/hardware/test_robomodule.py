@@ -6,9 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from svsa.errors import SvsaError
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, decode_time, encode_time
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.robomodule import (
     LAYOUTS,
     Address,
     Command,
@@ -34,6 +32,8 @@ from svsa.hardware.robomodule import (
     encode,
     split_id,
 )
+from svsa.bench.emulation import ADVANCE_ID, EMULATED_ID, decode_time, encode_time
+from svsa.errors import SvsaError
 
 MANUAL = [
     (Current(5000, 1000), "13 88 03 E8 55 55 55 55"),

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from svsa.hardware.bench import read_bench
-from svsa.hardware.calibration import Calibration, compute_fingerprint
-from svsa.hardware.drive import COMMAND_GATE_S
-from svsa.hardware.machine import BenchStatus
-from svsa.hardware.robomodule import Command, split_id
+from svsa.bench.calibration import Calibration, compute_fingerprint
+from svsa.bench.drives.drive import COMMAND_GATE_S
+from svsa.bench.drives.robomodule import Command, split_id
+from svsa.bench.file import read_bench
+from svsa.bench.safety.machine import BenchStatus
 from svsa.rig.parameters import RigDeflection, RigParameters
 from svsa.signals import State, Torque
 from tests.hardware import wired_bench

@@ -15,11 +15,11 @@ import can
 import pytest
 import tomli_w
 
-from svsa.hardware.bench import read_bench
-from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.hardware.robomodule import Current, encode
-from svsa.hardware.supervisor import Supervisor
+from svsa.bench.drives.robomodule import Current, encode
+from svsa.bench.emulation import EMULATED_DATA, EMULATED_ID
+from svsa.bench.file import read_bench
+from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.bench.safety.supervisor import Supervisor
 from svsa.rig.frame import Frame
 from svsa.rig.socketcand import SocketcandServer
 from tests.hardware.wired_bench import RIG_BENCH
@@ -31,7 +31,7 @@ STOPPED = {(0x013, ZERO), (0x023, ZERO), (0x000, RESET)}
 LONG_S = 60.0
 LOOP = """
 import sys, time
-from svsa.hardware.heartbeat import Heartbeats
+from svsa.bench.safety.heartbeat import Heartbeats
 beats = Heartbeats.attach(sys.argv[1])
 while True:
     beats.beat("loop")
@@ -195,7 +195,7 @@ def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
 ) -> None:
     bench = write_bench(tmp_path, wire.server.port)
     with (
-        run("-m", "svsa.hardware.supervisor", str(bench), beats.name) as supervisor,
+        run("-m", "svsa.bench.safety.supervisor", str(bench), beats.name) as supervisor,
         run("-c", LOOP, beats.name) as loop,
     ):
         wire.serve_until(lambda: beats.age_s("supervisor") < 0.1 and beats.age_s("loop") < 0.02)
@@ -216,7 +216,7 @@ def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
 
 def test_told_to_end_it_leaves_a_last_zero(wire: Wire, beats: Heartbeats, tmp_path: Path) -> None:
     bench = write_bench(tmp_path, wire.server.port)
-    with run("-m", "svsa.hardware.supervisor", str(bench), beats.name) as supervisor:
+    with run("-m", "svsa.bench.safety.supervisor", str(bench), beats.name) as supervisor:
         wire.serve_until(lambda: beats.age_s("supervisor") < 0.1)
         assert wire.heard == []
         supervisor.terminate()
@@ -229,7 +229,7 @@ def test_without_a_bus_it_says_so_and_fails(beats: Heartbeats, tmp_path: Path) -
     closed.close()
     bench = write_bench(tmp_path, closed.port)
     done = subprocess.run(
-        [sys.executable, "-m", "svsa.hardware.supervisor", str(bench), beats.name],
+        [sys.executable, "-m", "svsa.bench.safety.supervisor", str(bench), beats.name],
         capture_output=True,
         text=True,
         timeout=LONG_S,

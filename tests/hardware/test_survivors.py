@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from svsa.hardware.bench import read_bench
+from svsa.bench.file import read_bench
 from svsa.rig.launch import RunningRig, start_rig
 
 from .live_bench import write_bench

@@ -8,7 +8,7 @@ import time
 import can
 import pytest
 
-from svsa.hardware.emulation import EMULATED_ID
+from svsa.bench.emulation import EMULATED_ID
 from svsa.rig.frame import Frame
 from svsa.rig.slcan import SlcanServer
 from svsa.rig.socketcand import SocketcandServer

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from typing import Any
 
+from svsa.bench.safety.machine import BenchStatus
 from svsa.experiment.bench_run import LockstepBench, connect_bench
-from svsa.experiment.paper import get_figure
-from svsa.hardware.machine import BenchStatus
+from svsa.paper import get_figure
 from svsa.rig.launch import RunningRig
 
 from .in_process_rig import InProcessRig

@@ -1,6 +1,6 @@
 """Frames of every kind that the wire carries."""
 
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, encode_time
+from svsa.bench.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, encode_time
 from svsa.rig.frame import Frame
 
 GREETING = Frame(EMULATED_ID, EMULATED_DATA, extended=True)

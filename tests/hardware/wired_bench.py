@@ -10,16 +10,16 @@ from typing import Any, NamedTuple
 
 import can
 
-from svsa.hardware.bench import BenchFile, read_bench
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant, Reading
-from svsa.hardware.machine import BenchStatus
-from svsa.hardware.robomodule import Command, decode, split_id
+from svsa.bench.calibration import find_calibration
+from svsa.bench.can_plant import CanPlant, Reading
+from svsa.bench.drives.robomodule import Command, decode, split_id
+from svsa.bench.file import BenchFile, read_bench
+from svsa.bench.realtime.configuration import build_guard
+from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.safety.machine import BenchStatus
 from svsa.rig.frame import Frame
 from svsa.rig.parameters import RigParameters
 from svsa.rig.rig import Rig
-from svsa.runtime.realtime.configuration import build_guard
-from svsa.runtime.realtime.loop import BenchLoop
 from svsa.signals import Disturbance, State, Torque
 
 RIG_BENCH = Path(__file__).parents[2] / "svsa" / "rig" / "bench.toml"

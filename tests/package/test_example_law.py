@@ -12,9 +12,9 @@ import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.runtime.measured_window import trace_record
-from svsa.runtime.recording.reader import open_record
-from svsa.runtime.resimulation import compare_with_simulation
+from svsa.records.measured_window import trace_record
+from svsa.records.reader import open_record
+from svsa.records.resimulation import compare_with_simulation
 from svsa_server.lanes import list_record_stretches, name_lanes
 from svsa_server.replay_export import list_marks
 
@@ -27,7 +27,7 @@ import numpy as np
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.runtime.recording.writer import write_record
+from svsa.records.writer import write_record
 from tests.contract.records import build_header
 
 slow = svsa.Lane(law="motor_pd", parameters={"frequency_rad_per_s": 20.0})

@@ -5,12 +5,12 @@ from typing import Any
 
 import pytest
 
-from svsa.experiment.paper import get_figure
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.runtime.realtime import session as bench_session
-from svsa.runtime.realtime.launch import BenchError
-from svsa.runtime.realtime.memory import LoopMemory
-from svsa.runtime.realtime.session import BenchSession
+from svsa.bench.realtime.launch import BenchError
+from svsa.bench.realtime.memory import LoopMemory
+from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.paper import get_figure
+from svsa.session import bench as bench_session
+from svsa.session.bench import BenchSession
 from svsa_server.turn import let_pass
 from tests.hardware.wired_bench import RIG_BENCH
 

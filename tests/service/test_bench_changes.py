@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from svsa.control.gains import Gains
-from svsa.runtime.realtime.session import BenchSession
+from svsa.session.bench import BenchSession
 from svsa_server.gain_schemas import GainsRequest
 from svsa_server.routes import settings
 from svsa_server.turn import take_turn

@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
+from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import Fault
-from svsa.hardware.machine import BenchStatus
-from svsa.runtime.realtime.session import BenchSession
+from svsa.session.bench import BenchSession
 from tests.service.scripted_bench import build_bench_session
 
 

@@ -11,7 +11,7 @@ import pytest
 from rich.console import Console
 
 from svsa.errors import StateError
-from svsa.runtime.realtime.session import BenchSession
+from svsa.session.bench import BenchSession
 from svsa_server.bench_start import open_bench
 from svsa_server.state import build_state
 from tests.hardware.live_bench import start_live_rig, write_bench

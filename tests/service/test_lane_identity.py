@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from svsa.experiment.paper import get_figure
 from svsa.observer.disturbance import ObserverBandwidth
-from svsa.runtime.configuration import Lane
-from svsa.runtime.session import Session
+from svsa.paper import get_figure
+from svsa.run.configuration import Lane
+from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.state import build_state
 from svsa_server.stream import SampleCursor

@@ -4,14 +4,14 @@ from typing import Any
 
 import pytest
 
-from svsa.experiment.paper import get_figure
 from svsa.observer.disturbance import ObserverBandwidth
+from svsa.paper import get_figure
 from svsa.plant.disturbances import PaperLoad
-from svsa.runtime.command import build_command
-from svsa.runtime.configuration import Lane
-from svsa.runtime.measured_window import trace_record
-from svsa.runtime.recording.reader import Record, build_record
-from svsa.runtime.session import Session
+from svsa.records.measured_window import trace_record
+from svsa.records.reader import Record, build_record
+from svsa.run.command import build_command
+from svsa.run.configuration import Lane
+from svsa.session.session import Session
 from svsa_server.lanes import list_record_stretches, name_lanes
 from svsa_server.state import build_state
 

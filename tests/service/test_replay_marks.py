@@ -1,7 +1,7 @@
 """What a replay tells of the commands of its run."""
 
 import svsa
-from svsa.runtime.command import build_command
+from svsa.run.command import build_command
 from svsa_server.replay_export import list_marks
 
 

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from svsa.errors import ParameterError
-from svsa.runtime.measured_window import MeasuredWindow
-from svsa.runtime.metrics import compute_metrics
+from svsa.records.measured_window import MeasuredWindow
+from svsa.run.metrics import compute_metrics
 from svsa_scene.replay_curves import decimate, list_events, pack_curves
 from svsa_scene.replay_packing import ArrayPack
 from tests.replay_page import CHANNELS, PERIOD_S, make_run, write_page

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from svsa.runtime.metrics import compute_metrics
-from svsa.runtime.recording.reader import open_record
+from svsa.records.reader import open_record
+from svsa.run.metrics import compute_metrics
 from tests.lab import Lab, run_lab
 
 ONSET_S = 2.0

@@ -13,10 +13,10 @@ import pytest
 import uvicorn
 from fastapi import FastAPI
 
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.recording.decimation import decimate
-from svsa.runtime.recording.header import BranchPoint
-from svsa.runtime.recording.writer import write_record
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.decimation import decimate
+from svsa.records.header import BranchPoint
+from svsa.records.writer import write_record
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.errors import install_error_handlers
 from svsa_server.heavy_work import HeavyWork

@@ -7,7 +7,7 @@ import msgspec
 import pytest
 import websockets
 
-from svsa.experiment.paper import get_figure
+from svsa.paper import get_figure
 from svsa_scene.linkage import RADIUS, compute_linkage
 from tests.service.poses import make_pose
 from tests.service.viewed_lab import (

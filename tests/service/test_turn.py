@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from svsa.experiment.paper import get_figure
-from svsa.runtime.realtime import launch
-from svsa.runtime.realtime.launch import BenchError, BenchProcesses
-from svsa.runtime.realtime.link import Link, build_links
+from svsa.bench.realtime import launch
+from svsa.bench.realtime.launch import BenchError, BenchProcesses
+from svsa.bench.realtime.link import Link, build_links
+from svsa.paper import get_figure
 from svsa_server.turn import let_pass, take_turn
 
 LONG_S = 60.0

@@ -14,7 +14,7 @@ import zstandard
 from starlette.applications import Starlette
 from websockets.asyncio.client import ClientConnection
 
-from svsa.runtime.session import Session
+from svsa.session.session import Session
 from svsa_scene import ActuatorPose
 from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.scene_bridge import SceneBridge

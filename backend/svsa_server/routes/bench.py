@@ -5,8 +5,8 @@ from typing import Annotated
 from fastapi import APIRouter, Body
 
 from svsa.errors import StateError
-from svsa.runtime.realtime.session import BenchSession
-from svsa.runtime.session import Session
+from svsa.session.bench import BenchSession
+from svsa.session.session import Session
 from svsa_server.bench_schemas import HomingRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.session_schemas import SessionState

@@ -8,8 +8,8 @@ from starlette.requests import HTTPConnection
 from starlette.types import Scope
 
 from svsa.errors import ParameterError
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.session import Session
+from svsa.records.catalogue.runs import Catalogue
+from svsa.session.session import Session
 from svsa_server.control import (
     CHANGING,
     CLIENT_HEADER,

@@ -7,11 +7,11 @@ from typing import Annotated
 from fastapi import APIRouter, Body
 
 from svsa.control.gains import Gains, compute_roots
+from svsa.design import prediction
 from svsa.errors import ParameterError
-from svsa.experiment import prediction
 from svsa.reference.trajectories import compute_start_value
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.session import Session
+from svsa.run.configuration import Configuration
+from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.design_schemas import (
     LoopNoiseState,

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Body, Request
 
-from svsa.runtime.configuration import parse_design
+from svsa.run.configuration import parse_design
 from svsa_server.excitation import TAG, begin_excitation, check_excitable, end_excitation
 from svsa_server.recording_schemas import ExcitationRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Body, Request, Response
 from fastapi.responses import JSONResponse
 
 import svsa
-from svsa.experiment.paper import FIGURES
+from svsa.paper import FIGURES
 from svsa_server.access import COOKIE, SharedSecret
 from svsa_server.errors import ErrorModel
 from svsa_server.lab_schemas import FigureState, Health, LoginRequest

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Body, Request
 
-from svsa.runtime.resimulation import check_simulated, read_origin
+from svsa.records.resimulation import check_simulated, read_origin
 from svsa_server.recording_schemas import RecordingRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.session_schemas import BranchRequest, SessionState

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
-from svsa.runtime.recording.difference import compare_settings
+from svsa.records.difference import compare_settings
 from svsa_server.routes.depends import RunId, Runs
 from svsa_server.run_schemas import RunDifference, SettingDifference
 

@@ -9,8 +9,8 @@ from typing import IO, Annotated, Any
 from fastapi import APIRouter, Query
 from fastapi.responses import StreamingResponse
 
-from svsa.experiment.export import EXPORT_KINDS, build_file_name, get_kind
-from svsa.runtime.resimulation import Comparison, check_simulated
+from svsa.export.formats import EXPORT_KINDS, build_file_name, get_kind
+from svsa.records.resimulation import Comparison, check_simulated
 from svsa_server.errors import ErrorModel
 from svsa_server.heavy_work import RETRY_AFTER_S, compare, write_export, write_replay
 from svsa_server.routes.depends import RunId, Runs, Work

@@ -5,9 +5,9 @@ from typing import Any
 
 from fastapi import APIRouter, Request
 
-from svsa.runtime.catalogue.entry import RunEntry
-from svsa.runtime.configuration import Design
-from svsa.runtime.recording.header import BranchPoint, PlantKind
+from svsa.records.catalogue.entry import RunEntry
+from svsa.records.header import BranchPoint, PlantKind
+from svsa.run.configuration import Design
 from svsa_server.routes.depends import NamedSession, RunId, Runs
 from svsa_server.run_schemas import BranchOrigin, RunCommand, RunOrigin
 from svsa_server.session_schemas import SessionRequest

@@ -10,10 +10,10 @@ from fastapi import APIRouter, Query
 from fastapi.responses import Response
 
 from svsa.errors import ParameterError, Violation
-from svsa.runtime.measured_window import trace_record
-from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
-from svsa.runtime.recording.decimation import decimate
-from svsa.runtime.recording.reader import Record
+from svsa.records.decimation import decimate
+from svsa.records.measured_window import trace_record
+from svsa.records.reader import Record
+from svsa.run.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.signals import PLOTTED
 from svsa_server.lanes import build_window
 from svsa_server.routes.depends import RunId, Runs

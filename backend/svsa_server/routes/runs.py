@@ -7,16 +7,16 @@ from fastapi import APIRouter, Body, Query
 
 from svsa.errors import Fault
 from svsa.fault_labels import label_fault
-from svsa.runtime.catalogue.entry import (
+from svsa.records.catalogue.entry import (
     LONGEST_SEARCH,
     MOST_PAGE_SIZE,
     MOST_PAGES,
     SORTS,
     RunEntry,
 )
-from svsa.runtime.catalogue.entry import Query as RunQuery
-from svsa.runtime.catalogue.runs import Catalogue
-from svsa.runtime.measured_window import trace_record
+from svsa.records.catalogue.entry import Query as RunQuery
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.measured_window import trace_record
 from svsa_server.lanes import build_window, list_record_stretches, name_lanes
 from svsa_server.routes import run_difference, run_files, run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS, RunId, Runs

@@ -8,16 +8,16 @@ import time
 from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 
+from svsa.bench.calibration import find_calibration, list_problems, note_signs
+from svsa.bench.check.drives import advise_on_bus, bring_up, check_bus, check_drive
+from svsa.bench.check.flow import LISTEN_S, check_deflection, check_feedback, check_rest
+from svsa.bench.check.latency import check_latency
+from svsa.bench.check.motion import check_directions, check_motion
+from svsa.bench.check.probe import BusOpener, Clock, Probe
+from svsa.bench.check.step import CheckStep, Result
+from svsa.bench.drives.bus import BusError, open_bus
+from svsa.bench.file import BenchFile, read_bench
 from svsa.errors import ParameterError
-from svsa.hardware.bench import BenchFile, read_bench
-from svsa.hardware.bus import BusError, open_bus
-from svsa.hardware.calibration import find_calibration, list_problems, note_signs
-from svsa.hardware.check.drives import advise_on_bus, bring_up, check_bus, check_drive
-from svsa.hardware.check.flow import LISTEN_S, check_deflection, check_feedback, check_rest
-from svsa.hardware.check.latency import check_latency
-from svsa.hardware.check.motion import check_directions, check_motion
-from svsa.hardware.check.step import CheckStep, Result
-from svsa.hardware.probe import BusOpener, Clock, Probe
 
 SIGN_STEPS = (
     *("motor1: sign", "deflection: sign", "motor2: sign"),

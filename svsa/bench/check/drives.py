@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.check.step import CheckStep, Result
-from svsa.hardware.drive import MARGIN_S, SETTLE_S
-from svsa.hardware.probe import Probe, Traffic
-from svsa.hardware.robomodule import Address, Config, Mode, Online, Reset, SetMode
+from svsa.bench.check.probe import Probe, Traffic
+from svsa.bench.check.step import CheckStep, Result
+from svsa.bench.drives.drive import MARGIN_S, SETTLE_S
+from svsa.bench.drives.robomodule import Address, Config, Mode, Online, Reset, SetMode
+from svsa.bench.file import BenchFile
 
 QUIET_S = 0.3
 ECHOES = 20

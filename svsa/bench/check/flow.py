@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from svsa.hardware.check.drives import DRIVE_POWER, WIRING, get_period_ms
-from svsa.hardware.check.step import CheckStep, Result
-from svsa.hardware.probe import Probe, Traffic
+from svsa.bench.check.drives import DRIVE_POWER, WIRING, get_period_ms
+from svsa.bench.check.probe import Probe, Traffic
+from svsa.bench.check.step import CheckStep, Result
 
 LISTEN_S = 1.0
 LEAST_SHARE = 0.98

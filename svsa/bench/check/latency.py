@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from svsa.hardware.check.step import CheckStep, Result
-from svsa.hardware.probe import Probe, Traffic
+from svsa.bench.check.probe import Probe, Traffic
+from svsa.bench.check.step import CheckStep, Result
 
 STEPS = 40
 CURRENT = 0.05

@@ -8,11 +8,11 @@ import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from svsa.hardware.bench import BenchFile, MotorSettings
-from svsa.hardware.check.step import CheckStep, Result
-from svsa.hardware.conversion import build_deflection_scale, build_motor_scale
-from svsa.hardware.probe import Probe, Traffic
-from svsa.hardware.robomodule import Address
+from svsa.bench.check.probe import Probe, Traffic
+from svsa.bench.check.step import CheckStep, Result
+from svsa.bench.drives.conversion import build_deflection_scale, build_motor_scale
+from svsa.bench.drives.robomodule import Address
+from svsa.bench.file import BenchFile, MotorSettings
 
 LEVELS = (0.01, 0.02, 0.03, 0.05, 0.08, 0.11, 0.15)
 LONGEST_PULSE_S = 0.15

@@ -12,14 +12,9 @@ from typing import NamedTuple
 
 import can
 
-from svsa.errors import SvsaError
-from svsa.hardware.bench import BenchFile, BusSettings
-from svsa.hardware.bus import BusError, open_bus
-from svsa.hardware.conversion import Unwrapped
-from svsa.hardware.emulation import EMULATED_ID
-from svsa.hardware.encoders import read_source
-from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.bus import BusError, open_bus
+from svsa.bench.drives.conversion import Unwrapped
+from svsa.bench.drives.robomodule import (
     Address,
     Command,
     Current,
@@ -32,6 +27,11 @@ from svsa.hardware.robomodule import (
     encode,
     split_id,
 )
+from svsa.bench.emulation import EMULATED_ID
+from svsa.bench.encoders import read_source
+from svsa.bench.encoders.source import EncoderError
+from svsa.bench.file import BenchFile, BusSettings
+from svsa.errors import SvsaError
 
 COMMAND_GATE_S = 0.001
 _ENCODER_POLL_S = 0.001

@@ -9,8 +9,8 @@ from typing import Any
 
 import can
 
+from svsa.bench.file import BusSettings
 from svsa.errors import SvsaError
-from svsa.hardware.bench import BusSettings
 
 _ANSWER_S = 5.0
 DELIVERY_S = 0.05

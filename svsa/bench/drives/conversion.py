@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from svsa.hardware.bench import DeflectionSettings, MotorSettings
+from svsa.bench.file import DeflectionSettings, MotorSettings
 
 MA_PER_A = 1000.0
 

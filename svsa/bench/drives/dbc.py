@@ -12,10 +12,7 @@ from cantools.database import Database
 from cantools.database.can import Message, Node, Signal
 from cantools.database.conversion import BaseConversion
 
-from svsa.errors import ParameterError, Violation
-from svsa.hardware.bench import BenchFile, MotorSettings
-from svsa.hardware.encoders.can_node import CanNodeSettings
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.robomodule import (
     LAYOUTS,
     LENGTH,
     STALL_PROTECTION,
@@ -25,6 +22,9 @@ from svsa.hardware.robomodule import (
     Mode,
     build_id,
 )
+from svsa.bench.encoders.can_node import CanNodeSettings
+from svsa.bench.file import BenchFile, MotorSettings
+from svsa.errors import ParameterError, Violation
 
 HOST, ENCODER = "host", "deflection_encoder"
 _FROM_DRIVE = (Command.FEEDBACK, Command.INPUTS, Command.ERROR)

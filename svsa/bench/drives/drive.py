@@ -10,10 +10,9 @@ import struct
 
 import can
 
-from svsa.hardware.bench import BenchFile, MotorSettings
-from svsa.hardware.conversion import Unwrapped
-from svsa.hardware.phase import Phase
-from svsa.hardware.robomodule import (
+from svsa.bench.drives.conversion import Unwrapped
+from svsa.bench.drives.phase import Phase
+from svsa.bench.drives.robomodule import (
     BROADCAST,
     Address,
     Command,
@@ -27,6 +26,7 @@ from svsa.hardware.robomodule import (
     build_id,
     encode,
 )
+from svsa.bench.file import BenchFile, MotorSettings
 
 SETTLE_S = 0.5
 MARGIN_S = 0.02

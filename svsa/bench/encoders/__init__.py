@@ -1,8 +1,8 @@
 """Where the counts of the deflection encoder come from: one source a file."""
 
+from svsa.bench.encoders.source import DeflectionSource
+from svsa.bench.file import DeflectionSettings
 from svsa.errors import ParameterError
-from svsa.hardware.bench import DeflectionSettings
-from svsa.hardware.encoders.source import DeflectionSource
 
 
 def read_source(settings: DeflectionSettings) -> DeflectionSource:
@@ -19,18 +19,18 @@ def read_source(settings: DeflectionSettings) -> DeflectionSource:
 def _build_source(settings: DeflectionSettings) -> DeflectionSource:
     match settings.source:
         case "can":
-            from svsa.hardware.encoders.can_node import CanNode, CanNodeSettings
+            from svsa.bench.encoders.can_node import CanNode, CanNodeSettings
 
             return CanNode(CanNodeSettings(**settings.options))
         case "serial":
-            from svsa.hardware.encoders.serial_line import SerialLine, SerialLineSettings
+            from svsa.bench.encoders.serial_line import SerialLine, SerialLineSettings
 
             return SerialLine(SerialLineSettings(**settings.options))
         case "nidaqmx":
-            from svsa.hardware.encoders.nidaqmx_counter import CounterSettings, NidaqmxCounter
+            from svsa.bench.encoders.nidaqmx_counter import CounterSettings, NidaqmxCounter
 
             return NidaqmxCounter(CounterSettings(**settings.options))
         case "replay":
-            from svsa.hardware.encoders.replay import Replay, ReplaySettings
+            from svsa.bench.encoders.replay import Replay, ReplaySettings
 
             return Replay(ReplaySettings(**settings.options))

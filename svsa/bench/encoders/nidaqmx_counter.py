@@ -8,9 +8,9 @@ from typing import Any
 
 import can
 
+from svsa.bench.encoders.source import EncoderError
 from svsa.checked import Checked, Whole, quantity
 from svsa.extras import MissingExtraError, require_extra
-from svsa.hardware.encoders.source import EncoderError
 
 _EDGES = 4
 _READ_TIMEOUT_S = 0.001

@@ -5,8 +5,8 @@ from pathlib import Path
 import can
 import numpy as np
 
+from svsa.bench.encoders.source import EncoderError
 from svsa.checked import Checked, quantity
-from svsa.hardware.encoders.source import EncoderError
 
 
 class ReplaySettings(Checked):

@@ -5,8 +5,8 @@ import re
 import can
 import serial
 
+from svsa.bench.encoders.source import EncoderError
 from svsa.checked import Checked, Flag, Whole, quantity
-from svsa.hardware.encoders.source import EncoderError
 
 _LONGEST_LINE = 64
 _MARKER = 0xA5

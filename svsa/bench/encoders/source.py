@@ -14,7 +14,7 @@ class EncoderError(SvsaError):
 class DeflectionSource(Protocol):
     """Counts of the deflection encoder, with the time at which they were true.
 
-    Scale, sign, zero and unwrapping are the plant's; see `svsa.hardware.conversion`.
+    Scale, sign, zero and unwrapping are the plant's; see `svsa.bench.drives.conversion`.
     bits: width after which the counts wrap around.
     """
 

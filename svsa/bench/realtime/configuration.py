@@ -1,11 +1,11 @@
 """What a bench runs on: the references and gains of a configuration, the bench's own design."""
 
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.guard import Guard
+from svsa.bench.file import BenchFile
+from svsa.bench.safety.guard import Guard
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
 from svsa.plant.effects import CurrentLag, Effects, Encoders, StateEstimation
-from svsa.runtime.configuration import Configuration, Design, Lane, load_prototype, read_design
+from svsa.run.configuration import Configuration, Design, Lane, load_prototype, read_design
 
 
 def read_bench_design(bench: BenchFile) -> Design:

@@ -12,15 +12,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from svsa.bench.file import read_bench
+from svsa.bench.realtime.link import LinkClosedError, build_links
+from svsa.bench.realtime.memory import LoopMemory
+from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
-from svsa.hardware.bench import read_bench
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.realtime.link import LinkClosedError, build_links
-from svsa.runtime.realtime.memory import LoopMemory
+from svsa.run.configuration import Configuration
 
 if TYPE_CHECKING:
-    from svsa.hardware.third_line import ThirdLine
+    from svsa.bench.safety.third_line import ThirdLine
 
 LISTEN_S = 0.1
 ANSWER_S = 0.5
@@ -63,8 +63,8 @@ class BenchProcesses:
         self.beats.beat("server")
         names = [str(bench), self.memory.name, self.beats.name, str(theirs.fileno())]
         supervise = [str(bench), self.beats.name]
-        self._loop = _start("svsa.runtime.realtime.process", names, theirs.fileno())
-        self._supervisor = _start("svsa.hardware.supervisor", supervise)
+        self._loop = _start("svsa.bench.realtime.process", names, theirs.fileno())
+        self._supervisor = _start("svsa.bench.safety.supervisor", supervise)
         theirs.close()
         self.third_line = _watch(bench, self.beats, self._loop, self._supervisor)
         self._configuration = configuration
@@ -222,7 +222,7 @@ class BenchProcesses:
 
 
 def _watch(bench: Path, beats: Heartbeats, loop: Process, supervisor: Process) -> "ThirdLine":
-    from svsa.hardware.third_line import ThirdLine  # late: it needs the extra `bench`
+    from svsa.bench.safety.third_line import ThirdLine  # late: it needs the extra `bench`
 
     return ThirdLine(read_bench(bench), beats, loop, supervisor)
 

@@ -9,17 +9,14 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from svsa.bench.can_plant import CanPlant, Reading
+from svsa.bench.file import BenchFile
+from svsa.bench.safety.machine import BenchStatus
 from svsa.control.call import BoundLaw, build_call
 from svsa.control.installed import get_law
 from svsa.errors import StateError
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.can_plant import CanPlant, Reading
-from svsa.hardware.machine import BenchStatus
-from svsa.packed import pack, view_field
-from svsa.runtime.command import build_command
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
-from svsa.runtime.measured import (
+from svsa.loop.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
+from svsa.loop.measured import (
     Actuation,
     BenchConstants,
     Carried,
@@ -27,7 +24,10 @@ from svsa.runtime.measured import (
     pass_ticks,
     publish_and_foresee,
 )
-from svsa.runtime.run import Run, Start
+from svsa.packed import pack, view_field
+from svsa.run.command import build_command
+from svsa.run.configuration import Configuration
+from svsa.run.run import Run, Start
 from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
 
 STATUSES = tuple(BenchStatus)

@@ -3,7 +3,7 @@
 import math
 from typing import Literal, NamedTuple
 
-from svsa.runtime.realtime.launch import BenchProcesses
+from svsa.bench.realtime.launch import BenchProcesses
 
 Stopper = Literal["supervisor", "server"]
 LOSSES = ("loop_silent", "loop_lost", "loop_and_supervisor_lost")

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from svsa.hardware.heartbeat import attach_block
+from svsa.bench.safety.heartbeat import attach_block
 from svsa.signals import CHANNELS
 
 CAPACITY_TICKS = 16_384

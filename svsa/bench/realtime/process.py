@@ -1,6 +1,6 @@
 """The loop's process: absolute deadlines, one tick each, messages between two ticks.
 
-    python -m svsa.runtime.realtime.process BENCH MEMORY HEARTBEATS DESCRIPTOR
+    python -m svsa.bench.realtime.process BENCH MEMORY HEARTBEATS DESCRIPTOR
 
 The first message is the configuration to start from. It ends when the server says so or is
 gone, and leaves the drives at zero current.
@@ -12,21 +12,21 @@ import sys
 import time
 from typing import Any
 
+from svsa.bench.calibration import find_calibration
+from svsa.bench.can_plant import CanPlant
+from svsa.bench.clock import BenchClock, ClockError
+from svsa.bench.file import read_bench
+from svsa.bench.paced_clock import choose_clock
+from svsa.bench.realtime.configuration import build_guard
+from svsa.bench.realtime.link import Link, LinkClosedError
+from svsa.bench.realtime.loop import MOVING, STATUSES, BenchLoop
+from svsa.bench.realtime.memory import LoopMemory, add_to_histogram
+from svsa.bench.realtime.schedule import LOOP_PRIORITY, request_real_time
+from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.bench.safety.machine import BenchStatus
 from svsa.compilation import watch_compilation
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.hardware.bench import read_bench
-from svsa.hardware.calibration import find_calibration
-from svsa.hardware.can_plant import CanPlant
-from svsa.hardware.clock import BenchClock, ClockError
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.hardware.machine import BenchStatus
-from svsa.hardware.paced_clock import choose_clock
-from svsa.hardware.schedule import LOOP_PRIORITY, request_real_time
-from svsa.runtime.configuration import Configuration
-from svsa.runtime.realtime.configuration import build_guard
-from svsa.runtime.realtime.link import Link, LinkClosedError
-from svsa.runtime.realtime.loop import MOVING, STATUSES, BenchLoop
-from svsa.runtime.realtime.memory import LoopMemory, add_to_histogram
+from svsa.run.configuration import Configuration
 
 FIRST_MESSAGE_S = 10.0
 LISTEN_S = 0.00015

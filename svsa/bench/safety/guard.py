@@ -2,11 +2,11 @@
 
 import math
 
-from svsa.hardware.bench import BenchFile, MotorSettings
-from svsa.hardware.conversion import build_motor_scale
-from svsa.hardware.faults import Alarm
-from svsa.hardware.standstill import NewCounts, Standstill
-from svsa.hardware.vibration import REVERSALS, WINDOW_S, Vibration
+from svsa.bench.drives.conversion import build_motor_scale
+from svsa.bench.file import BenchFile, MotorSettings
+from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.standstill import NewCounts, Standstill
+from svsa.bench.safety.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.model.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
 from svsa.model.dynamics import Actuator
 from svsa.model.exponential import expm1

@@ -10,12 +10,12 @@ import math
 from enum import StrEnum
 from typing import NamedTuple
 
+from svsa.bench.drives.phase import Phase
+from svsa.bench.file import BenchFile
+from svsa.bench.homing import Homing
+from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.guard import Guard
 from svsa.errors import Fault, StateError
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.faults import Alarm
-from svsa.hardware.guard import Guard
-from svsa.hardware.homing import Homing
-from svsa.hardware.phase import Phase
 from svsa.signals import Disturbance, State, Torque
 
 NO_TORQUE = Torque(0.0, 0.0)

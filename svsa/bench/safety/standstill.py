@@ -5,7 +5,7 @@ than friction can take up. With counts that have stopped, ŵ goes on growing aga
 controller asks for, long before it is greater than any load.
 """
 
-from svsa.hardware.faults import Alarm
+from svsa.bench.safety.faults import Alarm
 from svsa.signals import Disturbance
 
 NewCounts = tuple[int | None, int | None, int | None]

@@ -1,6 +1,6 @@
 """The supervisor: a process with a bus of its own that stops the drives when the loop dies.
 
-    python -m svsa.hardware.supervisor BENCH HEARTBEATS
+    python -m svsa.bench.safety.supervisor BENCH HEARTBEATS
 
 The drives hold their last current for ever. When the loop, once begun, has not beaten for
 `loop_s` (20 ms), both drives are told zero current and every drive is reset, again and again
@@ -15,12 +15,12 @@ import time
 
 import can
 
+from svsa.bench.drives.bus import DELIVERY_S, open_bus, take_waiting
+from svsa.bench.drives.drive import build_broadcast_resets, build_zero_currents
+from svsa.bench.file import BenchFile, read_bench
+from svsa.bench.realtime.schedule import SUPERVISOR_PRIORITY, request_real_time
+from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.errors import SvsaError
-from svsa.hardware.bench import BenchFile, read_bench
-from svsa.hardware.bus import DELIVERY_S, open_bus, take_waiting
-from svsa.hardware.drive import build_broadcast_resets, build_zero_currents
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
 
 DEAF_S = 0.25
 PERIOD_S = 0.005

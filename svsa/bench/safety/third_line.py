@@ -13,12 +13,12 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
+from svsa.bench.drives.bus import BUS_TROUBLE, open_bus, prepare_bus
+from svsa.bench.file import BenchFile
+from svsa.bench.realtime.schedule import SUPERVISOR_PRIORITY, request_priority
+from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.bench.safety.supervisor import PERIOD_S, Supervisor
 from svsa.errors import SvsaError
-from svsa.hardware.bench import BenchFile
-from svsa.hardware.bus import BUS_TROUBLE, open_bus, prepare_bus
-from svsa.hardware.heartbeat import Heartbeats
-from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_priority
-from svsa.hardware.supervisor import PERIOD_S, Supervisor
 
 STILL = 5.0
 """So many times `loop_s`: a supervisor that lives has acted by then."""

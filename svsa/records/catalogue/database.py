@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from svsa.runtime.catalogue.entry import FACETS, CatalogueError, Query, RunEntry, RunPage
-from svsa.runtime.catalogue.table import get, has, prepare, put, put_branches
+from svsa.records.catalogue.entry import FACETS, CatalogueError, Query, RunEntry, RunPage
+from svsa.records.catalogue.table import get, has, prepare, put, put_branches
 
 BUSY_TIMEOUT_S = 5.0
 _NEVER_NULL = ("created", "name", "session", "duration_s", "bytes", "plant")

@@ -8,10 +8,10 @@ from typing import Any, Literal
 import msgspec
 
 from svsa.errors import Fault, ParameterError, SvsaError, Violation
-from svsa.runtime.measured_window import MeasuredWindow
-from svsa.runtime.metrics import Metrics
-from svsa.runtime.recording.header import BranchPoint, PlantKind
-from svsa.runtime.recording.settings import RunSettings, name_figure
+from svsa.records.header import BranchPoint, PlantKind
+from svsa.records.measured_window import MeasuredWindow
+from svsa.records.settings import RunSettings, name_figure
+from svsa.run.metrics import Metrics
 
 RunState = Literal["recording", "complete", "failed", "damaged", "missing"]
 SORTS = (

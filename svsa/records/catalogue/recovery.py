@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from svsa.errors import SvsaError
-from svsa.runtime.catalogue.database import Database
-from svsa.runtime.catalogue.entry import RunEntry, UnknownRunError
-from svsa.runtime.measured_window import MeasuredWindow, find_measured_window, summarize
-from svsa.runtime.metrics import MEASURED, Metrics, RunningMetrics
-from svsa.runtime.recording.header import STREAM_FILE, RecordError, is_run_id, read_header
-from svsa.runtime.recording.parquet import measure_bytes
-from svsa.runtime.recording.reader import Record, open_record, recover
-from svsa.runtime.recording.settings import describe_settings
+from svsa.records.catalogue.database import Database
+from svsa.records.catalogue.entry import RunEntry, UnknownRunError
+from svsa.records.header import STREAM_FILE, RecordError, is_run_id, read_header
+from svsa.records.measured_window import MeasuredWindow, find_measured_window, summarize
+from svsa.records.parquet import measure_bytes
+from svsa.records.reader import Record, open_record, recover
+from svsa.records.settings import describe_settings
+from svsa.run.metrics import MEASURED, Metrics, RunningMetrics
 
 CUT_OFF = "The recording was cut off; what had been written is here."
 GONE = "Its folder is gone."

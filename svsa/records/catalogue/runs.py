@@ -14,22 +14,22 @@ from pathlib import Path
 from typing import Any
 
 from svsa.errors import StateError
-from svsa.runtime.catalogue.database import Database
-from svsa.runtime.catalogue.entry import (
+from svsa.records.catalogue.database import Database
+from svsa.records.catalogue.entry import (
     CatalogueError,
     Query,
     RunEntry,
     RunPage,
     UnknownRunError,
 )
-from svsa.runtime.catalogue.recovery import (
+from svsa.records.catalogue.recovery import (
     Recovery,
     build_entry,
     describe,
     describe_older,
     recover_runs,
 )
-from svsa.runtime.recording.header import (
+from svsa.records.header import (
     RecordError,
     RecordHeader,
     check_texts,
@@ -37,9 +37,9 @@ from svsa.runtime.recording.header import (
     read_header,
     write_header,
 )
-from svsa.runtime.recording.parquet import measure_bytes
-from svsa.runtime.recording.reader import Record, open_record
-from svsa.runtime.recording.recorder import Recorder, RecordStatus
+from svsa.records.parquet import measure_bytes
+from svsa.records.reader import Record, open_record
+from svsa.records.recorder import Recorder, RecordStatus
 
 DATA_VARIABLE = "SVSA_DATA"
 

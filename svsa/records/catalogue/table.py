@@ -9,7 +9,7 @@ import sqlite3
 from typing import Any
 
 from svsa.fault_labels import label_fault
-from svsa.runtime.catalogue.entry import (
+from svsa.records.catalogue.entry import (
     SORTS,
     CatalogueError,
     RunEntry,

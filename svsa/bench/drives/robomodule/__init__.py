@@ -8,9 +8,8 @@ Source: RoboModule RMDS CAN manual, edition of July 2018. Standard identifiers
 from operator import index
 from typing import Any
 
-from svsa.errors import SvsaError, Violation
-from svsa.hardware.robomodule.layouts import LAYOUTS, MOST_PWM, Field, Layout
-from svsa.hardware.robomodule.messages import (
+from svsa.bench.drives.robomodule.layouts import LAYOUTS, MOST_PWM, Field, Layout
+from svsa.bench.drives.robomodule.messages import (
     BROADCAST,
     STALL_PROTECTION,
     Address,
@@ -33,6 +32,7 @@ from svsa.hardware.robomodule.messages import (
     Velocity,
     VelocityPosition,
 )
+from svsa.errors import SvsaError, Violation
 
 __all__ = [
     "BROADCAST",

@@ -6,7 +6,7 @@
 from struct import Struct
 from typing import Any, NamedTuple
 
-from svsa.hardware.robomodule.messages import (
+from svsa.bench.drives.robomodule.messages import (
     Command,
     Config,
     Current,
