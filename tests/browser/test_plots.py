@@ -162,13 +162,13 @@ def test_cursors_measure_the_samples_between_them(page: Page, lab: Lab) -> None:
     expect(table.get_by_role("columnheader")).to_have_text(
         ["Curve", "at A", "at B", "Δy", "min", "max", "rms"]
     )
-    axis = find_axis(page).bounding_box()
     for name in ("Position", "Position error", "Stiffness", "Torque", "Disturbance"):
-        plot = find_plot(page, name).bounding_box()
+        find_plot(page, name).scroll_into_view_if_needed()
+        plot, axis = find_plot(page, name).bounding_box(), find_axis(page).bounding_box()
         assert plot is not None
         assert axis is not None
-        assert plot["height"] >= 50
-        assert plot["y"] + plot["height"] <= axis["y"] + 1
+        assert plot["height"] >= 80
+        assert plot["y"] + plot["height"] <= axis["y"] + 2
     first.focus()
     page.keyboard.press("ArrowRight")
     before = float(first.get_attribute("aria-valuenow") or "nan")

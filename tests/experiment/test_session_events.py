@@ -135,6 +135,7 @@ def test_every_command_is_logged_with_its_tick():
     session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0))
     session.change("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
     session.change("laws", ("ndobc",))
+    session.change("parameters", {"fl_integral": {"position_pole_rad_per_s": 50.0}})
     session.change("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0, 30.0, 30.0)))
     session.change("actuator", design.actuator)
     session.change("nominal", design.nominal)

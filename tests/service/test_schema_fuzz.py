@@ -51,6 +51,7 @@ MAY_BE_REFUSED = {
     "POST /api/v1/sessions/{session}/experiment": HURWITZ,
     "PUT /api/v1/sessions/{session}/lanes": HURWITZ,
     "PUT /api/v1/sessions/{session}/gains": HURWITZ,
+    "PUT /api/v1/sessions/{session}/parameters": "laws and parameters are those of GET /laws here",
     "PUT /api/v1/sessions/{session}/law": "no more laws than the session has lanes",
     "POST /api/v1/sessions/{session}/predict": "complex poles must come in conjugate pairs",
     "PUT /api/v1/sessions/{session}/position": COURSE,

@@ -117,17 +117,7 @@ def set_parameters(
 
     What is left out stays.
     """
-    configuration = session.run.configuration
-    changed: dict[str, LawParameters] = {}
-    for law, given in request.items():
-        try:
-            check_installed(law)
-            before = configuration.parameters.get(law)
-            kept = before.model_dump() if before is not None else {}
-            changed[law] = read_parameters(law, kept | given)
-        except ParameterError as error:
-            raise error.within(law) from None
-    session.change("parameters", configuration.parameters | changed)
+    session.patch("parameters", lambda configuration: _merge(configuration.parameters, request))
     return build_state(session)
 
 
@@ -188,3 +178,21 @@ def set_lanes(
 
 def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:
     return actuator.changed(**patch.model_dump(exclude_unset=True))
+
+
+def _merge(
+    held: dict[str, LawParameters], given: dict[str, dict[str, Any]]
+) -> dict[str, LawParameters]:
+    """The parameters held, by law, with the given ones; what is left out stays."""
+    changed = dict(held)
+    for law, values in given.items():
+        try:
+            check_installed(law)
+        except ParameterError as error:
+            raise error.within("law") from None
+        kept = held[law].model_dump() if law in held else {}
+        try:
+            changed[law] = read_parameters(law, kept | values)
+        except ParameterError as error:
+            raise error.within(law) from None
+    return changed
