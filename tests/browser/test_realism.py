@@ -80,5 +80,6 @@ def test_the_model_is_made_wrong_and_exact(page: Page, lab: Lab, realism: Locato
     expect(realism.get_by_role("alert").filter(has_text="link inertia, Model")).to_be_visible()
     exact = realism.get_by_role("button", name="Make the model exact")
     exact.click()
+    expect(realism.get_by_role("alert")).to_have_count(0)
     expect(exact).to_be_disabled()
     assert read(lab)["nominal"] == read(lab)["actuator"]
