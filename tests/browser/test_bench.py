@@ -149,7 +149,7 @@ def test_on_a_real_bench_the_load_button_only_marks(page: Page, lab: Lab) -> Non
 
 
 def test_the_work_is_seen_without_scrolling_on_a_running_bench(page: Page, lab: Lab) -> None:
-    """Where not every plot has room, those that have are whole, and the page says how many follow."""
+    """Where not every plot has room, those that have are whole, and it is said how many follow."""
     PatchedBench(page, status="run", homing=HOMED)
     open_page(page, lab)
     parts = [
