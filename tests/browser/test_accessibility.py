@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.bench_fixture import PatchedBench
-from tests.browser.test_page import come_back, open_page
+from tests.browser.test_page import come_back, open_page, unfold
 from tests.browser.test_replay import open_file, write_page
 from tests.lab import Lab, run_lab
 
@@ -87,8 +87,7 @@ def open_realism(page: Page, lab: Lab) -> None:
     open_lab(page, lab)
     group = page.get_by_role("region", name="Realism", exact=True)
     group.get_by_role("radio", name="Full").check()
-    for more in group.locator("summary").all():
-        more.click()
+    unfold(group)
     expect(group.get_by_role("table")).to_be_visible()
 
 

@@ -4,7 +4,7 @@ import math
 import re
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.lab import Lab, run_lab
 
@@ -29,6 +29,13 @@ LAST_TIME = """() => {
 def open_page(page: Page, lab: Lab) -> None:
     page.goto(lab.url)
     wait_for_samples(page)
+
+
+def unfold(part: Locator) -> None:
+    """Open everything in a part, by key: what an answer moves meanwhile is still hit."""
+    for more in part.locator("summary").all():
+        more.press("Enter")
+    expect(part.locator("details:not([open])")).to_have_count(0)
 
 
 def come_back(page: Page, lab: Lab) -> None:

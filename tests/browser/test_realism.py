@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from svsa.plant.effects import RIG, Effects
-from tests.browser.test_page import open_page
+from tests.browser.test_page import open_page, unfold
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -18,8 +18,7 @@ def realism(page: Page, lab: Lab) -> Locator:
     """The group, with everything in it in sight."""
     open_page(page, lab)
     group = page.get_by_role("region", name="Realism", exact=True)
-    for more in group.locator("summary").all():
-        more.click()
+    unfold(group)
     return group
 
 
