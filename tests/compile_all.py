@@ -11,8 +11,8 @@ from svsa.experiment.bench_run import LockstepBench
 from svsa.identification.identify import identify
 from svsa.paper import FIGURES
 from svsa.plant.disturbances import ConstantLoad
-from tests.experiment.excited_run import build_configuration, build_run, play
-from tests.hardware.in_process_rig import start_in_process
+from tests.identification.excited_run import build_configuration, build_run, play
+from tests.rig.in_process_rig import start_in_process
 
 TICKS = 10
 

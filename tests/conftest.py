@@ -10,7 +10,12 @@ from tests.lab import Lab, run_lab
 
 TESTS = Path(__file__).parent
 COMPILED = "compiled"
-ORDER = ("package", "equations", "experiment", "contract", "hardware", "service", "browser")
+ORDER = (
+    *("package", "", "model", "reference", "control", "observer", "plant", "loop", "run"),
+    *("session", "records", "export", "design", "identification", "experiment"),
+    *("rig", "hardware", "scene", "server", "browser"),
+)
+"""Of the folders; what stands in none is \"\"."""
 
 
 LONGEST = (
@@ -31,7 +36,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def rank(item: pytest.Item) -> tuple[int, int]:
     name = item.path.stem
-    folder = ORDER.index(item.path.relative_to(TESTS).parts[0])
+    folders = item.path.relative_to(TESTS).parts[:-1]
+    folder = ORDER.index(folders[0] if folders else "")
     return folder, LONGEST.index(name) if name in LONGEST else len(LONGEST)
 
 

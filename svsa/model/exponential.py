@@ -5,7 +5,7 @@ Of additions, multiplications and exact scalings by powers of 2, as in `svsa.mod
     e^r = 1 + r + r²/2 + r³ E(r)                            |r| ≤ ½ ln 2
     ln(1 + f) = 2 atanh s = 2s + 2s z L(z), z = s²          s = f/(2 + f), ½√2 ≤ 1 + f ≤ √2
 
-Their coefficients come from `tests/equations/minimax.py`; `test_trigonometry` holds them to the
+Their coefficients come from `tests/model/minimax.py`; `test_trigonometry` holds them to the
 exact values.
 """
 

@@ -7,7 +7,7 @@ compiler can put them side by side. The polynomials are minimax, P of degree n i
     sin r = r + r z S(z),  cos r = 1 − z/2 + z² C(z)        |r| ≤ π/4
     asin s = s + s z P(z)                                   0 ≤ s ≤ ½
 
-Their coefficients come from `tests/equations/minimax.py`; `test_trigonometry` holds them to the
+Their coefficients come from `tests/model/minimax.py`; `test_trigonometry` holds them to the
 exact values: within 1 ulp.
 """
 

@@ -18,7 +18,7 @@ from svsa.run.blocks import bind_law, build_blocks
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
 from svsa.signals import CHANNELS
-from tests.experiment.sessions import EVERY_EFFECT
+from tests.session.sessions import EVERY_EFFECT
 
 REPEATS = 7
 COMPILED_TICKS, PYTHON_TICKS = 20_000, 4_000

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import svsa
 from svsa.session.session import Session
-from tests.experiment.sessions import EVERY_EFFECT
+from tests.session.sessions import EVERY_EFFECT
 
 RIVALS = (svsa.Lane(law="fl"), svsa.Lane(law="ndobc"), svsa.Lane(law="fl"))
 MINUTE_S = 60.0

@@ -11,7 +11,7 @@ from hypothesis import settings
 from schemathesis import GenerationMode
 
 from tests.lab import run_lab
-from tests.service.test_schema_fuzz import SETTINGS, probe
+from tests.server.test_schema_fuzz import SETTINGS, probe
 
 PER_OPERATION = 60
 

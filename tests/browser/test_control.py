@@ -9,7 +9,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from tests.browser.test_page import open_page
 from tests.hardware.live_bench import start_live_rig, write_bench
 from tests.lab import Lab, run_lab
-from tests.service.bench_lab import BenchLab
+from tests.server.bench_lab import BenchLab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 

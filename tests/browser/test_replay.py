@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.replay_page import CHANNELS, make_run, write_page
+from tests.scene.replay_page import CHANNELS, make_run, write_page
 
 PATIENCE_MS = 60_000
 

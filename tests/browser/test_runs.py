@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import FrameLocator, Locator, Page, Route, expect
 
 from tests.lab import Lab, run_lab
-from tests.service.test_recording_routes import wait_for_run
+from tests.server.routes.test_recording_routes import wait_for_run
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 

@@ -15,9 +15,8 @@ from svsa.records.reader import open_record
 from svsa.records.recorder import Recorder
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_NAMES, CHANNELS
-from tests.contract.records import build_header
-
-from .sessions import build_configuration, read_samples
+from tests.records.records import build_header
+from tests.session.sessions import build_configuration, read_samples
 
 GAINS = svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2)
 OBSERVER = svsa.ObserverBandwidth(bandwidth_rad_per_s=(50.0, 60.0, 70.0))

@@ -26,6 +26,7 @@ from svsa.rig.faults import (
     Unplugged,
 )
 from svsa.signals import Torque
+from tests.rig.in_process_rig import InProcessRig, start_in_process
 
 from .caused_faults import (
     CASES,
@@ -37,7 +38,6 @@ from .caused_faults import (
     check_stopped,
     quick_stop,
 )
-from .in_process_rig import InProcessRig, start_in_process
 from .watched_bench import FIGURE, Bench, make_ready
 
 

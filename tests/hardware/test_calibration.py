@@ -23,7 +23,7 @@ from svsa.plant.disturbances import ConstantLoad
 from svsa.rig.faults import DropFrames
 from svsa.rig.parameters import RigDeflection, RigParameters
 from svsa.rig.rig import Rig
-from tests.hardware.bus_in_time import RIG_BENCH, RigBus, copy_bench
+from tests.rig.bus_in_time import RIG_BENCH, RigBus, copy_bench
 
 MOTOR_CHANGES = [
     ("gear_ratio = 50.0", "gear_ratio = 51.0"),

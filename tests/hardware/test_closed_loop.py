@@ -10,8 +10,7 @@ from svsa.plant.disturbances import ConstantLoad
 from svsa.reference.sine import ConstantPosition
 from svsa.rig.launch import start_rig
 from svsa.signals import CHANNEL_INDEX
-
-from .in_process_rig import start_in_process
+from tests.rig.in_process_rig import start_in_process
 
 TICKS = 3000
 LOADED_S = 1.0

@@ -7,8 +7,7 @@ from svsa.bench.safety.machine import BenchStatus
 from svsa.experiment.bench_run import LockstepBench, connect_bench
 from svsa.paper import get_figure
 from svsa.rig.launch import RunningRig
-
-from .in_process_rig import InProcessRig
+from tests.rig.in_process_rig import InProcessRig
 
 FIGURE = get_figure("4a").build_configuration(load=False)
 MOVING_TICKS = 500

@@ -28,7 +28,7 @@ import numpy as np
 import svsa
 from svsa.control.installed import list_law_names
 from svsa.records.writer import write_record
-from tests.contract.records import build_header
+from tests.records.records import build_header
 
 slow = svsa.Lane(law="motor_pd", parameters={"frequency_rad_per_s": 20.0})
 result = svsa.simulate("4a", "motor_pd", rivals=(slow,), duration_s=1.0)

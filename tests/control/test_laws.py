@@ -1,0 +1,233 @@
+"""A law is one file: found by its entry point, called by a loop that was not compiled with it."""
+
+import dataclasses
+import math
+from importlib.metadata import EntryPoint
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+import svsa
+from svsa.compilation import compiled, watch_compilation
+from svsa.control import installed
+from svsa.control.installed import LawError, get_law, list_law_names
+from svsa.control.law import Law
+from svsa.design.loop_noise import linearize_tick
+from svsa.loop.loop import advance as advance_lane
+from svsa.run.command import build_command, replay
+from svsa.run.controllers import name_controllers
+from svsa.run.run import Run
+from svsa.session.session import Session
+from svsa.signals import CHANNEL_INDEX, CHANNELS, Torque
+from tests.session.sessions import PULSE, advance, build_configuration, read_samples
+
+INTEGRAL = svsa.Lane(law="fl_integral")
+FASTER = {"position_pole_rad_per_s": 70.0}
+U1 = CHANNEL_INDEX["torque1_nm"]
+
+
+class Seen(NamedTuple):
+    """An estimate of its own, and what it was told last."""
+
+    w2: float = 0.25
+    w4: float = 0.0
+    w6: float = 0.0
+    u1: float = 0.0
+    calls: int = 0
+
+
+@compiled
+def watch(nominal, constants, memory, x, reference, estimate, applied, period):
+    memory.u1 = applied.u1
+    memory.calls += 1
+    memory.w4 = 0.5 * memory.calls
+    return Torque(0.1 * memory.calls, 0.0)
+
+
+WATCH = Law("watch", "Watch", "", "", "", watch, memory=Seen, estimate="own")
+
+
+@pytest.fixture
+def install(monkeypatch):
+    """Announce laws of this file as an installed package would."""
+
+    def announce(**values: object) -> None:
+        for name, value in values.items():
+            entry = EntryPoint(name, f"{__name__}:{value}", installed.GROUP)
+            monkeypatch.setitem(installed._find_entries(), name, entry)
+            get_law.cache_clear()
+
+    yield announce
+    get_law.cache_clear()
+
+
+def test_the_paper_s_laws_come_through_the_door_that_everybody_s_come_through():
+    assert list_law_names()[:2] == ("ndobc", "fl")
+    assert {get_law(name).title for name in ("fl", "ndobc")} == {"FL", "NDOBC"}
+
+
+@pytest.mark.parametrize("law", ["pid", "Not a name", ""])
+def test_a_law_that_is_not_installed_is_refused_with_those_that_are(law):
+    with pytest.raises(svsa.ParameterError, match=r"law is '.*installed here: ndobc, fl, fl_int"):
+        svsa.simulate("4a", law, duration_s=0.01)
+    with pytest.raises(svsa.ParameterError, match=r"rivals\[1\]\.law|law is"):
+        svsa.simulate("4a", rivals=(INTEGRAL, svsa.Lane(law=law)), duration_s=0.01)
+
+
+def test_a_refused_law_changes_nothing():
+    run = Run(build_configuration(rivals=(INTEGRAL,)))
+    before, lanes = run.configuration, list(run.lanes)
+    for kind, argument in (("law", "pid"), ("rivals", (svsa.Lane(law="pid"),))):
+        with pytest.raises(svsa.ParameterError):
+            build_command(0, kind, argument).apply(run)
+    assert run.configuration == before
+    assert all(one is other for one, other in zip(run.lanes, lanes, strict=True))
+
+
+def test_another_law_needs_no_compilation_of_the_loop(install):
+    advance(Run(build_configuration()), 10)
+    install(watch="WATCH")
+    names: list[str] = []
+    compiled_before = len(advance_lane.signatures)
+    with watch_compilation(names.append):
+        advance(Run(build_configuration(law="watch")), 10)
+    assert len(advance_lane.signatures) == compiled_before
+    assert set(names) <= {"watch"}
+
+
+def test_a_law_is_told_the_torque_that_acted_and_its_own_estimate_is_what_is_shown(install):
+    """Asked for 0.1, 0.2, … N·m; with two samples of delay it hears of them three later."""
+    install(watch="WATCH")
+    run = Run(build_configuration(law="watch", effects=svsa.Effects(delay_samples=2)))
+    samples = advance(run, 10)[0]
+    np.testing.assert_allclose(samples[2:, U1], 0.1 * np.arange(1, 9))
+    memory = run.lanes[0].memory
+    assert (memory[0], memory[2]) == (0.25, 0.0)
+    assert memory[3] == samples[-2, U1], "what acted in the period before the last call"
+    assert memory[4:5].view(np.int64)[0] == 10
+    shown = samples[:, CHANNEL_INDEX["estimate_motor1_nm"]]
+    np.testing.assert_allclose(shown, 0.5 * np.arange(1, 11))
+
+
+def test_a_call_of_the_loop_leaves_the_state_that_it_begins_with():
+    run = Run(build_configuration(PULSE, law="fl_integral"))
+    first = run.lanes[0]
+    before = first.memory.copy()
+    whole = advance(run, 300)
+    np.testing.assert_array_equal(first.memory, before)
+    assert np.any(run.lanes[0].memory != before)
+    again = np.empty((300, len(CHANNELS)))
+    advance_lane(run.blocks[0], run.laws[0], run.inputs, first, 0, again)
+    np.testing.assert_array_equal(again, whole[0])
+
+
+def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
+    configuration = build_configuration(PULSE, law="fl_integral", rivals=(INTEGRAL,))
+    session = Session("cut", configuration)
+    for ticks, kind, argument in (
+        (90, "parameters", {"fl_integral": FASTER}),
+        (60, "law", "fl"),
+        (50, "law", "fl_integral"),
+    ):
+        session._advance(ticks)
+        session.change(kind, argument)
+    branch = Session.branch("branch", configuration, session.commands, 200)
+    branch.change("law", "fl_integral")
+    for one in (session, branch):
+        for _ in range(100):
+            one._advance(1)
+    parts = [part.copy() for _, part in replay(configuration, session.commands, 300)]
+    whole = np.concatenate(parts, axis=1)
+    for one in (session, branch):
+        for lane in (0, 1):
+            np.testing.assert_array_equal(read_samples(one, lane), whole[lane])
+
+
+def test_a_lane_that_goes_on_past_another_s_fault_is_brought_back_with_its_memory():
+    fragile = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-900.0] * 4, [-900.0] * 2))
+    effects = svsa.RIG
+    run = Run(build_configuration(law="fl_integral", rivals=(fragile, INTEGRAL), effects=effects))
+    samples = np.empty((3, 2000, len(CHANNELS)))
+    done = run.advance(samples)
+    assert run.fault is not None
+    alone = Run(build_configuration(law="fl_integral", effects=effects))
+    advance(alone, done)
+    for lane in (0, 2):
+        np.testing.assert_array_equal(run.lanes[lane].memory, alone.lanes[0].memory)
+
+
+def test_a_law_that_comes_remembers_nothing_and_one_that_stays_remembers():
+    run = Run(build_configuration(PULSE, law="fl_integral", rivals=(svsa.Lane(law="fl"), INTEGRAL)))
+    advance(run, 200)
+    first, _, third = (lane.memory.copy() for lane in run.lanes)
+    assert np.all(third != 0.0)
+    run.set_laws(("fl", "fl_integral"))
+    assert np.all(run.lanes[1].memory == 0.0)
+    np.testing.assert_array_equal(run.lanes[2].memory, third)
+    run.set_parameters({"fl_integral": get_law("fl_integral").parameters(**FASTER)})
+    np.testing.assert_array_equal(run.lanes[2].memory, third)
+    assert np.any(first != 0.0)
+
+
+def test_twice_the_same_law_with_other_parameters_is_two_controllers():
+    other = svsa.Lane(law="fl_integral", parameters=FASTER)
+    configuration = build_configuration(law="fl_integral", rivals=(other,))
+    session = Session("two", configuration)
+    names = [lane[-1].controller for lane in session.timeline.lanes]
+    assert list(name_controllers(names).values()) == ["FL + I a 54.6", "FL + I a 70"]
+    samples = advance(session.run, 300)
+    assert np.any(samples[0] != samples[1])
+
+
+def test_parameters_are_checked_by_their_law_and_written_as_they_were_given():
+    with pytest.raises(svsa.ParameterError) as refused:
+        build_configuration(parameters={"fl_integral": {"position_pole_rad_per_s": 1e9}})
+    assert "parameters.fl_integral.position_pole_rad_per_s" in str(refused.value)
+    assert "at most 150 rad/s" in str(refused.value)
+    with pytest.raises(svsa.ParameterError, match="takes the run's gains"):
+        svsa.Lane(law="ndobc", parameters={})
+    configuration = build_configuration(
+        parameters={"fl_integral": FASTER},
+        rivals=(svsa.Lane(law="fl_integral", parameters=FASTER),),
+    )
+    written = configuration.model_dump(mode="json")
+    assert written["parameters"]["fl_integral"]["position_pole_rad_per_s"] == 70.0
+    assert svsa.Configuration(**written) == configuration
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("missing", "does not load: AttributeError"),
+        ("TICKS", "brings a int"),
+        ("WATCH", "brings the law watch"),
+    ],
+)
+def test_a_broken_package_is_named_and_the_lab_goes_on(install, value, words):
+    install(broken=value)
+    with pytest.raises(LawError, match=words):
+        svsa.simulate("4a", "broken", duration_s=0.01)
+    assert svsa.simulate("4a", "fl", duration_s=0.01).fault is None
+
+
+TICKS = 3
+
+
+def test_a_law_without_a_name_or_with_an_estimate_that_nobody_finds_is_none():
+    with pytest.raises(svsa.ParameterError, match="small letter"):
+        dataclasses.replace(WATCH, name="Watch!")
+    with pytest.raises(svsa.ParameterError, match="w2, w4, w6"):
+        dataclasses.replace(WATCH, memory=type(get_law("fl_integral").memory()))
+
+
+def test_what_a_law_remembers_is_in_the_linearized_loop():
+    """FL + I has two states more than FL, which add a slow pole; what never changes is no state."""
+    exact = {"nominal": svsa.load_prototype().actuator}
+    fl, integral = (
+        linearize_tick(build_configuration(law=law, **exact), 15.0)[0]
+        for law in ("fl", "fl_integral")
+    )
+    assert len(integral) == len(fl) + 2
+    radii = [max(abs(np.linalg.eigvals(A))) for A in (fl, integral)]
+    assert radii == pytest.approx([math.exp(-0.04), math.exp(-0.0329)], abs=8e-3)

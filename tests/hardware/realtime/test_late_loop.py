@@ -1,0 +1,88 @@
+"""A loop that is late once: the state that it knows goes on meanwhile, and moves nothing wrong."""
+
+import pytest
+
+from svsa.bench.realtime.configuration import build_bench_configuration
+from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.safety.machine import BenchStatus
+from svsa.errors import StateError
+from svsa.experiment.bench_run import SampleArray
+from svsa.paper import get_figure
+from svsa.signals import State
+from tests.hardware.wired_bench import WiredBench
+
+MOVING_TICKS = 400
+"""Figure 4A has faded in then, and the link moves at 1.3 rad/s."""
+
+
+def begin(bench: WiredBench) -> BenchLoop:
+    """The bench's own loop on Figure 4A, at tick 0."""
+    wanted = get_figure("4a").build_configuration(load=False)
+    configuration = build_bench_configuration(bench.bench, wanted)
+    loop = BenchLoop(bench.plant, bench.bench, configuration, SampleArray(MOVING_TICKS + 100))
+    bench.plant.arm(bench.now)
+    while bench.plant.status is not BenchStatus.READY:
+        bench.drive(loop)
+    while (step := bench.plant.homing_step) is not None:
+        bench.plant.confirm_home(step, "a test")
+    bench.drive(loop, 20)
+    loop.start(bench.now)
+    return loop
+
+
+def read(bench: WiredBench) -> State:
+    """The true state."""
+    return bench.rig.mechanics.read(bench.rig.now_us)
+
+
+def test_a_late_tick_makes_no_velocity_that_is_not_there() -> None:
+    """All that an axis moved in 15 ms, taken for one tick's, is a velocity of 5 instead of 2 rad/s,
+    and what the law then asks for makes it true: the fourth time the motor turns with 22 rad/s.
+    """
+    with WiredBench() as bench:
+        loop = begin(bench)
+        bench.drive(loop, MOVING_TICKS)
+        for late in (5, 10, 15, 19):
+            bench.skip(late * bench.bench.timing.period_s)
+            bench.drive(loop, missed=late)
+            assert float(loop._known[3]) == pytest.approx(read(bench).dtheta1, abs=0.3)
+            fastest = 0.0
+            for _ in range(100):
+                bench.drive(loop)
+                fastest = max(fastest, abs(read(bench).dtheta1))
+            assert fastest < 4.0, f"{late} ms late"
+            assert read(bench).dq > 0.5, "it moves on"
+        assert bench.plant.fault is None
+
+
+def test_in_a_fault_it_says_so_and_not_that_it_was_not_read_yet() -> None:
+    """The drives are reset and say nothing any more; the reason is another."""
+    with WiredBench() as bench:
+        loop = begin(bench)
+        bench.drive(loop, 10)
+        bench.plant.quick_stop(bench.now, "a test")
+        bench.drive(loop, 100)
+        with pytest.raises(StateError, match="The bench is fault"):
+            loop.start(bench.now)
+
+
+LATE_TICKS = 60
+
+
+def test_feedback_that_is_late_is_no_frozen_encoder_and_moves_nothing_wrong() -> None:
+    """The bench file lets the torque stay for 0.9 s: x̂ goes on by its model meanwhile.
+
+    Moved on with x̂'s velocity instead, an error would grow fourfold in each tick after 60 ms.
+    """
+    with WiredBench(stale_zero_s=0.9, stale_fault_s=1.0) as bench:
+        loop = begin(bench)
+        bench.drive(loop, MOVING_TICKS)
+        bench.clock.mute = True
+        for _ in range(LATE_TICKS):
+            bench.drive(loop)
+            known = float(loop._known[3])
+            assert known == pytest.approx(read(bench).dtheta1, abs=1.5), bench.plant.fault
+        bench.clock.mute = False
+        bench.drive(loop, 300)
+        assert bench.plant.fault is None
+        assert read(bench).dq > 0.5, "it moves on"

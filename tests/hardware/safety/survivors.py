@@ -1,0 +1,140 @@
+"""What the drives are told when processes of a bench are killed or stopped, by the rig's clock."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from svsa.plant.disturbances import ConstantLoad
+from svsa.rig.launch import RunningRig
+from tests.processes import find_child
+
+LOOP, SUPERVISOR = "svsa.bench.realtime.process", "svsa.bench.safety.supervisor"
+LOAD = ConstantLoad(torque_nm=(1.5, 0.0, 0.0))
+PATIENCE_S = 60.0
+ATTEMPTS = 3
+SAID = "bench: "
+
+
+class Outcome(NamedTuple):
+    """before_ma: what both drives were told. zero_s: from the signal to zero, the rig's time."""
+
+    before_ma: list[int]
+    zero_s: float
+
+
+class StandingBench:
+    """`standing_bench` as a process, and those that it has started."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self._process = process
+        line = self.read_line()
+        assert line == "runs", line
+        self.ids = {
+            "server": process.pid,
+            "loop": find_child(process.pid, LOOP),
+            "supervisor": find_child(process.pid, SUPERVISOR),
+        }
+
+    def read_line(self) -> str:
+        """The next that it says; empty where it is gone."""
+        assert self._process.stdout is not None
+        for line in self._process.stdout:
+            if line.startswith(SAID):
+                return line.removeprefix(SAID).strip()
+        return ""
+
+    def wait_for(self, code: str) -> None:
+        """Until it says this fault, which may become known after another."""
+        guard = threading.Timer(PATIENCE_S, self._process.kill)
+        guard.start()
+        said = []
+        while not (said and said[-1].startswith(code)):
+            said.append(self.read_line())
+            assert said[-1], f"it said {said} and no {code}"
+        guard.cancel()
+
+    def signal(self, victims: tuple[str, ...], number: signal.Signals) -> None:
+        for victim in victims:
+            os.kill(self.ids[victim], number)
+
+
+@contextlib.contextmanager
+def run_standing_bench(path: Path, rig: RunningRig) -> Iterator[StandingBench]:
+    rig.control.set_loads(())
+    rig.control.home()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "tests.hardware.standing_bench", str(path)],
+        cwd=Path(__file__).parents[3],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    bench = None
+    try:
+        bench = StandingBench(process)
+        rig.control.load(LOAD)
+        yield bench
+    finally:
+        for each in (bench.ids if bench else {"server": process.pid}).values():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(each, signal.SIGKILL)
+        process.wait()
+        assert process.stdout is not None
+        process.stdout.close()
+
+
+def read_currents(rig: RunningRig) -> list[int]:
+    """What both drives hold, mA."""
+    return [drive["commanded_ma"] for drive in rig.control.read_state()["drives"].values()]
+
+
+def wait_until_held(rig: RunningRig) -> bool:
+    """Wait until both drives hold the load; False where the bench has stopped before."""
+    end = time.monotonic() + PATIENCE_S
+    while time.monotonic() < end:
+        state = rig.control.read_state()
+        currents = [drive["commanded_ma"] for drive in state["drives"].values()]
+        if any(drive["mode"] is None for drive in state["drives"].values()):
+            return False
+        if abs(currents[0]) > 300 and abs(currents[1]) > 10 and abs(state["x"]["dq"]) < 0.05:
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def measure(
+    rig: RunningRig,
+    path: Path,
+    victims: tuple[str, ...],
+    number: signal.Signals,
+    codes: tuple[str, ...] = (),
+) -> Outcome:
+    """Bring it to hold a load, send the signal, and wait for zero; again where it stopped before.
+
+    codes: the faults that it then says; before the second of two the victims go on.
+    """
+    for _ in range(ATTEMPTS):
+        with run_standing_bench(path, rig) as bench:
+            if not wait_until_held(rig):
+                continue
+            state = rig.control.read_state()
+            before = [drive["commanded_ma"] for drive in state["drives"].values()]
+            bench.signal(victims, number)
+            end = time.monotonic() + PATIENCE_S
+            while any(read_currents(rig)):
+                assert time.monotonic() < end, f"{victims}: the drives hold {read_currents(rig)}"
+                time.sleep(0.005)
+            drives = rig.control.read_state()["drives"].values()
+            zero_s = max(drive["commanded_since_s"] for drive in drives) - state["time_s"]
+            for code in codes:
+                bench.wait_for(code)
+                if len(codes) > 1:
+                    bench.signal(victims, signal.SIGCONT)
+            return Outcome(before, zero_s)
+    raise AssertionError(f"The bench did not hold the load in {ATTEMPTS} attempts.")

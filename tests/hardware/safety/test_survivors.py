@@ -1,0 +1,65 @@
+"""Two of three are enough: whoever of loop, supervisor and server is left stops the drives.
+
+Real processes, signals that nobody can refuse, and the rig's own clock. How long it took is
+told (`pytest -rP`); that it comes is asserted.
+"""
+
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from svsa.bench.file import read_bench
+from svsa.rig.launch import RunningRig, start_rig
+from tests.hardware.live_bench import write_bench
+from tests.hardware.wired_bench import RIG_BENCH
+
+from .survivors import PATIENCE_S, measure
+
+pytestmark = pytest.mark.wall_clock
+
+KILL, STOP = signal.SIGKILL, signal.SIGSTOP
+CASES = [
+    (KILL, ("loop",), ("loop_lost",)),
+    (KILL, ("supervisor",), ("supervisor_lost",)),
+    (KILL, ("server",), ()),
+    (KILL, ("loop", "supervisor"), ("loop_and_supervisor_lost",)),
+    (KILL, ("loop", "server"), ()),
+    (KILL, ("supervisor", "server"), ()),
+    (STOP, ("loop",), ("loop_silent", "loop_late")),
+    (STOP, ("supervisor",), ("supervisor_lost",)),
+    (STOP, ("server",), ()),
+    (STOP, ("loop", "supervisor"), ("loop_and_supervisor_lost",)),
+]
+
+_SAFETY = read_bench(RIG_BENCH).safety
+WAITS = {name: getattr(_SAFETY, name) for name in ("loop_s", "supervisor_s", "server_s")}
+"""The processes wait for one another as long as they do on a bench: that is what is measured."""
+
+
+@pytest.fixture(scope="module")
+def rig() -> Iterator[RunningRig]:
+    with start_rig(lockstep=False) as running:
+        yield running
+
+
+@pytest.mark.parametrize(
+    ("number", "victims", "codes"),
+    CASES,
+    ids=[f"{number.name}-{'-'.join(victims)}" for number, victims, _ in CASES],
+)
+def test_whoever_is_left_stops_the_drives(
+    rig: RunningRig,
+    tmp_path: Path,
+    number: signal.Signals,
+    victims: tuple[str, ...],
+    codes: tuple[str, ...],
+) -> None:
+    bench = write_bench(tmp_path, rig, lockstep=False, **WAITS)
+    outcome = measure(rig, bench, victims, number, codes)
+    what = f"{number.name} {' + '.join(victims)}"
+    sys.stdout.write(f"{what}: {1e3 * outcome.zero_s:.1f} ms to zero current")
+    assert all(outcome.before_ma), "both drives held a current"
+    assert 0.0 < outcome.zero_s < PATIENCE_S

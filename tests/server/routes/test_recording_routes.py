@@ -1,0 +1,138 @@
+"""Recording a session over REST, and opening the run again."""
+
+import json
+import os
+import re
+import signal
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.lab import Lab, run_lab
+from tests.records.test_recorder import mount_small_disk
+
+
+def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
+    """Record the shared session for some session time with a load in it; the run's id."""
+    answer = lab.client.post(lab.session + "/recording", json=wanted)
+    assert answer.status_code == 201, answer.text
+    state = answer.json()
+    assert state["recording"]["state"] == "recording"
+    lab.client.post(lab.session + "/loads", json={"kind": "paper"})
+    lab.client.put(lab.session + "/law", json={"law": "fl"})
+    lab.jump(seconds)
+    stopped = lab.client.delete(lab.session + "/recording").raise_for_status().json()
+    assert stopped["recording"] is None
+    return state["recording"]["run_id"]
+
+
+def wait_for_run(lab: Lab, run_id: str) -> dict:
+    """The run's entry once its file is finished."""
+    for _ in range(300):
+        run = lab.client.get(f"/api/v1/runs/{run_id}").raise_for_status().json()
+        if run["state"] != "recording":
+            return run
+        time.sleep(0.1)
+    raise AssertionError("the run was never finished")
+
+
+def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
+    effects = {"encoders": {}, "estimation": {}, "noise": {}, "delay_samples": 1}
+    lab.client.put(lab.session + "/effects", json=effects).raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "ndobc"}]}).raise_for_status()
+    lab.jump(1)
+    run = wait_for_run(lab, record(lab, name="A run", tags=["test"]))
+    assert run["name"] == "A run"
+    assert run["state"] == "complete"
+    assert run["ticks"] == 3000
+    compared = lab.client.post(f"/api/v1/runs/{run['id']}/compare").raise_for_status().json()
+    assert compared == {"identical": True, "ticks": 3000, "first_difference": None}
+
+
+def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> None:
+    run = wait_for_run(lab, record(lab))
+    tick = run["first_tick"] + 1000
+    state = lab.client.post(f"/api/v1/runs/{run['id']}/branch", json={"tick": tick}).json()
+    assert state["status"] == "paused"
+    assert state["tick"] == tick
+    assert state["configuration"]["law"] == "fl"
+    branch = f"/api/v1/sessions/{state['session']}"
+    lab.client.put(branch + "/law", json={"law": "ndobc"}).raise_for_status()
+    after = lab.client.post(branch + "/step", json={"ticks": 2000}).json()
+    assert abs(after["sample"]["position_error_rad"]) < 1e-3
+    assert abs(lab.read()["sample"]["position_error_rad"]) > 0.1
+    lab.client.delete(branch)
+    refused = lab.client.post(f"/api/v1/runs/{run['id']}/branch", json={"tick": -1})
+    assert refused.status_code == 422
+
+
+def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
+    run = wait_for_run(lab, record(lab, name="<script>alert(1)</script>"))
+    answer = lab.client.get(f"/api/v1/runs/{run['id']}/replay.html")
+    assert answer.status_code == 200
+    assert "attachment" in answer.headers["content-disposition"]
+    assert "<script>alert(1)" not in answer.text
+    assert re.search(r'(?:src|href)="https?://', answer.text) is None
+
+
+def test_what_cannot_be_done_while_recording_is_told(lab: Lab) -> None:
+    lab.client.post(lab.session + "/recording", json={}).raise_for_status()
+    again = lab.client.post(lab.session + "/recording", json={})
+    assert again.status_code == 409
+    assert "already" in again.json()["message"]
+    lanes = lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
+    assert lanes.status_code == 409
+    assert "recording" in lanes.json()["message"]
+    lab.client.post(lab.session + "/reset")
+    assert lab.read()["recording"] is None
+
+
+@pytest.mark.parametrize("run_id", ["nothing", "..%2F..%2Fetc", "%00", "a" * 500])
+def test_unknown_runs_are_told(lab: Lab, run_id: str) -> None:
+    answer = lab.client.post(f"/api/v1/runs/{run_id}/compare")
+    assert answer.status_code == 404
+
+
+def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None:
+    with run_lab(data=str(tmp_path)) as lab:
+        lab.client.post(lab.session + "/recording", json={"name": "cut off"}).raise_for_status()
+        time.sleep(2.0)
+        ticks = lab.read()["tick"]
+        os.kill(lab.process.pid, signal.SIGKILL)
+        lab.process.wait()
+    with run_lab(data=str(tmp_path)) as lab:
+        runs = lab.client.get("/api/v1/runs").json()["runs"]
+        assert [run["name"] for run in runs] == ["cut off"]
+        assert runs[0]["first_tick"] + runs[0]["ticks"] > ticks - 600
+        compared = lab.client.post(f"/api/v1/runs/{runs[0]['id']}/compare").json()
+        assert compared["identical"], json.dumps(compared)
+
+
+def test_a_full_disk_is_told_in_the_state_while_control_goes_on(tmp_path: Path) -> None:
+    with (
+        mount_small_disk(tmp_path / "disk", "600k") as disk,
+        run_lab(data=str(disk)) as lab,
+    ):
+        lab.client.put(lab.session + "/speed", json={"factor": 20}).raise_for_status()
+        lab.client.post(lab.session + "/recording", json={}).raise_for_status()
+        for _ in range(300):
+            state = lab.read()
+            if state["recording"]["state"] == "failed":
+                break
+            time.sleep(0.1)
+        assert state["recording"]["state"] == "failed"
+        assert "No space left" in state["recording"]["message"]
+        assert state["status"] == "running"
+        time.sleep(0.2)
+        assert lab.read()["tick"] > state["tick"]
+
+
+def test_a_folder_that_cannot_be_written_stops_no_control(tmp_path: Path) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("not a folder")
+    with run_lab(data=str(blocked)) as lab:
+        refused = lab.client.post(lab.session + "/recording", json={})
+        assert refused.status_code == 507
+        assert "cannot be kept" in refused.json()["message"]
+        assert lab.read()["status"] == "running"

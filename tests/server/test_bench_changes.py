@@ -1,0 +1,54 @@
+"""Two clients change parts of one thing at a bench, whose loop takes a while to answer."""
+
+import asyncio
+from collections.abc import Iterator
+
+import pytest
+
+from svsa.control.gains import Gains
+from svsa.session.bench import BenchSession
+from svsa_server.gain_schemas import GainsRequest
+from svsa_server.routes import settings
+from svsa_server.turn import take_turn
+from tests.server.scripted_bench import Processes, build_bench_session
+
+
+@pytest.fixture
+def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
+    monkeypatch.setattr(settings, "build_state", lambda _: None)
+    made = build_bench_session(monkeypatch)
+    made.open()
+    yield made
+    made.close()
+
+
+def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> None:
+    before = session.run.configuration.gains
+    requests = (
+        GainsRequest(stiffness_coefficients=(900.0, 60.0)),
+        GainsRequest(position_poles_rad_per_s=(-30.0, -30.0, -30.0, -30.0)),
+        GainsRequest(stiffness_coefficients=(1600.0, 80.0)),
+    )
+
+    async def ask() -> None:
+        await asyncio.gather(
+            *(take_turn(settings.set_gains, session=session, request=each) for each in requests)
+        )
+
+    asyncio.run(ask())
+    gains = session.run.configuration.gains
+    assert gains == requests[2].apply_to(requests[1].apply_to(before))
+    assert isinstance(session.processes, Processes)
+    assert Gains(**session.processes.told[-1]["argument"]) == gains, "the loop has the same"
+
+
+def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
+    async def ask() -> None:
+        await asyncio.gather(
+            take_turn(session.change, "law", "fl"),
+            take_turn(session.change, "rivals", ({"law": "ndobc"},)),
+        )
+
+    asyncio.run(ask())
+    configuration = session.run.configuration
+    assert [lane.law for lane in configuration.lanes] == ["fl", "fl", "ndobc"]
