@@ -22,20 +22,28 @@ from numba.core.postproc import PostProcessor
 from numba.core.untyped_passes import IRProcessing
 from numba.extending import intrinsic, overload
 
+from svsa.lanes.number import LANES, Lanes, call_vector
+
 
 @intrinsic
 def _fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
-    if not all(isinstance(number, types.Number) for number in (a, b, c)):
+    numbers = (a, b, c)
+    if not all(isinstance(number, types.Number | Lanes) for number in numbers):
         return None
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return builder.fma(*arguments)
 
+    def generate_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return call_vector("llvm.fma")(builder, *arguments)
+
+    if LANES in numbers:
+        return LANES(LANES, LANES, LANES), generate_lanes
     return types.float64(types.float64, types.float64, types.float64), generate
 
 
 fma = cast("Callable[[float, float, float], float]", _fma)
-"""a·b + c of three numbers, rounded once; in compiled functions only."""
+"""a·b + c of three numbers, or in every lane, rounded once; in compiled functions only."""
 
 
 def multiply_add(a: Any, b: Any, c: Any) -> Any:
@@ -45,7 +53,7 @@ def multiply_add(a: Any, b: Any, c: Any) -> Any:
 
 @overload(multiply_add, jit_options={"forceinline": True, "error_model": "numpy"})
 def choose_multiply_add(a, b, c):
-    """`fma` for numbers of which one is a float64."""
+    """`fma` for numbers of which one is a float64 or lanes."""
 
     def fused(a, b, c):  # noqa: ANN202
         return fma(a, b, c)
@@ -54,8 +62,9 @@ def choose_multiply_add(a, b, c):
         return a * b + c
 
     numbers = (a, b, c)
-    is_float = all(isinstance(one, types.Number) for one in numbers) and types.float64 in numbers
-    return fused if is_float else plain
+    is_number = all(isinstance(one, types.Number | Lanes) for one in numbers)
+    is_float = types.float64 in numbers or LANES in numbers
+    return fused if is_number and is_float else plain
 
 
 @register_pass(mutates_CFG=False, analysis_only=False)

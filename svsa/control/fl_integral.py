@@ -7,6 +7,7 @@ from svsa.compilation import compiled
 from svsa.control.feedback_linearization import compute_linearized_demand
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
+from svsa.lanes.choice import choose
 from svsa.model.linearization import compute_linearization, solve_decoupling
 
 
@@ -70,9 +71,11 @@ def control(nominal, gains, memory, x, reference, estimate, applied, period):
     ξ = compute_linearization(nominal, x)
     y1, y2 = compute_linearized_demand(ξ, gains, reference)
     torque = solve_decoupling(ξ, y1 + gains.pi * memory.position, y2 + gains.si * memory.stiffness)
-    if abs(torque.u1) <= gains.torque1_max and abs(torque.u2) <= gains.torque2_max:
-        memory.position += period * (reference.q - x.q)
-        memory.stiffness += period * (reference.sigma - ξ.sigma)
+    position = memory.position + period * (reference.q - x.q)
+    stiffness = memory.stiffness + period * (reference.sigma - ξ.sigma)
+    within = (abs(torque.u1) <= gains.torque1_max) & (abs(torque.u2) <= gains.torque2_max)
+    memory.position = choose(within, position, memory.position)
+    memory.stiffness = choose(within, stiffness, memory.stiffness)
     return torque
 
 

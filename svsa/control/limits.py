@@ -1,6 +1,7 @@
 """Torque limits: what the motors are really asked for."""
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import greatest, least
 from svsa.signals import Torque
 
 
@@ -8,6 +9,6 @@ from svsa.signals import Torque
 def limit_torque(torque, torque1_max, torque2_max):
     """Both torques clipped to ±their limit, N·m; a torque that is not a number stays so."""
     return Torque(
-        min(max(torque.u1, -torque1_max), torque1_max),
-        min(max(torque.u2, -torque2_max), torque2_max),
+        least(greatest(torque.u1, -torque1_max), torque1_max),
+        least(greatest(torque.u2, -torque2_max), torque2_max),
     )

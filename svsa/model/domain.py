@@ -4,6 +4,7 @@ import math
 from typing import NamedTuple
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import choose, least
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import (
     compute_lever_ratio,
@@ -66,7 +67,7 @@ def build_domain(actuator: ActuatorParameters, limits: Limits) -> Domain:
 @compiled
 def compute_deflection_limit(domain, mu):
     """The |φ| at which a run ends, rad: a share of the zero-stiffness angle of this μ."""
-    return min(
+    return least(
         domain.deflection_max, domain.deflection_fraction * compute_zero_stiffness_deflection(mu)
     )
 
@@ -91,17 +92,13 @@ def check_domain(domain, actuator, x):
     domain: `Domain`. actuator: `Actuator`. x: `State`.
     """
     total = x.q + x.dq + x.theta1 + x.dtheta1 + x.theta2 + x.dtheta2
-    if not math.isfinite(total):
-        return NOT_FINITE
     mu = compute_lever_ratio(x.theta2, actuator.mu0, actuator.gamma)
-    if not domain.mu_min <= mu <= domain.mu_max:
-        return LEVER_END
     phi = compute_deflection(x)
-    if abs(phi) > compute_deflection_limit(domain, mu):
-        return DEFLECTION_LIMIT
-    if not compute_relative_determinant(mu, phi) >= domain.singularity_fraction:
-        return SINGULAR_DECOUPLING
-    return INSIDE
+    determinant = compute_relative_determinant(mu, phi)
+    code = choose(determinant >= domain.singularity_fraction, INSIDE, SINGULAR_DECOUPLING)
+    code = choose(abs(phi) > compute_deflection_limit(domain, mu), DEFLECTION_LIMIT, code)
+    code = choose((domain.mu_min <= mu) & (mu <= domain.mu_max), code, LEVER_END)
+    return choose(abs(total) < math.inf, code, NOT_FINITE)
 
 
 @compiled

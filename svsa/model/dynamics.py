@@ -8,6 +8,7 @@ same functions with other constants.
 from typing import NamedTuple
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import choose, some
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import (
     REACTION_ENERGY,
@@ -102,10 +103,11 @@ def compute_internal_torque(actuator, x):
     phi = compute_deflection(x)
     mu = compute_lever_ratio(x.theta2, actuator.mu0, actuator.gamma)
     torque = compute_elastic_torque(mu, phi, actuator.K)
-    if actuator.reaction == REACTION_PRINTED:
-        reaction = compute_printed_reaction_torque(mu, phi, actuator.K)
-    else:
-        reaction = compute_reaction_torque(mu, phi, actuator.K, actuator.gamma)
+    reaction = compute_reaction_torque(mu, phi, actuator.K, actuator.gamma)
+    printed = actuator.reaction == REACTION_PRINTED
+    if some(printed):
+        torque_printed = compute_printed_reaction_torque(mu, phi, actuator.K)
+        reaction = choose(printed, torque_printed, reaction)
     return InternalTorque(
         -actuator.D * x.dq - torque,
         -actuator.D1 * x.dtheta1 + torque,
@@ -120,7 +122,10 @@ def compute_acceleration(actuator, x, u, load):
     actuator: `Actuator`. x: `State`. u: `Torque`, N·m. load: `ExternalLoad`.
     """
     F = compute_internal_torque(actuator, x)
-    gravity = load.gravity_moment * sin(x.q) if load.gravity_moment != 0.0 else 0.0
+    gravity = 0.0
+    weighs = load.gravity_moment != 0.0
+    if some(weighs):
+        gravity = choose(weighs, load.gravity_moment * sin(x.q), gravity)
     return Acceleration(
         (F.link - gravity + load.w2) * (1.0 / (actuator.M + load.inertia)),
         (F.motor1 + u.u1 + load.w4) * (1.0 / actuator.B1),

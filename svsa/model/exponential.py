@@ -15,6 +15,8 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.fused import fma
+from svsa.lanes.choice import choose, greatest, least
+from svsa.lanes.power import raise_two, take_exponent, take_fraction
 
 LOG2_E = 1.4426950408889634
 LN_2 = (0.6931471805599453, 2.3190468138462996e-17)
@@ -52,7 +54,7 @@ L = (
 @compiled
 def split_exponent(x):
     """(2^k, e^r − 1) with x = k ln 2 + r, |r| ≤ ½ ln 2; x held between `LEAST` and `GREATEST`."""
-    x = min(max(x, LEAST), GREATEST)
+    x = least(greatest(x, LEAST), GREATEST)
     k = np.floor(x * LOG2_E + 0.5)
     exact = fma(-k, LN_2[0], x)
     y = -k * LN_2[1]
@@ -62,7 +64,7 @@ def split_exponent(x):
     e = fma(r, fma(r, fma(r, fma(r, e, E[6]), E[5]), E[4]), E[3])
     e = fma(r, fma(r, fma(r, e, E[2]), E[1]), E[0])
     low = (exact - r) + y
-    return math.ldexp(1.0, int(k)), r + fma(r * z, e, fma(0.5, z, low))
+    return raise_two(k), r + fma(r * z, e, fma(0.5, z, low))
 
 
 @compiled
@@ -82,9 +84,9 @@ def expm1(x):
 @compiled
 def log(x):
     """Ln x for 10⁻³⁰⁰ ≤ x < ∞."""
-    m, e = math.frexp(x)
-    if m < HALF_SQRT_2:
-        m, e = 2.0 * m, e - 1
+    m, e = choose(abs(x) < math.inf, take_fraction(x), x), take_exponent(x)
+    small = m < HALF_SQRT_2
+    m, e = choose(small, 2.0 * m, m), choose(small, e - 1.0, e)
     f = m - 1.0
     s = f / (2.0 + f)
     z = s * s
@@ -92,7 +94,7 @@ def log(x):
     p = fma(z, fma(z, fma(z, fma(z, p, L[3]), L[2]), L[1]), L[0])
     half = 0.5 * f * f
     rest = half - fma(s, fma(2.0 * z, p, half), e * LN_2[1])
-    return fma(e, LN_2[0], f - rest) if e == 0 else e * LN_2[0] - (rest - f)
+    return choose(e == 0.0, fma(e, LN_2[0], f - rest), e * LN_2[0] - (rest - f))
 
 
 @compiled
@@ -107,4 +109,4 @@ def tanh(x):
     """Tanh x = −(e^(−2|x|) − 1)/(e^(−2|x|) + 1) with the sign of x."""
     t = expm1(-2.0 * abs(x))
     size = -t / (2.0 + t)
-    return size if x >= 0.0 else -size
+    return choose(x >= 0.0, size, -size)

@@ -17,6 +17,7 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.fused import fma
+from svsa.lanes.choice import choose, greatest
 
 TWO_OVER_PI = 2.0 / math.pi
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33)
@@ -88,9 +89,8 @@ def sin_cos(x):
     cosine = high + (low + fma(z * z, rest, -r * y))
     half = np.floor(0.5 * k)
     sign = 1.0 - 2.0 * (half - 2.0 * np.floor(0.5 * half))
-    if k == 2.0 * half:
-        return sign * sine, sign * cosine
-    return sign * cosine, -sign * sine
+    even = k == 2.0 * half
+    return sign * choose(even, sine, cosine), sign * choose(even, cosine, -sine)
 
 
 @compiled
@@ -110,7 +110,7 @@ def acos(x):
     """Arccos x = 2 asin √((1 − x)/2), rad, for ½ ≤ x ≤ 1; NaN above 1."""
     z = 0.5 - 0.5 * x
     s = math.sqrt(z)
-    low = 0.5 * fma(-s, s, z) / max(s, TINY)
+    low = 0.5 * fma(-s, s, z) / greatest(s, TINY)
     p = fma(z, fma(z, fma(z, P[11], P[10]), P[9]), P[8])
     p = fma(z, fma(z, fma(z, fma(z, p, P[7]), P[6]), P[5]), P[4])
     p = fma(z, fma(z, fma(z, fma(z, p, P[3]), P[2]), P[1]), P[0])

@@ -1,8 +1,17 @@
 """The drives: from the torque that is asked for to the torque that the motors make."""
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import choose, some
 from svsa.model.exponential import exp, expm1
 from svsa.signals import Torque
+
+
+@compiled
+def approach(start, target, rest):
+    """`Torque` with this share (1) of the way from `start` to `target` left, N·m."""
+    return Torque(
+        target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
+    )
 
 
 @compiled
@@ -12,23 +21,20 @@ def compute_lagged_torque(start, target, lag, since):
     start: `Torque` at the beginning of the period. target: `Torque` asked for. lag: time
     constant, s; 0 is none. since: time in the period, s.
     """
-    if lag <= 0.0:
+    lags = lag > 0.0
+    if not some(lags):
         return target
-    rest = exp(-since / lag)
-    return Torque(
-        target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
-    )
+    return choose(lags, approach(start, target, exp(-since / lag)), target)
 
 
 @compiled
 def compute_mean_torque(start, target, lag, period):
     """The mean of `compute_lagged_torque` over a period (s): what the observer is told."""
-    if lag <= 0.0:
+    lags = lag > 0.0
+    if not some(lags):
         return target
     rest = lag / period * -expm1(-period / lag)
-    return Torque(
-        target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
-    )
+    return choose(lags, approach(start, target, rest), target)
 
 
 @compiled

@@ -1,6 +1,7 @@
 """The plant through one control period or many: classical Runge–Kutta steps, order 4."""
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import choose, some
 from svsa.model.dynamics import ExternalLoad, compute_rate, shift
 from svsa.plant.disturbances import compute_load
 from svsa.plant.drive import compute_lagged_torque
@@ -20,15 +21,14 @@ def compute_plant_load(bench, table, x, tick, period, time):
 @compiled
 def add_resistance(bench, load, x):
     """The load of the table and what the plant has of its own: weight of the link, friction."""
-    w4, w6 = load.w4, load.w6
-    if bench.static1 > 0.0:
-        w4 -= compute_friction(
-            x.dtheta1, bench.coulomb1, bench.static1, bench.stribeck, bench.creep1
-        )
-    if bench.static2 > 0.0:
-        w6 -= compute_friction(
-            x.dtheta2, bench.coulomb2, bench.static2, bench.stribeck, bench.creep2
-        )
+    b, w4, w6 = bench, load.w4, load.w6
+    rubs1, rubs2 = b.static1 > 0.0, b.static2 > 0.0
+    if some(rubs1):
+        friction = compute_friction(x.dtheta1, b.coulomb1, b.static1, b.stribeck, b.creep1)
+        w4 = choose(rubs1, w4 - friction, w4)
+    if some(rubs2):
+        friction = compute_friction(x.dtheta2, b.coulomb2, b.static2, b.stribeck, b.creep2)
+        w6 = choose(rubs2, w6 - friction, w6)
     return ExternalLoad(load.w2, w4, w6, load.inertia, load.gravity_moment + bench.gravity_moment)
 
 

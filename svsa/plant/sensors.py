@@ -1,8 +1,9 @@
 """Sensors: what is measured of the state, in counts and with noise."""
 
-import math
+import numpy as np
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import choose, some
 from svsa.plant.noise import draw_normal
 from svsa.signals import Measurement
 
@@ -10,13 +11,19 @@ from svsa.signals import Measurement
 @compiled
 def quantize(angle, step):
     """The angle in whole counts of `step` (rad), rounded to the nearest; as it is for step 0."""
-    return math.floor(angle / step + 0.5) * step if step > 0.0 else angle
+    counts = step > 0.0
+    if not some(counts):
+        return angle
+    return choose(counts, np.floor(angle / step + 0.5) * step, angle)
 
 
 @compiled
 def add_noise(angle, std, seed, tick, channel):
     """The angle with normal noise of this standard deviation, rad."""
-    return angle + std * draw_normal(seed, tick, channel) if std > 0.0 else angle
+    noisy = std > 0.0
+    if not some(noisy):
+        return angle
+    return choose(noisy, angle + std * draw_normal(seed, tick, channel), angle)
 
 
 @compiled
