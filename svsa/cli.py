@@ -16,6 +16,7 @@ from rich.progress import Progress
 from rich.table import Table
 
 import svsa
+from svsa.arena.cli import arena
 from svsa.bench.cli import bench_check, bench_home
 from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_title
@@ -86,6 +87,7 @@ def reproduce(
     Console().print("Pictures: " + ", ".join(str(path) for path in paths))
 
 
+app.add_typer(arena, name="arena")
 app.command("rig")(rig)
 app.command("identify")(identify)
 app.command("bench-check")(bench_check)

@@ -12,7 +12,7 @@ TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
     *("package", "", "model", "reference", "control", "observer", "plant", "loop", "run"),
-    *("session", "records", "export", "design", "identification", "experiment"),
+    *("session", "records", "export", "design", "identification", "experiment", "arena"),
     *("rig", "hardware", "scene", "server", "browser"),
 )
 """Of the folders; what stands in none is \"\"."""

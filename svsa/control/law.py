@@ -80,11 +80,10 @@ class Law:
         if not NAME.fullmatch(self.name):
             bound = "a small letter, then up to 39 small letters, digits or _"
             raise ParameterError(Violation("name", self.name, "", bound))
-        if self.estimate == "own" and self._start.dtype.names[:3] != _ESTIMATE:  # pyright: ignore[reportOptionalSubscript]
+        front = _name_front(self._start.dtype)
+        if self.estimate == "own" and front[:3] != _ESTIMATE:
             bound = "w2, w4, w6 at the front for a law with an estimate of its own"
-            raise ParameterError(
-                Violation("memory", list(self._start.dtype.names or ()), "", bound)
-            )
+            raise ParameterError(Violation("memory", list(front), "", bound))
 
     @cached_property
     def _start(self) -> np.ndarray:
@@ -99,3 +98,10 @@ class Law:
         constants = pack(self.build(parameters, setting))
         is_own = self.estimate == "own"
         return bind(self.control, pack(setting.nominal), constants, self._start, is_own)
+
+
+def _name_front(memory: np.dtype) -> tuple[str, ...]:
+    """The names of the numbers that a memory begins with, in the tuple that stands first in it."""
+    names = memory.names or ()
+    first = memory[names[0]] if names else memory
+    return _name_front(first) if first.names else names

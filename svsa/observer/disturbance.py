@@ -52,20 +52,24 @@ def correct_disturbance_estimate(
     nominal, shares, estimate, x_old, F_old, x_new, F_new, torque, period
 ):
     """`update_disturbance_estimate` where F at both ends, `InternalTorque`, N·m, is known."""
+    seen = compute_unexplained_mean(nominal, x_old, F_old, x_new, F_new, torque, period)
+    return Disturbance(
+        estimate.w2 + shares[0] * (seen.w2 - estimate.w2),
+        estimate.w4 + shares[1] * (seen.w4 - estimate.w4),
+        estimate.w6 + shares[2] * (seen.w6 - estimate.w6),
+    )
+
+
+@compiled
+def compute_unexplained_mean(nominal, x_old, F_old, x_new, F_new, torque, period):
+    """J (v_new − v_old)/T − ½(F_new + F_old) − u, `Disturbance`, N·m: the mean w of a sample."""
     rate = 1.0 / period
-    seen2 = nominal.M * (x_new.dq - x_old.dq) * rate - 0.5 * (F_new.link + F_old.link)
-    seen4 = (
+    return Disturbance(
+        nominal.M * (x_new.dq - x_old.dq) * rate - 0.5 * (F_new.link + F_old.link),
         nominal.B1 * (x_new.dtheta1 - x_old.dtheta1) * rate
         - 0.5 * (F_new.motor1 + F_old.motor1)
-        - torque.u1
-    )
-    seen6 = (
+        - torque.u1,
         nominal.B2 * (x_new.dtheta2 - x_old.dtheta2) * rate
         - 0.5 * (F_new.motor2 + F_old.motor2)
-        - torque.u2
-    )
-    return Disturbance(
-        estimate.w2 + shares[0] * (seen2 - estimate.w2),
-        estimate.w4 + shares[1] * (seen4 - estimate.w4),
-        estimate.w6 + shares[2] * (seen6 - estimate.w6),
+        - torque.u2,
     )

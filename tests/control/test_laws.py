@@ -63,13 +63,15 @@ def install(monkeypatch):
 
 
 def test_the_paper_s_laws_come_through_the_door_that_everybody_s_come_through():
-    assert list_law_names()[:2] == ("ndobc", "fl")
+    names = list_law_names()
+    assert names[0] == "ndobc"
+    assert list(names[1:]) == sorted(names[1:])
     assert {get_law(name).title for name in ("fl", "ndobc")} == {"FL", "NDOBC"}
 
 
-@pytest.mark.parametrize("law", ["pid", "Not a name", ""])
+@pytest.mark.parametrize("law", ["no_law", "Not a name", ""])
 def test_a_law_that_is_not_installed_is_refused_with_those_that_are(law):
-    with pytest.raises(svsa.ParameterError, match=r"law is '.*installed here: ndobc, fl, fl_int"):
+    with pytest.raises(svsa.ParameterError, match=r"law is '.*installed here: ndobc, .*fl, fl_int"):
         svsa.simulate("4a", law, duration_s=0.01)
     with pytest.raises(svsa.ParameterError, match=r"rivals\[1\]\.law|law is"):
         svsa.simulate("4a", rivals=(INTEGRAL, svsa.Lane(law=law)), duration_s=0.01)
@@ -78,7 +80,7 @@ def test_a_law_that_is_not_installed_is_refused_with_those_that_are(law):
 def test_a_refused_law_changes_nothing():
     run = Run(build_configuration(rivals=(INTEGRAL,)))
     before, lanes = run.configuration, list(run.lanes)
-    for kind, argument in (("law", "pid"), ("rivals", (svsa.Lane(law="pid"),))):
+    for kind, argument in (("law", "no_law"), ("rivals", (svsa.Lane(law="no_law"),))):
         with pytest.raises(svsa.ParameterError):
             build_command(0, kind, argument).apply(run)
     assert run.configuration == before

@@ -113,7 +113,7 @@ def test_a_wrong_number_of_steps_is_refused(steps):
 @pytest.mark.parametrize(
     ("changes", "name"),
     [
-        ({"law": "pid"}, "law"),
+        ({"law": "no_law"}, "law"),
         ({"observer": {"bandwidth_rad_per_s": (60.0, float("nan"), 60.0)}}, "bandwidth_rad_per_s"),
         ({"sampling": {"period_s": "fast"}}, "period_s"),
         ({"sampling": {"period_s": 1.0}}, "period_s"),

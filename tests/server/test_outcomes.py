@@ -39,7 +39,7 @@ def test_a_request_whose_client_left_is_told_as_carried_out(lab: Lab) -> None:
 
 @pytest.mark.parametrize(
     ("method", "path", "body", "status"),
-    [("PUT", "law", {"law": "pid"}, 422), ("DELETE", "loads/999", None, 404)],
+    [("PUT", "law", {"law": "no_law"}, 422), ("DELETE", "loads/999", None, 404)],
 )
 def test_a_refused_request_is_told_as_refused(
     lab: Lab, method: str, path: str, body: dict | None, status: int

@@ -91,7 +91,7 @@ ARGUMENTS = {
 }
 REFUSED = [
     ("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=500.0)),
-    ("law", "pid"),
+    ("law", "no_law"),
     ("gains", {"position_coefficients": (1.0, 1.0, 1.0, 1.0)}),
     ("rivals", (svsa.Lane(law="fl"),) * 4),
     ("unload", 99),

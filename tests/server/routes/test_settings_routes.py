@@ -77,7 +77,7 @@ REFUSED = [
         "N·m/rad",
         "from 1.7 to",
     ),
-    ("PUT", "law", {"law": "pid"}, "law", "", "installed here: ndobc, fl"),
+    ("PUT", "law", {"law": "no_law"}, "law", "", "installed here: ndobc, "),
     ("PUT", "gains", {}, "gains", "", "poles or coefficients"),
     (
         "PUT",
@@ -118,10 +118,10 @@ REFUSED = [
     (
         "PUT",
         "lanes",
-        {"rivals": [{"law": "fl"}, {"law": "pid"}]},
+        {"rivals": [{"law": "fl"}, {"law": "no_law"}]},
         "rivals[1].law",
         "",
-        "installed here: ndobc, fl",
+        "installed here: ndobc, ",
     ),
     (
         "PUT",

@@ -1,0 +1,47 @@
+"""The arena's table as text: one row a law, as measured."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from svsa.control.installed import get_title
+
+HEADINGS = (
+    "law",
+    "4A ideal: before / peak / steady",
+    "4A rig: peak / steady / recovery s",
+    "unloading",
+    "faults of 48",
+    "2 Hz",
+    "3 kg",
+    "largest step N·m",
+)
+
+
+def build_cells(row: dict[str, Any]) -> tuple[str, ...]:
+    """The cells of a row of `svsa.arena.measure.measure_law`, errors in degrees.
+
+    Where a run ended early its fault stands; "never" where an error did not settle.
+    """
+    ideal, rig, faults = row["ideal_4a"], row["rig_4a"], row["faults"]
+
+    def tell(name: str, numbers: Sequence[float | None]) -> str:
+        if name in faults:
+            return str(faults[name])
+        return " / ".join("never" if number is None else f"{number:.3g}" for number in numbers)
+
+    return (
+        get_title(row["law"]),
+        tell("ideal_4a", (ideal["before_deg"], ideal["peak_deg"], ideal["steady_deg"])),
+        tell("rig_4a", (rig["peak_deg"], rig["steady_deg"], rig["recovery_s"])),
+        tell("unloading", (row["unloading_peak_deg"],)),
+        str(row["unloading_faults_of_48"]),
+        tell("sine_2hz", (row["sine_2hz_rms_deg"],)),
+        tell("mass", (row["mass_rms_deg"],)),
+        f"{row['largest_link_step_nm']:g}",
+    )
+
+
+def format_markdown(rows: Iterable[dict[str, Any]]) -> str:
+    """The table as Markdown."""
+    lines = [HEADINGS, ("---",) * len(HEADINGS), *map(build_cells, rows)]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

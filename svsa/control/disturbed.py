@@ -1,0 +1,33 @@
+"""The linearization under ŵ: how both outputs move where the load is as it is estimated."""
+
+from typing import NamedTuple
+
+from svsa.compilation import compiled
+
+
+class Disturbed(NamedTuple):
+    """The derivatives of q and σ under ŵ, held, and u = 0.
+
+    ddq, dddq, ddddq: rad/s², rad/s³, rad/s⁴. ddsigma: N·m/rad/s².
+    """
+
+    ddq: float
+    dddq: float
+    ddddq: float
+    ddsigma: float
+
+
+@compiled
+def compute_disturbed(nominal, linearization, w):
+    """q̈ = a + ŵ2/M, q⃛ = j − D ŵ2/M², q⁗ and σ̈ with the columns of p(x) (Eq 17–24).
+
+    NDOBC's Γ ŵ is what these differ by from L_f^k h, weighted with the gains. linearization:
+    `Linearization`. w: ŵ, `Disturbance`, N·m. Returns `Disturbed`.
+    """
+    D, ξ, rM = nominal.D, linearization, 1.0 / nominal.M
+    return Disturbed(
+        ddq=ξ.ddq + rM * w.w2,
+        dddq=ξ.dddq - (D * rM * rM) * w.w2,
+        ddddq=ξ.ddddq + ((D * D * rM - ξ.sigma) * rM * rM) * w.w2 + ξ.a11 * w.w4 + ξ.a12 * w.w6,
+        ddsigma=ξ.ddsigma + (ξ.sigma_phi * rM) * w.w2 + ξ.a21 * w.w4 + ξ.a22 * w.w6,
+    )

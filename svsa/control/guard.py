@@ -1,0 +1,36 @@
+"""Guards of a law: what the spring and the spiral bear, before a torque is asked for.
+
+A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, which ends at the bound.
+"""
+
+from svsa.compilation import compiled
+from svsa.model.dynamics import compute_deflection
+from svsa.model.lever import compute_lever_ratio_slope
+
+
+@compiled
+def guard_deflection(nominal, x, F, w, ddq, bound, rate, u1):
+    """The u1 next to the one asked for that keeps |φ| below its bound, N·m.
+
+    −2l φ̇ − l²(b + φ) ≤ φ̈ ≤ −2l φ̇ + l²(b − φ) with φ̈ = q̈ − (F4 + ŵ4 + u1)/B1. F: F_n(x̂),
+    `InternalTorque`. w: ŵ. ddq: q̈ under ŵ, rad/s². bound: b, rad. rate: l, rad/s.
+    """
+    phi, dphi = compute_deflection(x), x.dq - x.dtheta1
+    damped = ddq + 2.0 * rate * dphi
+    least = nominal.B1 * (damped - rate * rate * (bound - phi)) - F.motor1 - w.w4
+    most = nominal.B1 * (damped + rate * rate * (bound + phi)) - F.motor1 - w.w4
+    return min(max(u1, least), most)
+
+
+@compiled
+def guard_lever(nominal, x, F, w, mu, mu_min, mu_max, rate, u2):
+    """The u2 next to the one asked for that keeps μ between two bounds, N·m.
+
+    −2l μ̇ − l²(μ − μ_min) ≤ μ̈ ≤ −2l μ̇ + l²(μ_max − μ) with μ̈ = μ'(F6 + ŵ6 + u2)/B2. mu: μ.
+    rate: l, rad/s; slow enough for the motor to stop the lever. Else as `guard_deflection`.
+    """
+    slope = compute_lever_ratio_slope(nominal.gamma)
+    damped, inertia = -2.0 * rate * slope * x.dtheta2, nominal.B2 / slope
+    most = inertia * (damped + rate * rate * (mu_max - mu)) - F.motor2 - w.w6
+    least = inertia * (damped - rate * rate * (mu - mu_min)) - F.motor2 - w.w6
+    return min(max(u2, least), most)

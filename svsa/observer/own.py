@@ -1,0 +1,71 @@
+"""Observers that a law brings itself: they stand at the front of its memory.
+
+They see what the law is told, x̂ and the torque that really acted, and so do not wind up.
+"""
+
+from typing import NamedTuple
+
+from svsa.compilation import compiled
+from svsa.model.dynamics import compute_internal_torque
+from svsa.observer.disturbance import compute_unexplained_mean
+from svsa.signals import Disturbance, State
+
+AT_START = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Observed(NamedTuple):
+    """ŵ (N·m), its rate (N·m/s), and x̂ a period ago.
+
+    is_started: 1 where there was a period before; 0 when the law comes.
+    """
+
+    w2: float = 0.0
+    w4: float = 0.0
+    w6: float = 0.0
+    dw2: float = 0.0
+    dw4: float = 0.0
+    dw6: float = 0.0
+    x: State = AT_START
+    is_started: float = 0.0
+
+
+@compiled
+def get_observed(memory):
+    """ŵ as `Disturbance`, N·m."""
+    return Disturbance(memory.w2, memory.w4, memory.w6)
+
+
+@compiled
+def remember_state(memory, x):
+    """Keep x̂, `State`, for the period to come."""
+    memory.x.q, memory.x.dq = x.q, x.dq
+    memory.x.theta1, memory.x.dtheta1 = x.theta1, x.dtheta1
+    memory.x.theta2, memory.x.dtheta2 = x.theta2, x.dtheta2
+    memory.is_started = 1.0
+
+
+@compiled
+def observe_disturbance(nominal, share, rate_share, memory, x, torque, period):
+    """ŵ by an observer that knows its rate: ŵ += T ŵ̇, then ŵ += g r, ŵ̇ += h r/T.
+
+    r = J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ, over the last sample with both of its
+    ends. With θ = e^(−ωT), g = 1 − θ² and h = (1 − θ)² both poles are at ω, and a load that grows
+    steadily is estimated without lag; with g = 1 − e^(−βT) and h = 0 it is the loop's observer.
+
+    nominal: `Actuator`. share: g. rate_share: h. memory: `Observed`, written. x: x̂ now. torque:
+    `Torque` that acted in the last period, N·m. period: T, s. Returns ŵ, `Disturbance`.
+    """
+    if memory.is_started != 0.0:
+        F_old = compute_internal_torque(nominal, memory.x)
+        F_new = compute_internal_torque(nominal, x)
+        seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
+        h = rate_share / period
+        w2 = memory.w2 + period * memory.dw2
+        w4 = memory.w4 + period * memory.dw4
+        w6 = memory.w6 + period * memory.dw6
+        r2, r4, r6 = seen.w2 - w2, seen.w4 - w4, seen.w6 - w6
+        memory.w2, memory.dw2 = w2 + share * r2, memory.dw2 + h * r2
+        memory.w4, memory.dw4 = w4 + share * r4, memory.dw4 + h * r4
+        memory.w6, memory.dw6 = w6 + share * r6, memory.dw6 + h * r6
+    remember_state(memory, x)
+    return get_observed(memory)
