@@ -87,6 +87,12 @@ def linearize(
     parameters = actuator or design.actuator
     K = parameters.rotational_stiffness_nm_per_rad
     mu = float(compute_lever_ratio_for_stiffness(stiffness_nm_per_rad, K))
+    return linearize_at(parameters, mu)
+
+
+def linearize_at(parameters: ActuatorParameters, mu: float) -> LinearModel:
+    """`linearize` where the lever ratio at rest is known: μ = `mu`, whatever σ it gives."""
+    K = parameters.rotational_stiffness_nm_per_rad
     constants = build_actuator(parameters, mu)
     spring = compute_spring_derivatives(mu, 0.0, K)
     M, B1, B2, D = constants.M, constants.B1, constants.B2, constants.D

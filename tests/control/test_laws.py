@@ -13,7 +13,7 @@ from svsa.compilation import compiled, watch_compilation
 from svsa.control import installed
 from svsa.control.installed import LawError, get_law, list_law_names
 from svsa.control.law import Law
-from svsa.design.loop_noise import linearize_tick
+from svsa.design.sampled_loop import linearize_tick
 from svsa.loop.loop import advance as advance_lane
 from svsa.run.command import build_command, replay
 from svsa.run.controllers import name_controllers
@@ -227,7 +227,7 @@ def test_what_a_law_remembers_is_in_the_linearized_loop():
     """FL + I has two states more than FL, which add a slow pole; what never changes is no state."""
     exact = {"nominal": svsa.load_prototype().actuator}
     fl, integral = (
-        linearize_tick(build_configuration(law=law, **exact), 15.0)[0]
+        linearize_tick(build_configuration(law=law, **exact), 15.0).A
         for law in ("fl", "fl_integral")
     )
     assert len(integral) == len(fl) + 2
