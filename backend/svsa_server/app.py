@@ -45,7 +45,7 @@ _DESCRIPTION = (
 
 
 def build_app(config: Settings | None = None, shared: Session | None = None) -> FastAPI:
-    """The lab as an ASGI application; sessions and the 3D view live as long as it runs.
+    """The lab as an ASGI application; sessions live as long as it runs.
 
     shared: the session that everyone shares; a simulated one if left out.
     """
@@ -91,7 +91,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
 
 @contextlib.asynccontextmanager
 async def _live(app: FastAPI) -> AsyncIterator[None]:
-    """Start the sessions and the 3D view, and end them with the server."""
+    """Start the sessions, and end them and their 3D views with the server."""
     config: Settings = app.state.config
     shared = app.state.shared or build_shared_session(None, design=app.state.design)
     laboratory = Laboratory(shared, config.most_sessions, config.idle_s, config.control_s)
@@ -100,7 +100,6 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.recordings = Recordings(app.state.catalogue)
     app.state.heavy_work = HeavyWork(config.most_exports)
     scenes = Scenes(laboratory)
-    await scenes.open(shared.name)
     proxy = ViserProxy(scenes.open)
     routes = list(app.router.routes)
     app.router.routes.extend(proxy.routes)

@@ -5,7 +5,8 @@ import io
 
 import viser
 
-from svsa_scene import ActuatorPose, ActuatorScene
+from svsa_scene import ActuatorPose
+from svsa_scene.scene import ActuatorScene
 
 
 class _LoopbackViser(viser.ViserServer):

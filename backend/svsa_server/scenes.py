@@ -3,11 +3,14 @@
 import asyncio
 import logging
 import time
+from typing import TYPE_CHECKING
 
 from svsa.session.session import Session
 from svsa_server.laboratory import SHARED_SESSION, Laboratory
 from svsa_server.pose import read_pose
-from svsa_server.scene_bridge import SceneBridge
+
+if TYPE_CHECKING:
+    from svsa_server.scene_bridge import SceneBridge
 
 UPDATE_PERIOD_S = 1.0 / 30.0
 IDLE_S = 60.0
@@ -18,7 +21,7 @@ _log = logging.getLogger("svsa")
 class View:
     """A session and its view; `seen` is when somebody last looked at it."""
 
-    def __init__(self, session: Session, bridge: SceneBridge) -> None:
+    def __init__(self, session: Session, bridge: "SceneBridge") -> None:
         self.session, self.bridge, self.seen = session, bridge, time.monotonic()
 
     def update(self, now: float) -> None:
@@ -53,8 +56,7 @@ class Scenes:
         session = self._laboratory.get(name)
         async with self._starting:
             if name not in self.views:
-                bridge = await asyncio.to_thread(SceneBridge)
-                self.views[name] = View(session, bridge)
+                self.views[name] = View(session, await asyncio.to_thread(_start_viser))
         view = self.views[name]
         view.seen = time.monotonic()
         return view.bridge.port
@@ -81,6 +83,13 @@ class Scenes:
         for name in list(self.views):
             self._end(name)
         await asyncio.gather(*self._ending, return_exceptions=True)
+
+
+def _start_viser() -> "SceneBridge":
+    """Loaded here, when somebody looks: it would be a quarter of a server's start."""
+    from svsa_server.scene_bridge import SceneBridge
+
+    return SceneBridge()
 
 
 def _update(view: View, now: float) -> None:

@@ -19,6 +19,7 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
+    "--renderer-process-limit=1",  # a process anew with every page that is opened costs more
 ]
 
 expect.set_options(timeout=20_000)  # a busy machine takes its time

@@ -17,6 +17,9 @@ LATE = {"stale_zero_s": 0.9, "stale_fault_s": 1.0, "missed_ticks": 900}
 """Beside these, against the clock only: a rig that is not let run, or a loop. It has to stand
 still meanwhile: what moves on feedback this old is soon as fast as it may be."""
 
+IDLE_S = 600.0
+"""A rig waits longer for its lab than a busy machine takes to start one."""
+
 
 def start_live_rig(lockstep: bool) -> contextlib.AbstractContextManager[RunningRig]:
     """A rig beside a loop in real time, with the loop's own claim to the processor.
@@ -24,7 +27,7 @@ def start_live_rig(lockstep: bool) -> contextlib.AbstractContextManager[RunningR
     lockstep: it waits for the loop, so that nothing of it is late on a busy machine. Against the
     clock it goes on without a loop, which a test needs that takes the loop away.
     """
-    return start_rig(lockstep, 120.0, "--real-time")
+    return start_rig(lockstep, IDLE_S, "--real-time")
 
 
 def write_bench(folder: Path, rig: RunningRig, lockstep: bool, **safety: Any) -> Path:

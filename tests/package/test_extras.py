@@ -82,10 +82,12 @@ def test_what_needs_an_extra_says_in_one_line_how_to_install_it():
 
 def test_the_server_needs_the_bench_s_packages_for_a_bench_only():
     program = (
+        "import sys\n"
         "from pathlib import Path\n"
         "from svsa_server.app import build_app\n"
         "from svsa_server.laboratory import build_shared_session\n"
         "build_app()\n"
+        "assert 'viser' not in sys.modules, 'it is loaded when somebody looks'\n"
         "try:\n    build_shared_session(Path('svsa/rig/bench.toml'))\n"
         "except ImportError as error:\n    print(error)"
     )

@@ -10,8 +10,9 @@ import pytest
 import trimesh
 import viser
 
-from svsa_scene import ActuatorScene, RivalPose
+from svsa_scene import RivalPose
 from svsa_scene.arrows import SMALLEST_NM, compute_arc
+from svsa_scene.scene import ActuatorScene
 from tests.server.poses import make_pose
 
 

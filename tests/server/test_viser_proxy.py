@@ -150,6 +150,7 @@ def test_browser_is_told_when_viser_goes_away() -> None:
 
 def test_no_public_tunnel_can_be_opened() -> None:
     async def check(lab: Lab) -> None:
+        await lab.scenes.open("lab")
         assert lab.bridge._viser.request_share_url() is None
 
     run_in_lab(check)

@@ -74,7 +74,6 @@ async def running_lab() -> AsyncIterator[Lab]:
         build_shared_session(None), most_sessions=2, idle_s=60.0, control_s=15.0
     )
     scenes = Scenes(laboratory)
-    await scenes.open("lab")
     proxy = ViserProxy(scenes.open)
     app = Starlette(routes=proxy.routes)
     server = uvicorn.Server(

@@ -41,7 +41,7 @@ WAITS = {name: getattr(_SAFETY, name) for name in ("loop_s", "supervisor_s", "se
 
 @pytest.fixture(scope="module")
 def rig() -> Iterator[RunningRig]:
-    with start_rig(lockstep=False) as running:
+    with start_rig(lockstep=False, idle_s=600.0) as running:
         yield running
 
 
