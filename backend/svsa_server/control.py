@@ -6,16 +6,12 @@ only. A hand whose holder neither calls nor has a stream open is free again afte
 """
 
 import contextlib
-from collections import Counter
-from collections.abc import Iterator
 from contextvars import ContextVar
 from typing import NamedTuple
 from urllib.parse import unquote
-from weakref import WeakKeyDictionary
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.session.session import Session
-from svsa_server.control_schemas import LONGEST_NAME, ControlState
+from svsa_server.control_schemas import LONGEST_NAME
 
 CLIENT_HEADER = "SVSA-Client"
 # What is open to all whoever holds the hand: it stops, it only asks, or it is the hand itself.
@@ -39,12 +35,12 @@ class Holder(NamedTuple):
 
 
 class ControlHand:
-    """The hand of one session. Times are monotonic, s."""
+    """The hand of the session of this name. Times are monotonic, s."""
 
-    def __init__(self) -> None:
+    def __init__(self, session: str) -> None:
         self.holder: Holder | None = None
+        self._session = session
         self._heard = 0.0
-        self._streams: Counter[str] = Counter()
 
     def is_held_by(self, client: str | None) -> bool:
         """Whether this client is in control."""
@@ -54,23 +50,23 @@ class ControlHand:
         """Whether this client may command: it is in control, or nobody is."""
         return self.holder is None or self.is_held_by(client)
 
-    def check(self, client: str | None, session: str) -> None:
-        """Raise `HeldError` unless this client may command; session: its name."""
+    def check(self, client: str | None) -> None:
+        """Raise `HeldError` unless this client may command."""
         if self.holder is not None and not self.is_held_by(client):
             name = self.holder.name
             raise HeldError(
-                f"{name} is in control of session {session}: ask {name}, or take control."
+                f"{name} is in control of session {self._session}: ask {name}, or take control."
             )
 
-    def take(self, holder: Holder, take_over: bool, session: str, now: float) -> None:
+    def take(self, holder: Holder, take_over: bool, now: float) -> None:
         """In control from now on; raises `HeldError` where another is, unless `take_over`."""
         if not take_over:
-            self.check(holder.client, session)
+            self.check(holder.client)
         self.holder, self._heard = holder, now
 
-    def give_back(self, client: str | None, session: str) -> None:
+    def give_back(self, client: str | None) -> None:
         """Nobody in control; raises `HeldError` where another one is."""
-        self.check(client, session)
+        self.check(client)
         self.holder = None
 
     def hear(self, client: str | None, now: float) -> None:
@@ -79,47 +75,11 @@ class ControlHand:
             self._heard = now
 
     def free_if_left(self, now: float, patience_s: float) -> bool:
-        """Free it where its holder is gone for longer than `patience_s`; whether it did."""
-        if self.holder is None:
-            return False
-        if self._streams[self.holder.client]:
-            self._heard = now
-        is_left = now - self._heard > patience_s
+        """Free it where its holder was not heard for longer than `patience_s`; whether it did."""
+        is_left = self.holder is not None and now - self._heard > patience_s
         if is_left:
             self.holder = None
         return is_left
-
-    @contextlib.contextmanager
-    def watched_by(self, client: str | None) -> Iterator[None]:
-        """While a stream of this client is open."""
-        if client is None:
-            yield
-            return
-        self._streams[client] += 1
-        try:
-            yield
-        finally:
-            self._streams[client] -= 1
-            if not self._streams[client]:
-                del self._streams[client]
-
-
-_hands: WeakKeyDictionary[Session, ControlHand] = WeakKeyDictionary()
-
-
-def get_hand(session: Session) -> ControlHand:
-    """The hand of this session."""
-    return _hands.setdefault(session, ControlHand())
-
-
-def build_control(session: Session) -> ControlState:
-    """Who is in control, told to the client that asks."""
-    hand = get_hand(session)
-    return ControlState(
-        holder=hand.holder.name if hand.holder else None,
-        mine=hand.is_held_by(asking.get()),
-        watching=session.watchers,
-    )
 
 
 def read_client(written: str | None, name: str) -> str | None:

@@ -3,7 +3,6 @@
 import asyncio
 import logging
 from collections import deque
-from weakref import WeakKeyDictionary
 
 from svsa.errors import StateError, SvsaError
 from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
@@ -22,7 +21,7 @@ class Excitation:
     """The excitation from this tick of a session's run on, which is being recorded.
 
     It ends with the recording: when it has been played, or earlier where the run ends, somebody
-    gives a reference of his own, or the run refuses one.
+    gives a reference of his own, or the run refuses one. `broken_off`: it is not to go on.
     """
 
     def __init__(self, session: Session) -> None:
@@ -30,6 +29,7 @@ class Excitation:
         self._first_tick = session.run.tick
         self._waiting = deque(build_commands(session.run.period_s, self._first_tick))
         self._seen = len(session.commands)
+        self.broken_off = False
 
     @property
     def elapsed_s(self) -> float:
@@ -48,22 +48,25 @@ class Excitation:
             or any(command.kind in _PLAYED for command in session.commands[self._seen :])
         )
 
-    def play(self) -> None:
-        """Give the references that are due; raises what the session refuses them with."""
+    async def play(self) -> None:
+        """Give each reference when it is due, until it is over; what refuses one breaks it off."""
+        try:
+            while not (self.broken_off or self.over):
+                await take_turn(self._give_due)
+                await asyncio.sleep(_PERIOD_S)
+        except SvsaError as error:
+            name = self._session.name
+            _log.warning("The excitation of session %s was broken off. %s", name, error)
+
+    def _give_due(self) -> None:
         while self._waiting and self._waiting[0].tick <= self._session.run.tick:
             command = self._waiting.popleft()
             self._session.change(command.kind, command.argument)
             self._seen = len(self._session.commands)
 
 
-_playing: WeakKeyDictionary[Session, Excitation] = WeakKeyDictionary()
-_tasks: set[asyncio.Task[None]] = set()
-
-
 def check_excitable(session: Session) -> None:
     """Raise `StateError` where the excitation would not tell what it should."""
-    if session in _playing:
-        raise StateError("The excitation is being played already.")
     if session.recorder is not None:
         raise StateError("The session is being recorded: stop that first, this is its own run.")
     if any(load.end_tick > session.run.tick for load in session.run.loads):
@@ -72,37 +75,8 @@ def check_excitable(session: Session) -> None:
         raise StateError(f"Speed {session.clock.speed:g} is too fast: at most {FASTEST_SPEED:g}.")
 
 
-def begin_excitation(session: Session) -> None:
-    """Play it in the background from now on; the session runs and is being recorded."""
-    excitation = _playing[session] = Excitation(session)
-    session.version += 1
-    task = asyncio.get_running_loop().create_task(_play(session, excitation))
-    _tasks.add(task)
-    task.add_done_callback(_tasks.discard)
-
-
-async def _play(session: Session, excitation: Excitation) -> None:
-    """Give each reference when it is due; what refuses one breaks it off."""
-    try:
-        while _playing.get(session) is excitation and not excitation.over:
-            await take_turn(excitation.play)
-            await asyncio.sleep(_PERIOD_S)
-    except SvsaError as error:
-        _log.warning("The excitation of session %s was broken off. %s", session.name, error)
-    if _playing.get(session) is excitation:
-        end_excitation(session)
-
-
-def end_excitation(session: Session) -> None:
-    """Break it off; the recording ends, the references stay as they are."""
-    if _playing.pop(session, None) is not None:
-        session.stop_recording()
-        session.version += 1
-
-
-def build_excitation(session: Session) -> ExcitationState | None:
+def build_excitation(excitation: Excitation | None) -> ExcitationState | None:
     """How far it is, or None."""
-    excitation = _playing.get(session)
     if excitation is None:
         return None
     return ExcitationState(elapsed_s=excitation.elapsed_s, duration_s=EXCITATION_DURATION_S)

@@ -18,8 +18,8 @@ from svsa.run.command import Command
 from svsa.run.configuration import Configuration, Design
 from svsa.session.bench import BenchSession, Hands
 from svsa.session.session import Session
-from svsa_server.control import get_hand
 from svsa_server.errors import UnknownError
+from svsa_server.hosted import HostedSession
 from svsa_server.turn import let_pass
 
 WAKE_PERIOD_S = 1.0 / 60.0
@@ -41,38 +41,35 @@ class Laboratory:
     def __init__(
         self, shared: Session, most_sessions: int, idle_s: float, control_s: float
     ) -> None:
-        self.sessions = {shared.name: shared}
+        self.sessions = {shared.name: HostedSession(shared)}
         self._most_sessions = most_sessions
         self._idle_s = idle_s
         self._control_s = control_s
-        self._last_use = {shared.name: math.inf}
 
-    def get(self, name: str) -> Session:
+    def get(self, name: str) -> HostedSession:
         """The session of this name, which counts as using it; raises `UnknownError`."""
         if name not in self.sessions:
             known = ", ".join(list(self.sessions)[:10])
             raise UnknownError(f"There is no session {name[:80]!r}; sessions here: {known}.")
-        self._last_use[name] = max(self._last_use[name], time.monotonic())
+        self.sessions[name].touch()
         return self.sessions[name]
 
-    def create(self, configuration: Configuration) -> Session:
+    def create(self, configuration: Configuration) -> HostedSession:
         """A new private session, running; raises `StateError` when there are too many."""
         self._check_room()
         session = Session(build_name(), configuration)
         session.start()
-        self._add(session)
-        return session
+        return self._add(session)
 
     async def branch(
         self, configuration: Configuration, commands: list[Command], tick: int, run_id: str
-    ) -> Session:
+    ) -> HostedSession:
         """A private session, paused, that goes on from a recorded run at a tick."""
         self._check_room()
         session = await asyncio.to_thread(
             Session.branch, build_name(), configuration, commands, tick, run_id
         )
-        self._add(session)
-        return session
+        return self._add(session)
 
     def _check_room(self) -> None:
         if len(self.sessions) > self._most_sessions:
@@ -81,27 +78,21 @@ class Laboratory:
                 " end one, or wait for an idle one to end."
             )
 
-    def _add(self, session: Session) -> None:
-        self.sessions[session.name] = session
-        self._last_use[session.name] = time.monotonic()
+    def _add(self, session: Session) -> HostedSession:
+        hosted = self.sessions[session.name] = HostedSession(session, time.monotonic())
+        return hosted
 
     def end(self, name: str) -> None:
         """End a private session; raises `StateError` for the shared one."""
-        if self.get(name).name == SHARED_SESSION:
+        self.get(name)
+        if name == SHARED_SESSION:
             raise StateError("The shared session is not ended; reset it instead.")
         self._remove(name)
 
     def close(self) -> None:
         """End every session, recordings first."""
-        for session in self.sessions.values():
-            session.close()
-
-    def watch(self, name: str, watchers: int) -> None:
-        """A stream of this session begins (+1) or ends (−1): a watched session is not idle."""
-        if name in self.sessions:
-            self.sessions[name].watchers += watchers
-            self.sessions[name].version += 1
-            self._last_use[name] = max(self._last_use[name], time.monotonic())
+        for hosted in self.sessions.values():
+            hosted.session.close()
 
     async def run(self) -> None:
         """Wake every session 60 times a second until cancelled."""
@@ -109,25 +100,26 @@ class Laboratory:
             begin = time.monotonic()
             self._end_idle(begin)
             self.free_hands(begin)
-            for session in list(self.sessions.values()):
-                self._wake(session)
+            for hosted in list(self.sessions.values()):
+                self._wake(hosted.session)
             await asyncio.sleep(max(0.001, begin + WAKE_PERIOD_S - time.monotonic()))
 
     def _wake(self, session: Session) -> None:
         """An error in one session pauses that session and stops no other."""
         try:
             if math.isinf(session.clock.speed):
-                self._rush(session)
+                self._run_unpaced(session)
             else:
                 session.wake(time.monotonic())
         except Exception:
             _log.exception("Session %s was paused by an error of the program", session.name)
             session.halt()
 
-    def _rush(self, session: Session) -> None:
+    def _run_unpaced(self, session: Session) -> None:
         """As fast as it goes: bursts of ticks for this session's share of half the time."""
-        rushing = sum(math.isinf(other.clock.speed) for other in self.sessions.values())
-        end = time.monotonic() + BURST_S / rushing
+        others = (hosted.session for hosted in self.sessions.values())
+        unpaced = sum(math.isinf(other.clock.speed) for other in others)
+        end = time.monotonic() + BURST_S / unpaced
         while session.status == "running":
             session.burst(time.monotonic())
             if time.monotonic() >= end:
@@ -135,18 +127,16 @@ class Laboratory:
 
     def free_hands(self, now: float) -> None:
         """End the control of whoever is gone at `now` (monotonic, s), and tell everybody."""
-        for session in self.sessions.values():
-            if get_hand(session).free_if_left(now, self._control_s):
-                session.version += 1
+        for hosted in self.sessions.values():
+            hosted.free_hand_if_left(now, self._control_s)
 
     def _end_idle(self, now: float) -> None:
-        for name, last in list(self._last_use.items()):
-            if now - last > self._idle_s and not self.sessions[name].watchers:
+        for name, hosted in list(self.sessions.items()):
+            if hosted.is_idle(now, self._idle_s):
                 self._remove(name)
 
     def _remove(self, name: str) -> None:
-        self.sessions.pop(name).close()
-        del self._last_use[name]
+        self.sessions.pop(name).session.close()
 
 
 def build_shared_session(bench: Path | None, design: Design | None = None) -> Session:

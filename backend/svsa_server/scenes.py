@@ -53,7 +53,7 @@ class Scenes:
 
         Raises `UnknownError` where there is no such session.
         """
-        session = self._laboratory.get(name)
+        session = self._laboratory.get(name).session
         async with self._starting:
             if name not in self.views:
                 self.views[name] = View(session, await asyncio.to_thread(_start_viser))

@@ -17,9 +17,11 @@ from svsa.session.bench import BenchSession
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
-from svsa_server.control import build_control
+from svsa_server.control import asking
+from svsa_server.control_schemas import ControlState
 from svsa_server.excitation import build_excitation
 from svsa_server.gain_schemas import GainsState, Root
+from svsa_server.hosted import HostedSession
 from svsa_server.lane_schemas import LaneMetrics, LaneState
 from svsa_server.lanes import build_window, list_session_stretches
 from svsa_server.recording_schemas import RecordingState
@@ -27,8 +29,9 @@ from svsa_server.session_schemas import BranchState, LoadState, SessionProgress,
 from svsa_server.setting_schemas import ConfigurationState
 
 
-def build_progress(session: Session) -> SessionProgress:
+def build_progress(hosted: HostedSession) -> SessionProgress:
     """What of the session moves by itself, at this instant."""
+    session = hosted.session
     run, clock = session.run, session.clock
     stretches = list_session_stretches(session)
     timeline = session.timeline
@@ -57,25 +60,36 @@ def build_progress(session: Session) -> SessionProgress:
             for number, lane in enumerate(run.configuration.lanes)
         ],
         recording=_build_recording(session.recorder),
-        excitation=build_excitation(session),
+        excitation=build_excitation(hosted.excitation),
         bench=build_bench_state(session) if isinstance(session, BenchSession) else None,
     )
 
 
-def build_state(session: Session) -> SessionState:
+def build_state(hosted: HostedSession) -> SessionState:
     """Everything about the session at this instant."""
+    session = hosted.session
     run = session.run
     newest = session.history.read_newest()
     return SessionState(
-        **dict(build_progress(session)),
+        **dict(build_progress(hosted)),
         session=session.name,
         branch_of=_build_branch(session.branch_of),
-        control=build_control(session),
+        control=_build_control(hosted),
         rate_hz=1.0 / run.period_s,
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
         events=list(session.events),
         sample=None if newest is None else _name_values(newest),
+    )
+
+
+def _build_control(hosted: HostedSession) -> ControlState:
+    """Who is in control, told to the client that asks."""
+    hand = hosted.hand
+    return ControlState(
+        holder=hand.holder.name if hand.holder else None,
+        mine=hand.is_held_by(asking.get()),
+        watching=hosted.streams,
     )
 
 

@@ -18,7 +18,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from svsa.errors import ParameterError, Violation
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
-from svsa_server.control import asking, get_hand, read_client
+from svsa_server.control import asking, read_client
+from svsa_server.hosted import HostedSession
 from svsa_server.session_schemas import SessionProgress, SessionState
 from svsa_server.state import build_progress, build_state
 from svsa_server.stream_schemas import (
@@ -113,22 +114,22 @@ class SampleCursor:
         return -(-tick // self._stride) * self._stride
 
 
-async def stream_session(websocket: WebSocket, session: Session) -> None:
+async def stream_session(websocket: WebSocket, hosted: HostedSession) -> None:
     """Serve one client until it leaves."""
     await websocket.accept()
     try:
         query = dict(websocket.query_params)
         client = read_client(query.pop("client", None), "client")
         request, channels = read_stream_request(query)
-        cursor = SampleCursor(session, request, channels)
+        cursor = SampleCursor(hosted.session, request, channels)
     except ParameterError as error:
         await websocket.send_text(StreamError(message=str(error)).model_dump_json())
         await websocket.close(1008)
         return
     asking.set(client)
-    sender = asyncio.create_task(_send(websocket, session, cursor, channels))
-    listener = asyncio.create_task(_listen(websocket, session, client))
-    with get_hand(session).watched_by(client):
+    with hosted.streamed_to(client):
+        sender = asyncio.create_task(_send(websocket, hosted, cursor, channels))
+        listener = asyncio.create_task(_listen(websocket, hosted, client))
         try:
             await asyncio.wait({sender, listener}, return_when=asyncio.FIRST_COMPLETED)
         finally:
@@ -137,28 +138,27 @@ async def stream_session(websocket: WebSocket, session: Session) -> None:
             await asyncio.gather(sender, listener, return_exceptions=True)
 
 
-async def _listen(websocket: WebSocket, session: Session, client: str | None) -> None:
+async def _listen(websocket: WebSocket, hosted: HostedSession, client: str | None) -> None:
     """Wait for the client to leave; whatever it says holds the dead-man's switch of a bench."""
-    hand = get_hand(session)
     while (await websocket.receive())["type"] != "websocket.disconnect":
-        if hand.admits(client):
-            session.hear_operator()
+        if hosted.hand.admits(client):
+            hosted.session.hear_operator()
 
 
 async def _send(
-    websocket: WebSocket, session: Session, cursor: SampleCursor, channels: tuple[str, ...]
+    websocket: WebSocket, hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]
 ) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-        await websocket.send_text(_greet(session, cursor, channels))
-        version, told_at = session.version, time.monotonic()
+        await websocket.send_text(_greet(hosted, cursor, channels))
+        version, told_at = hosted.version, time.monotonic()
         slow = False
-        while not session.closed:
+        while not hosted.session.closed:
             now = time.monotonic()
             news = None
-            if session.version != version:
-                version, told_at, news = session.version, now, build_state(session)
+            if hosted.version != version:
+                version, told_at, news = hosted.version, now, build_state(hosted)
             elif now - told_at > PROGRESS_PERIOD_S:
-                told_at, news = now, build_progress(session)
+                told_at, news = now, build_progress(hosted)
             batch = cursor.take_batch(slow)
             if news is not None:
                 await _tell(websocket, news)
@@ -175,7 +175,8 @@ async def _tell(websocket: WebSocket, state: SessionState | SessionProgress) -> 
     await websocket.send_text(StateMessage(state=state).model_dump_json())
 
 
-def _greet(session: Session, cursor: SampleCursor, channels: tuple[str, ...]) -> str:
+def _greet(hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]) -> str:
+    session = hosted.session
     named = [CHANNELS[CHANNEL_INDEX[name]] for name in channels]
     return Hello(
         session=session.name,
@@ -183,5 +184,5 @@ def _greet(session: Session, cursor: SampleCursor, channels: tuple[str, ...]) ->
         rate_hz=cursor.rate_hz,
         lanes=[lane + 1 for lane in cursor.read_lanes()],
         channels=[StreamChannel(name=c.name, unit=c.unit, label=c.label) for c in named],
-        state=build_state(session),
+        state=build_state(hosted),
     ).model_dump_json()

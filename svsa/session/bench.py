@@ -207,7 +207,7 @@ class BenchSession(Session):
 
     def start(self) -> None:
         """Begin a run; raises `StateError` unless READY, at home and watched."""
-        if self.bench.safety.needs_watcher and not self.watchers:
+        if self.bench.safety.needs_watcher and not self.watched:
             raise StateError("Nobody watches this bench: open the page or a stream of it first.")
         answer = self._ask("start")
         configuration = self.run.configuration
@@ -267,7 +267,7 @@ class BenchSession(Session):
             self._advance(self._bench_run.count_ready())
         self._take_events()
         self._look_for_loss()
-        if self.watchers or self.bench_status is not BenchStatus.RUN:
+        if self.watched or self.bench_status is not BenchStatus.RUN:
             self._unwatched_since = now
         elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
             self._unwatched_since = now

@@ -44,14 +44,14 @@ class Session:
     `initial` and `commands` say everything that decides the run's samples. `version` grows
     with every change, not with time. `timeline` says who controlled which lane from when on, and
     which window this is, `metrics` how well the lanes do. `on_recorded` is told of every recording
-    that ends. `watchers` is how many streams of it are open. `branch_of` is the
+    that ends. `watched`: told by its host, whether anybody looks at it. `branch_of` is the
     recorded run that its run goes on from, until a new one begins.
     """
 
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
         self.closed = False
-        self.watchers = 0
+        self.watched = False
         self.recorder: Recorder | None = None
         self.on_recorded: Callable[[Recorder], None] = lambda _: None
         self.run_number = 0

@@ -27,7 +27,7 @@ def main(path: Path) -> None:
     wanted = figure.changed(position=ConstantPosition(position_rad=0.2))
     session = BenchSession("lab", path, wanted)
     session.open()
-    session.watchers = 1
+    session.watched = True
     for _ in range(ATTEMPTS):
         try:
             bring_to_run(session)

@@ -8,6 +8,7 @@ import pytest
 from svsa.control.gains import Gains
 from svsa.session.bench import BenchSession
 from svsa_server.gain_schemas import GainsRequest
+from svsa_server.hosted import HostedSession
 from svsa_server.routes import settings
 from svsa_server.turn import take_turn
 from tests.server.scripted_bench import Processes, build_bench_session
@@ -23,7 +24,7 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 
 
 def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> None:
-    before = session.run.configuration.gains
+    before, hosted = session.run.configuration.gains, HostedSession(session)
     requests = (
         GainsRequest(stiffness_coefficients=(900.0, 60.0)),
         GainsRequest(position_poles_rad_per_s=(-30.0, -30.0, -30.0, -30.0)),
@@ -32,7 +33,7 @@ def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> 
 
     async def ask() -> None:
         await asyncio.gather(
-            *(take_turn(settings.set_gains, session=session, request=each) for each in requests)
+            *(take_turn(settings.set_gains, hosted=hosted, request=each) for each in requests)
         )
 
     asyncio.run(ask())

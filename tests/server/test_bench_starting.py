@@ -13,6 +13,7 @@ from rich.console import Console
 from svsa.errors import StateError
 from svsa.session.bench import BenchSession
 from svsa_server.bench_start import open_bench
+from svsa_server.hosted import HostedSession
 from svsa_server.state import build_state
 from tests.hardware.live_bench import start_live_rig, write_bench
 from tests.lab import run_lab
@@ -33,7 +34,7 @@ COMMANDS: dict[str, Callable[[BenchSession], Any]] = {
 @pytest.fixture
 def starting(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
     made = build_bench_session(monkeypatch)
-    made.watchers = 1
+    made.watched = True
     yield made
     made.close()
 
@@ -52,7 +53,7 @@ def test_until_it_is_ready_it_takes_no_command_and_says_why(
 def test_what_is_told_of_a_bench_that_starts_is_known(starting: BenchSession) -> None:
     """No mark is confirmed, nothing is heard, and its twin stands at rest."""
     starting.wake(0.0)
-    state = build_state(starting)
+    state = build_state(HostedSession(starting))
     assert state.bench is not None
     assert (state.status, state.bench.status, state.fault) == ("paused", "off", None)
     loop = state.bench.loop
@@ -61,7 +62,7 @@ def test_what_is_told_of_a_bench_that_starts_is_known(starting: BenchSession) ->
     assert state.bench.current_a is None
     assert min(state.bench.ages_s) == 1000.0
     starting.open()
-    state = build_state(starting)
+    state = build_state(HostedSession(starting))
     assert state.bench is not None
     assert (state.bench.loop.state, state.bench.loop.step) == ("ticking", None)
 
@@ -99,7 +100,7 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
     assert "The bench cannot be opened: No adapter is plugged in." in said
     assert "POST /api/v1/sessions/lab/bench/restart" in said
     session.wake(0.0)
-    state = build_state(session)
+    state = build_state(HostedSession(session))
     assert state.fault is not None and state.bench is not None
     assert "No adapter is plugged in. Start the loop anew." in state.fault.message
     assert state.bench.loop.state == "gone"
@@ -107,7 +108,7 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
         session.restart()
     Processes.script.refusal = None
     session.restart()
-    state = build_state(session)
+    state = build_state(HostedSession(session))
     assert state.bench is not None
     assert (state.fault, state.bench.status, state.bench.loop.state) == (None, "off", "ticking")
     session.close()

@@ -13,6 +13,8 @@ from fastapi.routing import APIRoute
 from websockets.sync.client import connect
 
 from svsa.errors import ParameterError
+from svsa.paper import get_figure
+from svsa.session.session import Session
 from svsa_server.app import build_app
 from svsa_server.control import (
     CHANGING,
@@ -20,9 +22,9 @@ from svsa_server.control import (
     ControlHand,
     HeldError,
     Holder,
-    get_hand,
     read_client,
 )
+from svsa_server.hosted import HostedSession
 from svsa_server.routes.depends import find_session
 from tests.lab import Lab
 
@@ -134,7 +136,7 @@ def test_the_server_frees_it_when_its_holder_is_gone() -> None:
             version = laboratory.sessions["lab"].version
             await client.put(CONTROL, json={"by": "Ada"}, headers=ADA)
             laboratory.free_hands(time.monotonic() + 14.0)
-            assert get_hand(laboratory.sessions["lab"]).is_held_by("0123-ada")
+            assert laboratory.sessions["lab"].hand.is_held_by("0123-ada")
             laboratory.free_hands(time.monotonic() + 16.0)
             assert (await client.get(SESSION)).json()["control"]["holder"] is None
             assert laboratory.sessions["lab"].version == version + 2, "everybody is told"
@@ -184,27 +186,32 @@ def wait_for_holder(stream: object, name: str | None) -> dict:
 
 
 def test_a_hand_is_free_15_s_after_the_last_call_and_stream() -> None:
-    hand = ControlHand()
-    hand.take(Holder("1", "Ada"), take_over=False, session="lab", now=100.0)
-    with hand.watched_by("1"), hand.watched_by("2"), hand.watched_by(None):
-        assert not hand.free_if_left(200.0, 15.0)
-    assert not hand.free_if_left(214.0, 15.0)
+    hosted = HostedSession(Session("lab", get_figure("4b").build_configuration()))
+    hand = hosted.hand
+    hand.take(Holder("1", "Ada"), take_over=False, now=100.0)
+    with hosted.streamed_to("1"), hosted.streamed_to("2"), hosted.streamed_to(None):
+        assert (hosted.streams, hosted.session.watched) == (3, True)
+        version = hosted.version
+        hosted.free_hand_if_left(200.0, 15.0)
+    assert (hosted.streams, hosted.session.watched) == (0, False)
+    assert hosted.version > version, "everybody is told how many watch"
+    hosted.free_hand_if_left(214.0, 15.0)
     hand.hear("2", 214.0)
     hand.hear("1", 210.0)
-    assert not hand.free_if_left(224.0, 15.0)
-    assert hand.free_if_left(226.0, 15.0)
+    hosted.free_hand_if_left(224.0, 15.0)
+    assert hand.is_held_by("1")
+    hosted.free_hand_if_left(226.0, 15.0)
     assert hand.admits(None)
-    assert not hand.free_if_left(999.0, 15.0)
 
 
 def test_only_the_holder_commands_and_holds_the_switch() -> None:
-    hand = ControlHand()
+    hand = ControlHand("lab")
     assert hand.admits(None)
     assert hand.admits("2")
-    hand.take(Holder("1", "Ada"), take_over=False, session="lab", now=0.0)
+    hand.take(Holder("1", "Ada"), take_over=False, now=0.0)
     assert [hand.admits(client) for client in ("1", "2", None)] == [True, False, False]
     with pytest.raises(HeldError, match="Ada is in control of session lab"):
-        hand.check(None, "lab")
+        hand.check(None)
 
 
 def test_a_client_is_percent_encoded_utf_8() -> None:

@@ -7,6 +7,7 @@ from svsa.paper import get_figure
 from svsa.run.configuration import Lane
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX
+from svsa_server.hosted import HostedSession
 from svsa_server.state import build_state
 from svsa_server.stream import SampleCursor
 from svsa_server.stream_schemas import HEADER, StreamRequest
@@ -25,7 +26,7 @@ def open_session() -> Session:
 
 
 def read_ids(session: Session) -> list[int]:
-    return [lane.id for lane in build_state(session).lanes]
+    return [lane.id for lane in build_state(HostedSession(session)).lanes]
 
 
 def read_batch(session: Session, cursor: SampleCursor) -> dict[int, np.ndarray]:

@@ -12,6 +12,7 @@ from svsa.records.reader import Record, build_record
 from svsa.run.command import build_command
 from svsa.run.configuration import Lane
 from svsa.session.session import Session
+from svsa_server.hosted import HostedSession
 from svsa_server.lanes import list_record_stretches, name_lanes
 from svsa_server.state import build_state
 from tests.records.records import build_header, build_samples
@@ -95,14 +96,14 @@ def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
     session.step(100)
     session.change("load", PaperLoad())
     session.step(1500)
-    before = {lane.name: lane.since_load for lane in build_state(session).lanes}
+    before = {lane.name: lane.since_load for lane in build_state(HostedSession(session)).lanes}
     session.change("laws", ("fl", "ndobc"))
     session.step(1500)
-    after = build_state(session)
+    after = build_state(HostedSession(session))
     assert [lane.name for lane in after.lanes] == ["FL", "NDOBC"]
     assert {lane.name: lane.since_load for lane in after.lanes} == before
     assert before["NDOBC"].recovery_time_s < 0.5
     assert before["FL"].recovery_time_s is None
     session.change("observer", ObserverBandwidth(**FASTER))
-    faster = build_state(session).lanes[1]
+    faster = build_state(HostedSession(session)).lanes[1]
     assert (faster.name, faster.since_load) == ("NDOBC β 120", None), "it was not there then"

@@ -44,7 +44,7 @@ def test_websocket_shows_the_scene_and_follows_the_pose(path: str) -> None:
 
 def test_a_private_session_has_a_view_of_its_own_that_ends_with_it() -> None:
     async def check(lab: Lab) -> None:
-        private = lab.laboratory.create(get_figure("4a").build_configuration()).name
+        private = lab.laboratory.create(get_figure("4a").build_configuration()).session.name
         lab.poses[private] = make_pose(-1.0)
         async with lab.connect() as shared, lab.connect(path=f"/viser/{private}/") as own:
             assert set(lab.scenes.views) == {"lab", private}
@@ -69,7 +69,7 @@ def test_a_private_view_that_nobody_looks_at_ends(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("svsa_server.scenes.IDLE_S", 0.2)
 
     async def check(lab: Lab) -> None:
-        private = lab.laboratory.create(get_figure("4a").build_configuration()).name
+        private = lab.laboratory.create(get_figure("4a").build_configuration()).session.name
         async with lab.connect(path=f"/viser/{private}/") as own:
             await own.send(msgspec.msgpack.encode(CAMERA))
             await wait_for(lambda: lab.scenes.views[private].bridge.viewers == 1)

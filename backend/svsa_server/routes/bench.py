@@ -19,37 +19,37 @@ router = APIRouter(
 
 
 @router.post("/arm")
-def arm(session: NamedSession) -> SessionState:
+def arm(hosted: NamedSession) -> SessionState:
     """Reset the drives and bring them to current mode, in about a second: OFF → READY."""
-    _find_bench(session).arm()
-    return build_state(session)
+    _find_bench(hosted.session).arm()
+    return build_state(hosted)
 
 
 @router.post("/home")
 def confirm_home(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[HomingRequest, Body(examples=[{"step": "link", "by": "Ada"}])],
 ) -> SessionState:
     """Confirm that an axis stands at its zero mark; the state tells the next step."""
-    _find_bench(session).confirm_home(request.step, request.by)
-    return build_state(session)
+    _find_bench(hosted.session).confirm_home(request.step, request.by)
+    return build_state(hosted)
 
 
 @router.post("/clear")
-def clear_fault(session: NamedSession) -> SessionState:
+def clear_fault(hosted: NamedSession) -> SessionState:
     """Clear a latched fault: FAULT → OFF; it must be armed again."""
-    _find_bench(session).clear()
-    return build_state(session)
+    _find_bench(hosted.session).clear()
+    return build_state(hosted)
 
 
 @router.post("/restart")
-def restart_loop(session: NamedSession) -> SessionState:
+def restart_loop(hosted: NamedSession) -> SessionState:
     """End loop and supervisor, by force where they do not listen, and start both anew, in seconds.
 
     The way back from a loop that is silent or gone; refused while the bench moves.
     """
-    _find_bench(session).restart()
-    return build_state(session)
+    _find_bench(hosted.session).restart()
+    return build_state(hosted)
 
 
 def _find_bench(session: Session) -> BenchSession:

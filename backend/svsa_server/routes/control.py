@@ -1,12 +1,11 @@
 """Take control of a session, and give it back."""
 
-import time
 from typing import Annotated
 
 from fastapi import APIRouter, Body
 
 from svsa.errors import ParameterError, Violation
-from svsa_server.control import CLIENT_HEADER, Holder, get_hand
+from svsa_server.control import CLIENT_HEADER, Holder
 from svsa_server.control_schemas import ControlRequest
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
 from svsa_server.session_schemas import SessionState
@@ -17,7 +16,7 @@ router = APIRouter(prefix="/sessions/{session}/control", tags=["control"], respo
 
 @router.put("")
 async def take_control(
-    session: NamedSession,
+    hosted: NamedSession,
     client: NamedClient,
     request: Annotated[ControlRequest, Body(examples=[{"by": "Ada"}])],
 ) -> SessionState:
@@ -28,15 +27,12 @@ async def take_control(
     """
     if client is None:
         raise ParameterError(Violation(CLIENT_HEADER, None, "", "given, to know you again"))
-    holder = Holder(client, request.by)
-    get_hand(session).take(holder, request.take_over, session.name, time.monotonic())
-    session.version += 1
-    return build_state(session)
+    hosted.take_control(Holder(client, request.by), request.take_over)
+    return build_state(hosted)
 
 
 @router.delete("")
-async def give_control_back(session: NamedSession, client: NamedClient) -> SessionState:
+async def give_control_back(hosted: NamedSession, client: NamedClient) -> SessionState:
     """Everybody may command again."""
-    get_hand(session).give_back(client, session.name)
-    session.version += 1
-    return build_state(session)
+    hosted.give_control_back(client)
+    return build_state(hosted)

@@ -9,18 +9,17 @@ from starlette.types import Scope
 
 from svsa.errors import ParameterError
 from svsa.records.catalogue.runs import Catalogue
-from svsa.session.session import Session
 from svsa_server.control import (
     CHANGING,
     CLIENT_HEADER,
     OPEN_TO_ALL,
     STOPS,
     asking,
-    get_hand,
     read_client,
 )
 from svsa_server.errors import ErrorModel
 from svsa_server.heavy_work import HeavyWork
+from svsa_server.hosted import HostedSession
 
 
 def find_asked(scope: Scope) -> tuple[str | None, str]:
@@ -60,22 +59,21 @@ async def find_session(
     connection: HTTPConnection,
     session: Annotated[str, Path(description="Name of the session", examples=["lab"])],
     client: NamedClient,
-) -> Session:
+) -> HostedSession:
     """The session that the path names; `UnknownError` where there is none.
 
     Every route gets its session here. Raises `HeldError` for a call that changes something
     while somebody else is in control.
     """
-    found: Session = connection.app.state.laboratory.get(session)
-    hand = get_hand(found)
-    hand.hear(client, time.monotonic())
+    found: HostedSession = connection.app.state.laboratory.get(session)
+    found.hand.hear(client, time.monotonic())
     asked = find_asked(connection.scope)
     if asked[0] in CHANGING and asked not in OPEN_TO_ALL:
-        hand.check(client, found.name)
+        found.hand.check(client)
     return found
 
 
-NamedSession = Annotated[Session, Depends(find_session)]
+NamedSession = Annotated[HostedSession, Depends(find_session)]
 
 
 def find_catalogue(connection: HTTPConnection) -> Catalogue:

@@ -29,7 +29,7 @@ router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=RE
 
 @router.post("/predict")
 async def predict_design(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[
         PredictRequest,
         Body(
@@ -46,7 +46,7 @@ async def predict_design(
     torque under the load, and a verdict with its reasons. Gains that PUT …/gains would refuse
     get the verdict refuse.
     """
-    configuration, sigma = session.run.configuration, _read_stiffness(session)
+    configuration, sigma = hosted.session.run.configuration, _read_stiffness(hosted.session)
     if request.observer is not None:
         configuration = configuration.changed(observer=request.observer)
     if request.gains is not None:

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Request
 
 from svsa.run.configuration import parse_design
-from svsa_server.excitation import TAG, begin_excitation, check_excitable, end_excitation
+from svsa_server.excitation import TAG
 from svsa_server.recording_schemas import ExcitationRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.session_schemas import SessionState
@@ -21,7 +21,7 @@ router = APIRouter(
 @router.post("/excitation", status_code=201)
 async def excite(
     request: Request,
-    session: NamedSession,
+    hosted: NamedSession,
     wanted: Annotated[ExcitationRequest, Body(examples=[{"name": "Identification"}])],
 ) -> SessionState:
     """Play the identification excitation from now on and record it, 32 s; starts what is paused.
@@ -29,28 +29,28 @@ async def excite(
     Slow and fast, soft and stiff: what `svsa identify` needs. Only without loads. It ends by
     itself, and with it the recording; a reference of your own breaks it off.
     """
-    check_excitable(session)
-    if session.status != "running":
-        await take_turn(session.start)
-    await request.app.state.recordings.start(session, wanted.name, (TAG,), "")
-    begin_excitation(session)
-    return build_state(session)
+    hosted.check_excitable()
+    if hosted.session.status != "running":
+        await take_turn(hosted.session.start)
+    await request.app.state.recordings.start(hosted.session, wanted.name, (TAG,), "")
+    hosted.begin_excitation()
+    return build_state(hosted)
 
 
 @router.delete("/excitation")
-async def stop_excitation(session: NamedSession) -> SessionState:
+async def stop_excitation(hosted: NamedSession) -> SessionState:
     """Break the excitation off, and end its recording; the references stay as they are."""
-    end_excitation(session)
-    return build_state(session)
+    hosted.end_excitation()
+    return build_state(hosted)
 
 
 @router.put("/nominal")
 def load_nominal(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[
         ParameterFileRequest, Body(examples=[{"toml": "[nominal]\nradius_m = 0.075"}])
     ],
 ) -> SessionState:
     """Let controller and observer believe in the nominal model of a parameter file (TOML)."""
-    session.change("nominal", parse_design(request.toml).nominal)
-    return build_state(session)
+    hosted.session.change("nominal", parse_design(request.toml).nominal)
+    return build_state(hosted)

@@ -30,7 +30,7 @@ async def read_health() -> Health:
 def quick_stop(request: Request) -> None:
     """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
     laboratory = request.app.state.laboratory
-    laboratory.get(SHARED_SESSION).quick_stop()
+    laboratory.get(SHARED_SESSION).session.quick_stop()
 
 
 @router.get("/laws")

@@ -18,7 +18,7 @@ router = APIRouter(
 
 @router.post("", status_code=201)
 def apply_load(
-    session: NamedSession,
+    hosted: NamedSession,
     load: Annotated[
         Load,
         Body(
@@ -41,21 +41,21 @@ def apply_load(
 
     A push ends by itself: sent again while it is on, it is changed and lasts on, as one load.
     """
-    session.change("load", load)
-    return build_state(session)
+    hosted.session.change("load", load)
+    return build_state(hosted)
 
 
 @router.delete("")
-def clear_loads(session: NamedSession) -> SessionState:
+def clear_loads(hosted: NamedSession) -> SessionState:
     """Take every load off."""
-    session.clear_loads()
-    return build_state(session)
+    hosted.session.clear_loads()
+    return build_state(hosted)
 
 
 @router.delete("/{load_id}")
-def remove_load(session: NamedSession, load_id: int) -> SessionState:
+def remove_load(hosted: NamedSession, load_id: int) -> SessionState:
     """Take one load off."""
-    if load_id not in (load.number for load in session.run.loads):
+    if load_id not in (load.number for load in hosted.session.run.loads):
         raise UnknownError(f"There is no load {load_id} in this session.")
-    session.change("unload", load_id)
-    return build_state(session)
+    hosted.session.change("unload", load_id)
+    return build_state(hosted)

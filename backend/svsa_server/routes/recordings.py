@@ -17,19 +17,19 @@ router = APIRouter(tags=["recording"], responses=REFUSALS)
 @router.post("/sessions/{session}/recording", status_code=201)
 async def start_recording(
     request: Request,
-    session: NamedSession,
+    hosted: NamedSession,
     wanted: Annotated[RecordingRequest, Body(examples=[{"name": "3 kg at 15 N·m/rad"}])],
 ) -> SessionState:
     """Record every sample and command from now on, at full rate."""
-    await request.app.state.recordings.start(session, wanted.name, wanted.tags, wanted.notes)
-    return build_state(session)
+    await request.app.state.recordings.start(hosted.session, wanted.name, wanted.tags, wanted.notes)
+    return build_state(hosted)
 
 
 @router.delete("/sessions/{session}/recording")
-async def stop_recording(session: NamedSession) -> SessionState:
+async def stop_recording(hosted: NamedSession) -> SessionState:
     """End the recording; the run is in the list as soon as its file is finished."""
-    session.stop_recording()
-    return build_state(session)
+    hosted.session.stop_recording()
+    return build_state(hosted)
 
 
 @router.post("/runs/{run_id}/branch", status_code=201)
@@ -43,5 +43,5 @@ async def branch_run(
     check_simulated(record)
     configuration, commands = read_origin(record)
     laboratory = request.app.state.laboratory
-    session = await laboratory.branch(configuration, commands, wanted.tick, run_id)
-    return build_state(session)
+    hosted = await laboratory.branch(configuration, commands, wanted.tick, run_id)
+    return build_state(hosted)

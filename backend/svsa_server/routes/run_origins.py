@@ -16,14 +16,14 @@ router = APIRouter()
 
 
 @router.get("/sessions/{session}/origin")
-async def read_origin(request: Request, session: NamedSession) -> RunOrigin:
+async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
     """The run that a session is on: how it stood at t = 0 and what was changed since."""
     return _tell(
-        session.initial.model_dump(mode="json"),
-        ((command.tick, command.to_json()) for command in session.commands),
-        session.run.tick,
-        session.run.period_s,
-        session.plant,
+        hosted.session.initial.model_dump(mode="json"),
+        ((command.tick, command.to_json()) for command in hosted.session.commands),
+        hosted.session.run.tick,
+        hosted.session.run.period_s,
+        hosted.session.plant,
         request.app.state.design,
     )
 

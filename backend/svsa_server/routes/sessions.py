@@ -26,7 +26,7 @@ router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS, rou
 @router.get("")
 async def list_sessions(request: Request, _: NamedClient) -> list[SessionState]:
     """Every session of this server."""
-    return [build_state(session) for session in request.app.state.laboratory.sessions.values()]
+    return [build_state(hosted) for hosted in request.app.state.laboratory.sessions.values()]
 
 
 @router.post("", status_code=201)
@@ -41,71 +41,71 @@ async def create_session(
 
 
 @router.delete("/{session}", status_code=204)
-async def end_session(request: Request, session: NamedSession) -> None:
+async def end_session(request: Request, hosted: NamedSession) -> None:
     """End a private session."""
-    request.app.state.laboratory.end(session.name)
+    request.app.state.laboratory.end(hosted.session.name)
 
 
 @router.get("/{session}")
-async def read_session(session: NamedSession) -> SessionState:
+async def read_session(hosted: NamedSession) -> SessionState:
     """Where a session is, how it is set, and how well it does."""
-    return build_state(session)
+    return build_state(hosted)
 
 
 @router.post("/{session}/start")
-def start(session: NamedSession) -> SessionState:
+def start(hosted: NamedSession) -> SessionState:
     """Run on from where it is."""
-    session.start()
-    return build_state(session)
+    hosted.session.start()
+    return build_state(hosted)
 
 
 @router.post("/{session}/pause")
-def pause(session: NamedSession) -> SessionState:
+def pause(hosted: NamedSession) -> SessionState:
     """Stop time; nothing is lost."""
-    session.pause()
-    return build_state(session)
+    hosted.session.pause()
+    return build_state(hosted)
 
 
 @router.post("/{session}/emergency-stop", deprecated=True)
 @router.post("/{session}/quick-stop")
-def quick_stop(session: NamedSession) -> SessionState:
+def quick_stop(hosted: NamedSession) -> SessionState:
     """Zero current at once on a bench, latched until cleared; a simulation pauses.
 
     Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
     """
-    session.quick_stop()
-    return build_state(session)
+    hosted.session.quick_stop()
+    return build_state(hosted)
 
 
 @router.post("/{session}/reset")
-def reset(session: NamedSession) -> SessionState:
+def reset(hosted: NamedSession) -> SessionState:
     """Begin again at t = 0 with everything as it is set now, after a fault too."""
-    session.reset()
-    return build_state(session)
+    hosted.session.reset()
+    return build_state(hosted)
 
 
 @router.post("/{session}/step")
 def step(
-    session: NamedSession, request: Annotated[StepRequest, Body(examples=[{"ticks": 1}])]
+    hosted: NamedSession, request: Annotated[StepRequest, Body(examples=[{"ticks": 1}])]
 ) -> SessionState:
     """Run some ticks while paused."""
-    session.step(request.ticks)
-    return build_state(session)
+    hosted.session.step(request.ticks)
+    return build_state(hosted)
 
 
 @router.put("/{session}/speed")
 def set_speed(
-    session: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
+    hosted: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
 ) -> SessionState:
     """Slow motion or fast forward."""
-    session.set_speed(float("inf") if request.factor == "max" else request.factor)
-    return build_state(session)
+    hosted.session.set_speed(float("inf") if request.factor == "max" else request.factor)
+    return build_state(hosted)
 
 
 @router.post("/{session}/experiment")
 def load_experiment(
     request: Request,
-    session: NamedSession,
+    hosted: NamedSession,
     wanted: Annotated[
         ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])
     ],
@@ -114,9 +114,9 @@ def load_experiment(
 
     What is set comes from the figure; lanes and effects from the request. A bench has its own.
     """
-    session.load(wanted.build_configuration(request.app.state.design))
-    session.start()
-    return build_state(session)
+    hosted.session.load(wanted.build_configuration(request.app.state.design))
+    hosted.session.start()
+    return build_state(hosted)
 
 
 @router.get(
@@ -137,11 +137,6 @@ async def describe(_: NamedSession) -> JSONResponse:
 
 
 @router.websocket("/{session}/stream")
-async def stream(websocket: WebSocket, session: NamedSession) -> None:
+async def stream(websocket: WebSocket, hosted: NamedSession) -> None:
     """Samples as they come; see `stream_schemas` for the format."""
-    laboratory = websocket.app.state.laboratory
-    laboratory.watch(session.name, 1)
-    try:
-        await stream_session(websocket, session)
-    finally:
-        laboratory.watch(session.name, -1)
+    await stream_session(websocket, hosted)

@@ -33,7 +33,7 @@ else:
 
 @router.put("/position")
 def set_position(
-    session: NamedSession,
+    hosted: NamedSession,
     reference: Annotated[
         PositionReference,
         Body(
@@ -45,13 +45,13 @@ def set_position(
     ],
 ) -> SessionState:
     """Follow another position reference, faded over without a jump in any derivative."""
-    session.change("position", reference)
-    return build_state(session)
+    hosted.session.change("position", reference)
+    return build_state(hosted)
 
 
 @router.put("/stiffness")
 def set_stiffness(
-    session: NamedSession,
+    hosted: NamedSession,
     reference: Annotated[
         StiffnessReference,
         Body(
@@ -68,28 +68,28 @@ def set_stiffness(
     ],
 ) -> SessionState:
     """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
-    session.change("stiffness", reference)
-    return build_state(session)
+    hosted.session.change("stiffness", reference)
+    return build_state(hosted)
 
 
 @router.put("/law")
 def set_law(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[
         LawRequest, Body(examples=[{"law": "fl"}, {"law": "fl", "rival_laws": ["ndobc"]}])
     ],
 ) -> SessionState:
     """Control with another law, and the lanes beside too, each from where its plant is."""
     if request.rival_laws:
-        session.change("laws", (request.law, *request.rival_laws))
+        hosted.session.change("laws", (request.law, *request.rival_laws))
     else:
-        session.change("law", request.law)
-    return build_state(session)
+        hosted.session.change("law", request.law)
+    return build_state(hosted)
 
 
 @router.put("/gains")
 def set_gains(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[
         GainsRequest,
         Body(
@@ -101,13 +101,13 @@ def set_gains(
     ],
 ) -> SessionState:
     """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
-    session.patch("gains", lambda configuration: request.apply_to(configuration.gains))
-    return build_state(session)
+    hosted.session.patch("gains", lambda configuration: request.apply_to(configuration.gains))
+    return build_state(hosted)
 
 
 @router.put("/parameters")
 def set_parameters(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[
         dict[str, dict[str, Any]],
         Body(examples=[{"fl_integral": {"position_pole_rad_per_s": 54.6}}]),
@@ -117,63 +117,65 @@ def set_parameters(
 
     What is left out stays.
     """
-    session.patch("parameters", lambda configuration: _merge(configuration.parameters, request))
-    return build_state(session)
+    hosted.session.patch(
+        "parameters", lambda configuration: _merge(configuration.parameters, request)
+    )
+    return build_state(hosted)
 
 
 @router.put("/observer")
 def set_observer(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[
         ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [60.0, 60.0, 60.0]}])
     ],
 ) -> SessionState:
     """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
-    session.change("observer", request)
-    return build_state(session)
+    hosted.session.change("observer", request)
+    return build_state(hosted)
 
 
 @router.patch("/actuator")
 def change_actuator(
-    session: NamedSession,
+    hosted: NamedSession,
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
     """Change parameters of the true plant."""
-    session.patch("actuator", lambda configuration: _apply(patch, configuration.actuator))
-    return build_state(session)
+    hosted.session.patch("actuator", lambda configuration: _apply(patch, configuration.actuator))
+    return build_state(hosted)
 
 
 @router.patch("/nominal")
 def change_nominal(
-    session: NamedSession,
+    hosted: NamedSession,
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
 ) -> SessionState:
     """Change parameters of the model that controller and observer believe in."""
-    session.patch("nominal", lambda configuration: _apply(patch, configuration.nominal))
-    return build_state(session)
+    hosted.session.patch("nominal", lambda configuration: _apply(patch, configuration.nominal))
+    return build_state(hosted)
 
 
 @router.put("/effects")
 def set_effects(
-    session: NamedSession,
+    hosted: NamedSession,
     effects: Annotated[
         Effects,
         Body(examples=[{"encoders": {}, "estimation": {}, "delay_samples": 1}, {}]),
     ],
 ) -> SessionState:
     """Switch on what separates the simulation from a bench; what is left out is off."""
-    session.change("effects", effects)
-    return build_state(session)
+    hosted.session.change("effects", effects)
+    return build_state(hosted)
 
 
 @router.put("/lanes")
 def set_lanes(
-    session: NamedSession,
+    hosted: NamedSession,
     request: Annotated[LanesRequest, Body(examples=[{"rivals": [{"law": "fl"}]}, {"rivals": []}])],
 ) -> SessionState:
     """Run other controllers beside the session's own: same references, loads and noise."""
-    session.change("rivals", request.rivals)
-    return build_state(session)
+    hosted.session.change("rivals", request.rivals)
+    return build_state(hosted)
 
 
 def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:

@@ -1,0 +1,110 @@
+"""A session as this server hosts it: who is in control, whose streams are open, its last use."""
+
+import asyncio
+import contextlib
+import math
+import time
+from collections import Counter
+from collections.abc import Iterator
+
+from svsa.errors import StateError
+from svsa.session.session import Session
+from svsa_server.control import ControlHand, Holder
+from svsa_server.excitation import Excitation, check_excitable
+
+
+class HostedSession:
+    """A session, and what is the server's own of it. Times are monotonic, s.
+
+    session: what people start, pause and change. `hand`: who is in control of it. `excitation`:
+    what is being played on it, or None. `last_use`: when it was last asked for; infinite for one
+    that never ends by itself.
+    """
+
+    def __init__(self, session: Session, last_use: float = math.inf) -> None:
+        self.session = session
+        self.hand = ControlHand(session.name)
+        self.excitation: Excitation | None = None
+        self.last_use = last_use
+        self._streams: Counter[str | None] = Counter()
+        self._changes = 0
+        self._playing: asyncio.Task[None] | None = None
+
+    @property
+    def version(self) -> int:
+        """Grows with every change of the session, and of what the server has of it."""
+        return self.session.version + self._changes
+
+    @property
+    def streams(self) -> int:
+        """How many are open."""
+        return self._streams.total()
+
+    def touch(self) -> None:
+        """Somebody has asked for it."""
+        self.last_use = max(self.last_use, time.monotonic())
+
+    def is_idle(self, now: float, idle_s: float) -> bool:
+        """Whether nobody has used it for longer than idle_s."""
+        return not self.streams and now - self.last_use > idle_s
+
+    @contextlib.contextmanager
+    def streamed_to(self, client: str | None) -> Iterator[None]:
+        """While a stream of this client is open."""
+        self._count_stream(client, 1)
+        try:
+            yield
+        finally:
+            self._count_stream(client, -1)
+
+    def _count_stream(self, client: str | None, change: int) -> None:
+        self._streams[client] += change
+        if not self._streams[client]:
+            del self._streams[client]
+        self.session.watched = self.streams > 0
+        self._changes += 1
+        self.touch()
+
+    def take_control(self, holder: Holder, take_over: bool) -> None:
+        """As `ControlHand.take`, now."""
+        self.hand.take(holder, take_over, time.monotonic())
+        self._changes += 1
+
+    def give_control_back(self, client: str | None) -> None:
+        """As `ControlHand.give_back`."""
+        self.hand.give_back(client)
+        self._changes += 1
+
+    def free_hand_if_left(self, now: float, patience_s: float) -> None:
+        """End the control of a holder who, with no stream open, is silent for patience_s."""
+        holder = self.hand.holder
+        if holder is None:
+            return
+        if self._streams[holder.client]:
+            self.hand.hear(holder.client, now)
+        if self.hand.free_if_left(now, patience_s):
+            self._changes += 1
+
+    def check_excitable(self) -> None:
+        """Raise `StateError` where the excitation would not tell what it should."""
+        if self.excitation is not None:
+            raise StateError("The excitation is being played already.")
+        check_excitable(self.session)
+
+    def begin_excitation(self) -> None:
+        """Play it in the background from now on; the session runs and is being recorded."""
+        self.excitation = Excitation(self.session)
+        self._changes += 1
+        self._playing = asyncio.get_running_loop().create_task(self._play(self.excitation))
+
+    async def _play(self, excitation: Excitation) -> None:
+        await excitation.play()
+        if self.excitation is excitation:
+            self.end_excitation()
+
+    def end_excitation(self) -> None:
+        """Break it off; the recording ends, the references stay as they are."""
+        if self.excitation is not None:
+            self.excitation.broken_off, self.excitation = True, None
+            self.session.stop_recording()
+            self._changes += 1
