@@ -52,7 +52,7 @@ def test_a_law_is_no_part_of_the_loop() -> None:
 def test_files_beside_the_equations_compile_nothing_anew() -> None:
     beside = {
         "cli.py",
-        "session/session.py",
+        "session/journal.py",
         "run/run.py",
         "run/metrics.py",
         "run/command.py",

@@ -14,7 +14,7 @@ _BINS_A_WIRE_BIN = 25
 
 def build_bench_state(session: BenchSession) -> BenchState:
     """The bench of a session at this instant."""
-    fields, bench, calibration = session.memory.fields, session.bench, session.calibration
+    fields, bench, calibration = session.loop.memory.fields, session.bench, session.calibration
     return BenchState(
         name=bench.name,
         emulated=bool(fields["emulated"]),
@@ -26,7 +26,7 @@ def build_bench_state(session: BenchSession) -> BenchState:
         homing=_build_homing(session.homing_step),
         current_a=tuple(fields["current_a"].tolist()) if _is_ticking(session) else None,
         ages_s=tuple(np.minimum(fields["ages_s"] + _find_silence_s(session), 1e3).tolist()),
-        supervised=session.supervised,
+        supervised=session.loop.supervised,
         operator_required=bench.safety.needs_watcher,
         dead_man=bench.safety.dead_man,
         loop=_build_loop(session),
@@ -40,7 +40,7 @@ def _build_homing(next_step: Axis | None) -> HomingState:
 
 
 def _build_loop(session: BenchSession) -> LoopState:
-    fields, loss = session.memory.fields, session.loss
+    fields, loss = session.loop.memory.fields, session.loop.loss
     lateness = fields["lateness"].copy()
     p50, p99, p999 = (read_quantile(lateness, share) for share in (0.5, 0.99, 0.999))
     starts = np.arange(0, len(lateness), _BINS_A_WIRE_BIN)
@@ -49,9 +49,9 @@ def _build_loop(session: BenchSession) -> LoopState:
     return LoopState(
         alive=_is_ticking(session),
         state=_name_state(session),
-        step=session.processes.step if session.starting else None,
-        starting_s=session.processes.age_s if session.starting else None,
-        silent_s=session.processes.silence_s if loss else None,
+        step=session.loop.processes.step if session.loop.starting else None,
+        starting_s=session.loop.processes.age_s if session.loop.starting else None,
+        silent_s=session.loop.processes.silence_s if loss else None,
         stopped_by=loss.stopped_by if loss else None,
         unreachable=loss.problem if loss else None,
         rate_hz=1.0 / session.bench.timing.period_s,
@@ -64,22 +64,22 @@ def _build_loop(session: BenchSession) -> LoopState:
         cost_p99_s=read_quantile(fields["cost"].copy(), 0.99),
         lateness_edges_s=edges.tolist(),
         lateness_counts=np.add.reduceat(lateness, starts).tolist(),
-        notes=session.processes.notes,
+        notes=session.loop.processes.notes,
     )
 
 
 def _is_ticking(session: BenchSession) -> bool:
-    return session.loss is None and not session.starting
+    return session.loop.loss is None and not session.loop.starting
 
 
 def _find_silence_s(session: BenchSession) -> float:
     """How much older the loop's word is than it says, s; infinite where nobody knows."""
-    return 0.0 if _is_ticking(session) else session.processes.silence_s or math.inf
+    return 0.0 if _is_ticking(session) else session.loop.processes.silence_s or math.inf
 
 
 def _name_state(session: BenchSession) -> LoopStateName:
-    if session.starting:
+    if session.loop.starting:
         return "starting"
-    if session.loss is None:
+    if session.loop.loss is None:
         return "ticking"
-    return "silent" if session.processes.alive else "gone"
+    return "silent" if session.loop.processes.alive else "gone"

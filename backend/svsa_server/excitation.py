@@ -25,10 +25,10 @@ class Excitation:
     """
 
     def __init__(self, session: Session) -> None:
-        self._session, self._run_number = session, session.run_number
+        self._session, self._run_number = session, session.journal.run_number
         self._first_tick = session.run.tick
         self._waiting = deque(build_commands(session.run.period_s, self._first_tick))
-        self._seen = len(session.commands)
+        self._seen = len(session.journal.commands)
         self.broken_off = False
 
     @property
@@ -41,11 +41,11 @@ class Excitation:
         """Whether it has ended, or was broken off."""
         session = self._session
         return (
-            session.recorder is None
-            or session.run_number != self._run_number
+            session.journal.recorder is None
+            or session.journal.run_number != self._run_number
             or session.status == "fault"
             or self.elapsed_s >= EXCITATION_DURATION_S
-            or any(command.kind in _PLAYED for command in session.commands[self._seen :])
+            or any(command.kind in _PLAYED for command in session.journal.commands[self._seen :])
         )
 
     async def play(self) -> None:
@@ -62,17 +62,17 @@ class Excitation:
         while self._waiting and self._waiting[0].tick <= self._session.run.tick:
             command = self._waiting.popleft()
             self._session.change(command.kind, command.argument)
-            self._seen = len(self._session.commands)
+            self._seen = len(self._session.journal.commands)
 
 
 def check_excitable(session: Session) -> None:
     """Raise `StateError` where the excitation would not tell what it should."""
-    if session.recorder is not None:
+    if session.journal.recorder is not None:
         raise StateError("The session is being recorded: stop that first, this is its own run.")
     if any(load.end_tick > session.run.tick for load in session.run.loads):
         raise StateError("A load is on, or is to come: take every load off first.")
-    if session.clock.speed > FASTEST_SPEED:
-        raise StateError(f"Speed {session.clock.speed:g} is too fast: at most {FASTEST_SPEED:g}.")
+    if session.pace.speed > FASTEST_SPEED:
+        raise StateError(f"Speed {session.pace.speed:g} is too fast: at most {FASTEST_SPEED:g}.")
 
 
 def build_excitation(excitation: Excitation | None) -> ExcitationState | None:

@@ -16,8 +16,10 @@ from svsa.plant.disturbances import Load
 from svsa.rig.control import RigControl, RigError
 from svsa.run.command import Command
 from svsa.run.configuration import Configuration, Design
-from svsa.session.bench import BenchSession, Hands
+from svsa.session.bench import BenchSession
+from svsa.session.hands import Hands
 from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from svsa_server.errors import UnknownError
 from svsa_server.hosted import HostedSession
 from svsa_server.turn import let_pass
@@ -57,7 +59,7 @@ class Laboratory:
     def create(self, configuration: Configuration) -> HostedSession:
         """A new private session, running; raises `StateError` when there are too many."""
         self._check_room()
-        session = Session(build_name(), configuration)
+        session = SimulatedSession(build_name(), configuration)
         session.start()
         return self._add(session)
 
@@ -67,7 +69,7 @@ class Laboratory:
         """A private session, paused, that goes on from a recorded run at a tick."""
         self._check_room()
         session = await asyncio.to_thread(
-            Session.branch, build_name(), configuration, commands, tick, run_id
+            SimulatedSession.branch, build_name(), configuration, commands, tick, run_id
         )
         return self._add(session)
 
@@ -107,7 +109,7 @@ class Laboratory:
     def _wake(self, session: Session) -> None:
         """An error in one session pauses that session and stops no other."""
         try:
-            if math.isinf(session.clock.speed):
+            if math.isinf(session.pace.speed):
                 self._run_unpaced(session)
             else:
                 session.wake(time.monotonic())
@@ -118,7 +120,7 @@ class Laboratory:
     def _run_unpaced(self, session: Session) -> None:
         """As fast as it goes: bursts of ticks for this session's share of half the time."""
         others = (hosted.session for hosted in self.sessions.values())
-        unpaced = sum(math.isinf(other.clock.speed) for other in others)
+        unpaced = sum(math.isinf(other.pace.speed) for other in others)
         end = time.monotonic() + BURST_S / unpaced
         while session.status == "running":
             session.burst(time.monotonic())
@@ -149,7 +151,7 @@ def build_shared_session(bench: Path | None, design: Design | None = None) -> Se
     if bench is not None:
         hands = find_hands(bench)
         return BenchSession(SHARED_SESSION, bench, configuration, hands, let_pass)
-    session = Session(SHARED_SESSION, configuration)
+    session = SimulatedSession(SHARED_SESSION, configuration)
     session.start()
     return session
 

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from svsa.records.reader import Record
 from svsa.run.timeline import Stretch, Timeline, Window, name_stretches
-from svsa.session.session import KEPT_S, Session
+from svsa.session.journal import KEPT_S
+from svsa.session.session import Session
 from svsa_server.lane_schemas import StretchState, WindowState
 
 MOST_STRETCHES = 200
@@ -16,7 +17,7 @@ def list_session_stretches(session: Session) -> list[list[StretchState]]:
     """Of every lane the stretches of the last `KEPT_S`; the last one is the present."""
     period_s = session.run.period_s
     first_tick = session.run.tick - KEPT_S / period_s
-    return _build(session.timeline.list_stretches(first_tick, MOST_STRETCHES), period_s)
+    return _build(session.journal.timeline.list_stretches(first_tick, MOST_STRETCHES), period_s)
 
 
 def list_record_stretches(record: Record, timeline: Timeline | None) -> list[list[StretchState]]:

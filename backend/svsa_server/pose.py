@@ -13,7 +13,7 @@ from svsa_server.lanes import list_session_stretches
 
 def read_pose(session: Session) -> ActuatorPose | None:
     """The session's newest sample as the 3D view needs it; None before the first."""
-    newest = session.history.read_newest()
+    newest = session.journal.history.read_newest()
     if newest is None:
         return None
 
@@ -43,7 +43,7 @@ def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
     """Where the links of the other lanes are; none before a lane's first sample."""
     poses = []
     for number, stretches in enumerate(list_session_stretches(session)[1:], start=1):
-        newest = session.history.read_newest(number)
+        newest = session.journal.history.read_newest(number)
         position = math.nan if newest is None else float(newest[CHANNEL_INDEX["position_rad"]])
         if math.isfinite(position):
             present = stretches[-1]

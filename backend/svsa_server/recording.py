@@ -66,7 +66,7 @@ class Recordings:
         """Record a session from now on; raises `StateError`, `RecordError`, `ParameterError`."""
         header = build_header(session, name, tags, notes)
         recorder = await asyncio.to_thread(self._catalogue.record, header)
-        session.on_recorded = self.finish
+        session.journal.on_recorded = self.finish
         try:
             session.start_recording(recorder)
         except svsa.StateError:
@@ -105,10 +105,10 @@ def build_header(session: Session, name: str, tags: tuple[str, ...], notes: str)
         name=name,
         tags=tags if session.plant == "simulated" else tuple(dict.fromkeys((*tags, session.plant))),
         notes=notes,
-        branch_of=session.branch_of,
+        branch_of=session.journal.branch_of,
         lanes=tuple(f"lane{number + 1}" for number in range(len(session.run.lanes))),
-        configuration=session.initial.model_dump(mode="json"),
-        seed=session.initial.seed,
+        configuration=session.journal.initial.model_dump(mode="json"),
+        seed=session.journal.initial.seed,
         period_s=session.run.period_s,
         channels=CHANNELS,
     )

@@ -32,18 +32,18 @@ from svsa_server.setting_schemas import ConfigurationState
 def build_progress(hosted: HostedSession) -> SessionProgress:
     """What of the session moves by itself, at this instant."""
     session = hosted.session
-    run, clock = session.run, session.clock
+    run, pace = session.run, session.pace
     stretches = list_session_stretches(session)
-    timeline = session.timeline
+    timeline = session.journal.timeline
     load_window = timeline.load_window
     return SessionProgress(
         status=session.status,
-        run_number=session.run_number,
+        run_number=session.journal.run_number,
         tick=run.tick,
         time_s=run.time_s,
-        speed="max" if math.isinf(clock.speed) else clock.speed,
-        real_time_factor=clock.real_time_factor,
-        stretched_s=clock.stretched_s,
+        speed="max" if math.isinf(pace.speed) else pace.speed,
+        real_time_factor=pace.real_time_factor,
+        stretched_s=pace.stretched_s,
         fault=session.fault,
         window=build_window(timeline.window, run.period_s),
         load_window=load_window and build_window(load_window, run.period_s),
@@ -59,7 +59,7 @@ def build_progress(hosted: HostedSession) -> SessionProgress:
             )
             for number, lane in enumerate(run.configuration.lanes)
         ],
-        recording=_build_recording(session.recorder),
+        recording=_build_recording(session.journal.recorder),
         excitation=build_excitation(hosted.excitation),
         bench=build_bench_state(session) if isinstance(session, BenchSession) else None,
     )
@@ -69,16 +69,16 @@ def build_state(hosted: HostedSession) -> SessionState:
     """Everything about the session at this instant."""
     session = hosted.session
     run = session.run
-    newest = session.history.read_newest()
+    newest = session.journal.history.read_newest()
     return SessionState(
         **dict(build_progress(hosted)),
         session=session.name,
-        branch_of=_build_branch(session.branch_of),
+        branch_of=_build_branch(session.journal.branch_of),
         control=_build_control(hosted),
         rate_hz=1.0 / run.period_s,
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
-        events=list(session.events),
+        events=list(session.journal.events),
         sample=None if newest is None else _name_values(newest),
     )
 
@@ -105,7 +105,7 @@ def _build_recording(recorder: Recorder | None) -> RecordingState | None:
 
 
 def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
-    metrics = session.metrics
+    metrics = session.journal.metrics
     kinds = {
         "since_start": metrics.since_start,
         "in_window": metrics.in_window,
@@ -122,7 +122,7 @@ def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
 
 def _find_lane_at_load(session: Session, lane: int) -> int | None:
     """The lane that who controls this one now had when the load came; None where it had none."""
-    timeline = session.timeline
+    timeline = session.journal.timeline
     number = timeline.lanes[lane][-1].number
     return timeline.load_numbers.index(number) if number in timeline.load_numbers else None
 

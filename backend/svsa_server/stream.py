@@ -71,9 +71,9 @@ class SampleCursor:
         self._columns = [CHANNEL_INDEX[channel] for channel in channels]
         self._stride = max(1, round(1.0 / (session.run.period_s * request.rate_hz)))
         self._lanes = request.lanes
-        self._run = session.run_number
+        self._run, history = session.journal.run_number, session.journal.history
         past = round(request.history_s / session.run.period_s)
-        self._next = self._align(max(session.history.end_tick - past, session.history.first_tick))
+        self._next = self._align(max(history.end_tick - past, history.first_tick))
 
     @property
     def rate_hz(self) -> float:
@@ -82,12 +82,12 @@ class SampleCursor:
 
     def take_batch(self, slow: bool) -> bytes | None:
         """The samples since the last batch, or only the newest for a `slow` client."""
-        session, history = self._session, self._session.history
+        session, history = self._session, self._session.journal.history
         missed = 0
-        if session.run_number != self._run:
-            self._run, self._next = session.run_number, 0
-        clock = session.clock
-        speed = clock.speed if math.isfinite(clock.speed) else clock.real_time_factor
+        if session.journal.run_number != self._run:
+            self._run, self._next = session.journal.run_number, 0
+        pace = session.pace
+        speed = pace.speed if math.isfinite(pace.speed) else pace.real_time_factor
         stride = self._stride * max(1, round(speed))
         oldest = history.first_tick
         if slow:
@@ -101,7 +101,7 @@ class SampleCursor:
         if not len(rows):
             return None
         header = HEADER.pack(MAGIC, self._run, self._next, stride, len(rows), missed, len(lanes))
-        ids = pack_lane_ids(session.timeline.lane_ids[lane] for lane in lanes)
+        ids = pack_lane_ids(session.journal.timeline.lane_ids[lane] for lane in lanes)
         self._next += stride * len(rows)
         return header + ids + rows.astype("<f4").tobytes()
 

@@ -1,7 +1,21 @@
 """Wall time to ticks: how many are due, at what speed, and what happens when late."""
 
+from typing import NamedTuple
+
 LONGEST_BACKLOG_S = 0.25
 _SMOOTHING = 0.1
+
+
+class Pace(NamedTuple):
+    """How session time goes against that of the wall.
+
+    speed: session seconds a wall second, as asked for; infinite for as fast as it goes.
+    real_time_factor: as it goes. stretched_s: wall time that was given up, s.
+    """
+
+    speed: float = 1.0
+    real_time_factor: float = 0.0
+    stretched_s: float = 0.0
 
 
 class SimulationClock:
@@ -18,6 +32,16 @@ class SimulationClock:
         self.stretched_s = 0.0
         self.speed = 1.0
         self.real_time_factor = 0.0
+
+    @property
+    def pace(self) -> Pace:
+        """As it is now."""
+        return Pace(self.speed, self.real_time_factor, self.stretched_s)
+
+    def begin(self) -> None:
+        """Stop, and forget what was given up: a run begins."""
+        self.stop()
+        self.stretched_s = 0.0
 
     def stop(self) -> None:
         """Owe nothing, and count again from the next question on."""

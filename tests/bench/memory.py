@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 import svsa
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from tests.session.sessions import EVERY_EFFECT
 
 RIVALS = (svsa.Lane(law="fl"), svsa.Lane(law="ndobc"), svsa.Lane(law="fl"))
@@ -37,7 +37,7 @@ def main() -> None:
     """Print the resident memory after the first minute and after each of the others."""
     minutes = int(sys.argv[1]) if len(sys.argv) > 1 else 10
     configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
-    session = Session("memory", configuration.changed(rivals=RIVALS, effects=EVERY_EFFECT))
+    session = SimulatedSession("memory", configuration.changed(rivals=RIVALS, effects=EVERY_EFFECT))
     session.start()
     print(f"start                     {read_resident_mb():8.1f} MB")
     run_at_full_speed(session, MINUTE_S)
@@ -50,7 +50,8 @@ def main() -> None:
     wall = time.monotonic() - begin
     grown = read_resident_mb() - before
     print(f"growth in {minutes} minutes of session time, 4 lanes, every effect: {grown:.1f} MB")
-    print(f"{minutes * MINUTE_S / wall:.0f} times real time, {len(session.commands)} commands kept")
+    kept = len(session.journal.commands)
+    print(f"{minutes * MINUTE_S / wall:.0f} times real time, {kept} commands kept")
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from svsa.loop.loop import advance as advance_lane
 from svsa.run.command import build_command, replay
 from svsa.run.controllers import name_controllers
 from svsa.run.run import Run
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Torque
 from tests.session.sessions import PULSE, advance, build_configuration, read_samples
 
@@ -126,7 +126,7 @@ def test_a_call_of_the_loop_leaves_the_state_that_it_begins_with():
 
 def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
     configuration = build_configuration(PULSE, law="fl_integral", rivals=(INTEGRAL,))
-    session = Session("cut", configuration)
+    session = SimulatedSession("cut", configuration)
     for ticks, kind, argument in (
         (90, "parameters", {"fl_integral": FASTER}),
         (60, "law", "fl"),
@@ -134,12 +134,12 @@ def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
     ):
         session._advance(ticks)
         session.change(kind, argument)
-    branch = Session.branch("branch", configuration, session.commands, 200)
+    branch = SimulatedSession.branch("branch", configuration, session.journal.commands, 200)
     branch.change("law", "fl_integral")
     for one in (session, branch):
         for _ in range(100):
             one._advance(1)
-    parts = [part.copy() for _, part in replay(configuration, session.commands, 300)]
+    parts = [part.copy() for _, part in replay(configuration, session.journal.commands, 300)]
     whole = np.concatenate(parts, axis=1)
     for one in (session, branch):
         for lane in (0, 1):
@@ -175,8 +175,8 @@ def test_a_law_that_comes_remembers_nothing_and_one_that_stays_remembers():
 def test_twice_the_same_law_with_other_parameters_is_two_controllers():
     other = svsa.Lane(law="fl_integral", parameters=FASTER)
     configuration = build_configuration(law="fl_integral", rivals=(other,))
-    session = Session("two", configuration)
-    names = [lane[-1].controller for lane in session.timeline.lanes]
+    session = SimulatedSession("two", configuration)
+    names = [lane[-1].controller for lane in session.journal.timeline.lanes]
     assert list(name_controllers(names).values()) == ["FL + I a 54.6", "FL + I a 70"]
     samples = advance(session.run, 300)
     assert np.any(samples[0] != samples[1])

@@ -14,6 +14,7 @@ from svsa.experiment.channels import ChannelName, Channels
 from svsa.records.reader import open_record
 from svsa.records.recorder import Recorder
 from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_NAMES, CHANNELS
 from tests.records.records import build_header
 from tests.session.sessions import build_configuration, read_samples
@@ -35,7 +36,7 @@ CHANGES = (
 
 def play_session() -> Session:
     """A session that is given the same as `CHANGES`, at the same ticks, by hand."""
-    session = Session("test", build_configuration(rivals=(svsa.Lane(law="fl"),)))
+    session = SimulatedSession("test", build_configuration(rivals=(svsa.Lane(law="fl"),)))
     for change in sorted(CHANGES, key=lambda change: change.at_s):
         session.step(round(change.at_s / 0.001) - session.run.tick)
         for kind, argument in change.list_given().items():
@@ -80,10 +81,10 @@ def test_a_change_of_nothing_and_an_unknown_word_are_refused() -> None:
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run that was recorded from its tick 150 on."""
     folder = tmp_path_factory.mktemp("runs") / "run-1"
-    session = Session("lab", build_configuration(rivals=(svsa.Lane(law="fl"),)))
+    session = SimulatedSession("lab", build_configuration(rivals=(svsa.Lane(law="fl"),)))
     session.change("law", "fl")
     session.step(150)
-    configuration = session.initial.model_dump(mode="json")
+    configuration = session.journal.initial.model_dump(mode="json")
     recorder = Recorder(folder, build_header(configuration=configuration, seed=0, name="Mine"))
     session.start_recording(recorder)
     session.step(100)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from svsa.identification.excitation import EXCITATION, EXCITATION_DURATION_S, build_commands
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 
 from .excited_run import DESIGN, build_configuration, get, play
 
@@ -42,7 +42,7 @@ def test_it_ends_at_rest_where_it_began():
 
 def test_a_session_can_play_it():
     # a bench session takes the same kinds and references
-    session = Session("bench", build_configuration())
+    session = SimulatedSession("bench", build_configuration())
     for cue in EXCITATION[:4]:
         session.step(round(cue.time_s * 1000) - session.run.tick or 1)
         session.change(cue.kind, cue.reference)

@@ -12,7 +12,7 @@ from svsa.records.catalogue.runs import Catalogue
 from svsa.records.fault import FAULT_FILE
 from svsa.records.header import RecordError
 from svsa.records.reader import open_record
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 
 from .records import build_header, list_ids
 
@@ -22,7 +22,7 @@ CRASH = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.1)
 def record_crash(catalogue: Catalogue, run_id: str = "run-1") -> Fault:
     """A run that a torque far too great for the springs has ended."""
     configuration = get_figure("4a").build_configuration(load=False).changed(loads=(CRASH,))
-    session = Session("test", configuration)
+    session = SimulatedSession("test", configuration)
     written = configuration.model_dump(mode="json")
     header = build_header(run_id, lanes=("lane1",), configuration=written, name="")
     recorder = catalogue.record(header)

@@ -39,8 +39,8 @@ def test_a_script_of_commands_gives_the_same_samples_again(script, wakes, seed):
     session = build_session(PULSE, seed=seed)
     play(session, script, wakes)
     configuration, commands = read(write(session))
-    assert configuration == session.initial
-    assert commands == session.commands
+    assert configuration == session.journal.initial
+    assert commands == session.journal.commands
     turns = [command.tick for command in commands if command.kind == "rivals"]
     ticks, first = session.run.tick, max(turns, default=0)
     if first < ticks:
@@ -55,7 +55,7 @@ def test_a_script_of_commands_gives_the_same_samples_again(script, wakes, seed):
 def test_the_same_bits_come_out_of_a_fresh_process():
     """Nothing of this process, neither its memory nor its compiled code, is needed."""
     session = play_busy_session()
-    first, ticks = session.commands[-1].tick, session.run.tick
+    first, ticks = session.journal.commands[-1].tick, session.run.tick
     program = (
         "import hashlib, json, sys\n"
         "import numpy as np\n"
@@ -84,16 +84,18 @@ def test_the_same_bits_come_out_of_a_fresh_process():
 def test_another_seed_is_another_run():
     """The seed is part of what a record must keep."""
     session = play_busy_session()
-    other = collect(session.initial.changed(seed=4), session.commands[:-1], 0, 100)[0]
+    other = collect(session.journal.initial.changed(seed=4), session.journal.commands[:-1], 0, 100)[
+        0
+    ]
     assert np.any(other != read_samples(session)[:100])
 
 
 def test_a_part_of_a_record_is_simulated_from_the_start_and_cut_out():
     session = play_busy_session()
     whole = read_samples(session)
-    first = session.commands[-1].tick
+    first = session.journal.commands[-1].tick
     for start, ticks in ((0, 1), (0, first), (29, 3), (57, first - 57)):
-        found = collect(session.initial, session.commands, start, ticks)
+        found = collect(session.journal.initial, session.journal.commands, start, ticks)
         np.testing.assert_array_equal(found[0], whole[start : start + ticks])
 
 

@@ -9,7 +9,7 @@ from svsa.records.difference import compare_settings, tell_poles
 from svsa.records.reader import Record, build_record
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Lane
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 
 from .records import build_samples
 from .test_run_settings import build_header
@@ -20,11 +20,11 @@ def record(
 ) -> Record:
     """A record of so many ticks from the first on, with the commands of a true session."""
     configuration = get_figure(figure).build_configuration(load=False).changed(**changes)
-    session = Session("lab", configuration)
+    session = SimulatedSession("lab", configuration)
     for tick, kind, argument in commands:
         session.step(tick - session.run.tick)
         session.change(kind, argument)
-    written = [(command.tick, command.to_json()) for command in session.commands]
+    written = [(command.tick, command.to_json()) for command in session.journal.commands]
     header = build_header(configuration)
     return build_record(header, written, 0, build_samples(ticks, len(header.lanes)))
 

@@ -155,10 +155,13 @@ def test_every_lane_has_its_metrics_since_the_start_and_since_the_load():
     session.step(130)
     for lane in range(3):
         samples = read_samples(session, lane)
-        for running, first in ((session.metrics.since_start, 0), (session.metrics.since_load, 30)):
+        for running, first in (
+            (session.journal.metrics.since_start, 0),
+            (session.journal.metrics.since_load, 30),
+        ):
             expected = vars(compute_metrics(samples[first:], 0.001))
             assert vars(running[lane].summarize()) == pytest.approx(expected)
-    peaks = [m.summarize().peak_position_error_rad for m in session.metrics.since_load]
+    peaks = [m.summarize().peak_position_error_rad for m in session.journal.metrics.since_load]
     assert len(set(peaks)) == 3
 
 
@@ -171,7 +174,7 @@ def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
     first, second = read_samples(session, 0), read_samples(session, 1)
     assert np.all(np.isnan(second[:60]))
     assert np.all(np.isfinite(second[60:]) == np.isfinite(first[60:]))
-    metrics = session.metrics
+    metrics = session.journal.metrics
     assert [m.summarize().duration_s for m in metrics.in_window] == pytest.approx([0.04, 0.04])
     for running, duration in ((metrics.since_start, 0.1), (metrics.since_load, 0.03)):
         assert running[0].summarize().duration_s == pytest.approx(duration)

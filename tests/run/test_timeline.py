@@ -25,11 +25,11 @@ def test_laws_that_change_places_leave_the_past_its_names():
     session.step(30)
     session.change("laws", ("fl", "ndobc"))
     session.step(10)
-    assert tell(session.timeline) == [
+    assert tell(session.journal.timeline) == [
         [("NDOBC", 0, 30), ("FL", 30, None)],
         [("FL", 0, 30), ("NDOBC", 30, None)],
     ]
-    inks = [[one.ink for one in lane] for lane in session.timeline.list_stretches()]
+    inks = [[one.ink for one in lane] for lane in session.journal.timeline.list_stretches()]
     assert inks == [[0, 1], [1, 0]]
 
 
@@ -39,7 +39,7 @@ def test_a_rival_begins_where_it_began_and_takes_nobodys_past():
     session.change("rivals", (FL,))
     session.step(20)
     session.change("rivals", (NDOBC, FL))
-    assert tell(session.timeline) == [
+    assert tell(session.journal.timeline) == [
         [("NDOBC", 0, None)],
         [("NDOBC (2)", 40, None)],
         [("FL", 20, None)],
@@ -52,16 +52,16 @@ def test_one_law_with_other_gains_is_told_apart_by_them():
     session.change("observer", FASTER)
     session.step(10)
     session.change("gains", STIFFER)
-    names = [name for name, _, _ in tell(session.timeline)[0]]
+    names = [name for name, _, _ in tell(session.journal.timeline)[0]]
     assert names == ["NDOBC β 60 ωq 60 ωσ 40", "NDOBC β 120 ωq 60 ωσ 40", "NDOBC β 120 ωq 80 ωσ 60"]
-    assert len({one.ink for one in session.timeline.list_stretches()[0]}) == 3
+    assert len({one.ink for one in session.journal.timeline.list_stretches()[0]}) == 3
 
 
 def test_what_a_law_does_not_use_makes_it_no_other():
     session = build_session(law="fl")
     session.step(10)
     session.change("observer", FASTER)
-    assert tell(session.timeline) == [[("FL", 0, None)]]
+    assert tell(session.journal.timeline) == [[("FL", 0, None)]]
 
 
 def test_a_change_and_back_within_a_tick_is_no_stretch():
@@ -69,7 +69,7 @@ def test_a_change_and_back_within_a_tick_is_no_stretch():
     session.step(10)
     session.change("law", "fl")
     session.change("law", "ndobc")
-    assert tell(session.timeline) == [[("NDOBC", 0, None)]]
+    assert tell(session.journal.timeline) == [[("NDOBC", 0, None)]]
 
 
 def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
@@ -78,7 +78,7 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
     for tick, observer in ((10, FASTER), (200, session.run.configuration.observer)):
         session.step(tick - session.run.tick)
         session.change("observer", observer)
-        timeline.take(session.commands[-1])
+        timeline.take(session.journal.commands[-1])
     assert [one.ink for one in timeline.list_stretches()[0]] == [1, 0]
 
 
@@ -87,7 +87,7 @@ def test_a_bench_and_its_twin_stay_in_the_names():
     session = build_session(rivals=(NDOBC, FL))
     session.step(5)
     session.change("law", "fl")
-    timeline.take(session.commands[-1])
+    timeline.take(session.journal.commands[-1])
     assert tell(timeline) == [
         [("Bench NDOBC", 0, 5), ("Bench FL", 5, None)],
         [("Twin NDOBC", 0, 5), ("Twin FL", 5, None)],
@@ -113,11 +113,11 @@ CHANGES = [
 def test_every_change_begins_a_window_for_all_lanes(kind, argument, label):
     session = build_session()
     session.step(50)
-    assert session.timeline.window == Window("start", "", 0)
+    assert session.journal.timeline.window == Window("start", "", 0)
     session.change(kind, argument)
     session.step(20)
-    assert session.timeline.window == Window("change", label, 50)
-    durations = [lane.summarize().duration_s for lane in session.metrics.in_window]
+    assert session.journal.timeline.window == Window("change", label, 50)
+    durations = [lane.summarize().duration_s for lane in session.journal.metrics.in_window]
     assert durations == pytest.approx([0.02] * len(durations))
 
 
@@ -127,7 +127,7 @@ def test_recovery_is_latched_at_its_load():
     session.step(100)
     session.change("load", svsa.PaperLoad())
     session.step(1500)
-    ndobc, fl = (lane.summarize() for lane in session.metrics.since_load)
+    ndobc, fl = (lane.summarize() for lane in session.journal.metrics.since_load)
     assert 0.1 < ndobc.recovery_time_s < 0.4
     assert fl.recovery_time_s is None
     session.change("effects", svsa.RIG)
@@ -135,21 +135,21 @@ def test_recovery_is_latched_at_its_load():
     session.step(1500)
     session.change("laws", ("fl", "ndobc"))
     session.step(1500)
-    assert [lane.summarize() for lane in session.metrics.since_load] == [ndobc, fl]
-    assert session.timeline.load_window == Window("load", "3 kg load", 100, 1600)
-    assert session.timeline.window == Window("change", "NDOBC → FL", 3100)
+    assert [lane.summarize() for lane in session.journal.metrics.since_load] == [ndobc, fl]
+    assert session.journal.timeline.load_window == Window("load", "3 kg load", 100, 1600)
+    assert session.journal.timeline.window == Window("change", "NDOBC → FL", 3100)
 
 
 def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
     session = build_session(law="fl")
     session.change("load", svsa.PaperLoad())
     session.step(1500)
-    (fl,) = (lane.summarize() for lane in session.metrics.in_window)
+    (fl,) = (lane.summarize() for lane in session.journal.metrics.in_window)
     session.change("law", "ndobc")
     session.step(1000)
     session.change("rivals", (FL,))
     session.step(1)
-    first, rival = (lane.summarize() for lane in session.metrics.in_window)
+    first, rival = (lane.summarize() for lane in session.journal.metrics.in_window)
     assert fl.peak_position_error_rad > 0.1
     assert max(first.peak_position_error_rad, rival.peak_position_error_rad) < 0.01
 
@@ -160,7 +160,7 @@ def test_changes_of_one_moment_are_one_window():
     session.change("effects", svsa.RIG)
     session.change("gains", STIFFER)
     session.change("gains", STIFFER)
-    assert session.timeline.windows == [
+    assert session.journal.timeline.windows == [
         Window("start", "", 0, 50),
         Window("change", "Effects changed, Gains changed", 50),
     ]
@@ -171,16 +171,16 @@ def test_what_is_set_before_the_first_tick_is_how_the_run_starts():
     session.change("gains", STIFFER)
     session.change("rivals", (FL,))
     session.step(10)
-    assert session.timeline.windows == [Window("start", "", 0)]
-    for lanes in (session.metrics.since_start, session.metrics.in_window):
+    assert session.journal.timeline.windows == [Window("start", "", 0)]
+    for lanes in (session.journal.metrics.since_start, session.journal.metrics.in_window):
         assert [lane.summarize().duration_s for lane in lanes] == pytest.approx([0.01, 0.01])
 
 
 def test_a_recorded_run_has_the_timeline_that_its_session_had():
     """One function of configuration and commands; loads come on and go at the same ticks."""
     session = play_busy_session()
-    again = read_timeline(session.initial, session.commands, (-1, session.run.tick))
-    assert again.windows == session.timeline.windows
-    assert again.load_window == session.timeline.load_window
-    assert again.list_stretches() == session.timeline.list_stretches()
+    again = read_timeline(session.journal.initial, session.journal.commands, (-1, session.run.tick))
+    assert again.windows == session.journal.timeline.windows
+    assert again.load_window == session.journal.timeline.load_window
+    assert again.list_stretches() == session.journal.timeline.list_stretches()
     assert {window.kind for window in again.windows} == {"start", "load", "unload", "change"}

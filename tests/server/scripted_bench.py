@@ -9,7 +9,7 @@ from svsa.bench.realtime.launch import BenchError
 from svsa.bench.realtime.memory import LoopMemory
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.paper import get_figure
-from svsa.session import bench as bench_session
+from svsa.session import supervised_loop
 from svsa.session.bench import BenchSession
 from svsa_server.turn import let_pass
 from tests.hardware.wired_bench import RIG_BENCH
@@ -64,6 +64,6 @@ def build_bench_session(
     """A session of the rig's bench file that has still to be opened."""
     script = types.SimpleNamespace(ready_s=ready_s, refusal=refusal)
     monkeypatch.setattr(Processes, "script", script)
-    monkeypatch.setattr(bench_session, "BenchProcesses", Processes)
+    monkeypatch.setattr(supervised_loop, "BenchProcesses", Processes)
     figure = get_figure("4a").build_configuration(load=False)
     return BenchSession("lab", RIG_BENCH, figure, rest=let_pass)

@@ -39,8 +39,8 @@ def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> 
     asyncio.run(ask())
     gains = session.run.configuration.gains
     assert gains == requests[2].apply_to(requests[1].apply_to(before))
-    assert isinstance(session.processes, Processes)
-    assert Gains(**session.processes.told[-1]["argument"]) == gains, "the loop has the same"
+    assert isinstance(session.loop.processes, Processes)
+    assert Gains(**session.loop.processes.told[-1]["argument"]) == gains, "the loop has the same"
 
 
 def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:

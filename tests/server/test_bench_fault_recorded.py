@@ -38,12 +38,12 @@ def tell(session: BenchSession, status: BenchStatus, code: str | None = None) ->
     if code is not None:
         fault = {"code": code, "lane": 0, "tick": 70, "time_s": 0.07, "message": "It stopped."}
     event = {"event": "state", "status": status, "problems": [], "homing_step": None}
-    session.processes.take_events = lambda: [event | {"fault": fault}]  # pyright: ignore
-    session._take_events()
+    session.loop.processes.take_events = lambda: [event | {"fault": fault}]  # pyright: ignore
+    session._take_states()
 
 
 def test_a_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession) -> None:
-    session.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
+    session.journal.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
     tell(session, BenchStatus.RUN)
     tell(session, BenchStatus.FAULT, "overspeed")
     tell(session, BenchStatus.FAULT, "overspeed")
@@ -52,7 +52,7 @@ def test_a_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession)
 
 
 def test_a_fault_of_a_bench_at_rest_ended_no_run(session: BenchSession) -> None:
-    session.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
+    session.journal.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
     tell(session, BenchStatus.READY)
     tell(session, BenchStatus.FAULT, "drive_silent")
     assert session.fault is not None

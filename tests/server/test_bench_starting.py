@@ -46,8 +46,8 @@ def test_until_it_is_ready_it_takes_no_command_and_says_why(
     with pytest.raises(StateError, match=r"being started \(compiling .*, 12 s\): ask again when"):
         COMMANDS[name](starting)
     starting.open()
-    assert isinstance(starting.processes, Processes)
-    assert starting.processes.told == [], "nothing of it comes later"
+    assert isinstance(starting.loop.processes, Processes)
+    assert starting.loop.processes.told == [], "nothing of it comes later"
 
 
 def test_what_is_told_of_a_bench_that_starts_is_known(starting: BenchSession) -> None:
@@ -77,12 +77,12 @@ def test_while_it_starts_the_lab_goes_on_and_the_console_says_how_it_goes(
     async def serve() -> None:
         opening = asyncio.create_task(open_bench(session, console))
         while not opening.done():
-            seen.append(session.starting)
+            seen.append(session.loop.starting)
             await asyncio.sleep(0.005)
 
     asyncio.run(serve())
     assert seen.count(True) > 2
-    assert not session.starting
+    assert not session.loop.starting
     assert console.file.getvalue().splitlines() == [
         f"The bench is {STEP} (12 s) …",
         "The bench is there: it may be armed.",

@@ -14,7 +14,7 @@ from websockets.sync.client import connect
 
 from svsa.errors import ParameterError
 from svsa.paper import get_figure
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from svsa_server.app import build_app
 from svsa_server.control import (
     CHANGING,
@@ -186,7 +186,7 @@ def wait_for_holder(stream: object, name: str | None) -> dict:
 
 
 def test_a_hand_is_free_15_s_after_the_last_call_and_stream() -> None:
-    hosted = HostedSession(Session("lab", get_figure("4b").build_configuration()))
+    hosted = HostedSession(SimulatedSession("lab", get_figure("4b").build_configuration()))
     hand = hosted.hand
     hand.take(Holder("1", "Ada"), take_over=False, now=100.0)
     with hosted.streamed_to("1"), hosted.streamed_to("2"), hosted.streamed_to(None):

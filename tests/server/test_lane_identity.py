@@ -6,6 +6,7 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.paper import get_figure
 from svsa.run.configuration import Lane
 from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.hosted import HostedSession
 from svsa_server.state import build_state
@@ -19,7 +20,9 @@ ERROR = "position_error_rad"
 
 def open_session() -> Session:
     """Three lanes after 0.2 s, with three errors that differ."""
-    session = Session("lab", get_figure("4a").build_configuration().changed(rivals=(FL, FASTER)))
+    session = SimulatedSession(
+        "lab", get_figure("4a").build_configuration().changed(rivals=(FL, FASTER))
+    )
     session.change("load", {"kind": "paper"})
     session.step(200)
     return session
@@ -55,7 +58,7 @@ def test_a_lane_keeps_its_id_when_the_one_before_it_goes() -> None:
     session.step(50)
     after = read_batch(session, cursor)
     assert read_ids(session) == list(after) == [1, 3]
-    row = session.history.read(200, 1, [CHANNEL_INDEX[ERROR]], [1])[:, 0, 0].astype("<f4")
+    row = session.journal.history.read(200, 1, [CHANNEL_INDEX[ERROR]], [1])[:, 0, 0].astype("<f4")
     assert after[3].tolist() == row.tolist()
     assert abs(after[3][0] - before[3][-1]) < 1e-4 < abs(after[3][0] - before[2][-1])
 

@@ -11,7 +11,7 @@ from svsa.records.measured_window import trace_record
 from svsa.records.reader import Record, build_record
 from svsa.run.command import build_command
 from svsa.run.configuration import Lane
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from svsa_server.hosted import HostedSession
 from svsa_server.lanes import list_record_stretches, name_lanes
 from svsa_server.state import build_state
@@ -92,7 +92,7 @@ def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
     """NDOBC recovered, FL did not; that they change places afterwards makes neither the other."""
     fl_beside = (Lane(law="fl"),)
     figure = get_figure("4a").build_configuration(load=False).changed(rivals=fl_beside)
-    session = Session("test", figure)
+    session = SimulatedSession("test", figure)
     session.step(100)
     session.change("load", PaperLoad())
     session.step(1500)

@@ -132,13 +132,13 @@ def summarize(session):
         run.loads,
         run.tick,
         run.fault,
-        list(session.commands),
-        list(session.events),
+        list(session.journal.commands),
+        list(session.journal.events),
         session.version,
-        session.timeline.window,
-        session.timeline.list_stretches(),
-        len(session.metrics.since_start),
-        session.metrics.since_load is None,
+        session.journal.timeline.window,
+        session.journal.timeline.list_stretches(),
+        len(session.journal.metrics.since_start),
+        session.journal.metrics.since_load is None,
     )
 
 
@@ -169,8 +169,8 @@ def play(session, script, wakes):
 def write(session):
     """What a record keeps of a session, as JSON text."""
     written = {
-        "configuration": session.initial.model_dump(mode="json"),
-        "commands": [command.to_json() for command in session.commands],
+        "configuration": session.journal.initial.model_dump(mode="json"),
+        "commands": [command.to_json() for command in session.journal.commands],
     }
     return json.dumps(written, allow_nan=False)
 

@@ -11,7 +11,7 @@ from svsa.plant.effects import (
     SensorNoise,
     StateEstimation,
 )
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNELS
 
 PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)
@@ -33,12 +33,12 @@ def build_configuration(*loads, **changes):
 
 
 def build_session(*loads, **changes):
-    return Session("test", build_configuration(*loads, **changes))
+    return SimulatedSession("test", build_configuration(*loads, **changes))
 
 
 def read_samples(session, lane=0):
     """All that the history holds of a lane: (ticks, channels)."""
-    return session.history.read(session.history.first_tick, 1, ALL, [lane])[:, 0]
+    return session.journal.history.read(session.journal.history.first_tick, 1, ALL, [lane])[:, 0]
 
 
 def advance(run, ticks):
@@ -48,7 +48,7 @@ def advance(run, ticks):
 
 
 def list_events(session):
-    return [(event.tick, event.kind) for event in session.events]
+    return [(event.tick, event.kind) for event in session.journal.events]
 
 
 def list_lanes(run):

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.run.command import Command, build_run_at
-from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
 
 from .scripts import collect, play, play_busy_session, read, scripted, scripts, wake_sizes, write
 from .sessions import PULSE, advance, build_configuration, build_session, list_lanes, read_samples
@@ -57,7 +57,12 @@ def test_a_run_cannot_be_opened_after_its_end():
 
 
 def list_state(session):
-    return session.initial, session.commands, session.run.tick, list_lanes(session.run)
+    return (
+        session.journal.initial,
+        session.journal.commands,
+        session.run.tick,
+        list_lanes(session.run),
+    )
 
 
 @pytest.mark.parametrize("tick", [0, 1, 47, 90, 140])
@@ -65,10 +70,12 @@ def test_a_session_that_goes_on_from_a_record_is_the_recorded_session(tick):
     """Past, state and commands; then both get the same commands and ticks."""
     original = play_busy_session()
     end, samples = original.run.tick, read_samples(original)
-    session = Session.branch("branch", original.initial, original.commands, tick)
-    assert (session.run.tick, session.history.end_tick) == (tick, tick)
+    session = SimulatedSession.branch(
+        "branch", original.journal.initial, original.journal.commands, tick
+    )
+    assert (session.run.tick, session.journal.history.end_tick) == (tick, tick)
     np.testing.assert_array_equal(read_samples(session), samples[:tick])
-    for command in original.commands:
+    for command in original.journal.commands:
         if command.tick >= tick:
             session.step(command.tick - session.run.tick)
             session.change(command.kind, command.argument)
@@ -82,7 +89,9 @@ def test_a_branch_after_a_lane_was_added_has_the_past_of_the_first_in_it():
     """As the recorded session had: not zeros, nor what the session did before."""
     original = play_busy_session()
     end = original.run.tick
-    session = Session.branch("branch", original.initial, original.commands, end)
+    session = SimulatedSession.branch(
+        "branch", original.journal.initial, original.journal.commands, end
+    )
     for lane in (0, 1):
         np.testing.assert_array_equal(read_samples(session, lane), read_samples(original, lane))
 
@@ -94,7 +103,7 @@ def test_every_lane_of_a_branch_has_the_past_that_the_session_had(script, wakes)
     original = build_session(PULSE)
     play(original, script, wakes)
     end = original.run.tick
-    session = Session.branch("branch", *read(write(original)), end)
+    session = SimulatedSession.branch("branch", *read(write(original)), end)
     np.testing.assert_array_equal(read_samples(session), read_samples(original))
     if original.status == "fault":
         session.step(1)
@@ -108,18 +117,23 @@ def test_every_lane_of_a_branch_has_the_past_that_the_session_had(script, wakes)
 def test_the_metrics_and_events_of_a_branch_are_those_of_the_recorded_session():
     original = play_busy_session()
     end = original.run.tick
-    session = Session.branch("branch", original.initial, original.commands, end)
-    all_of = ([*m.since_start[:1], *m.in_window] for m in (session.metrics, original.metrics))
+    session = SimulatedSession.branch(
+        "branch", original.journal.initial, original.journal.commands, end
+    )
+    all_of = (
+        [*m.since_start[:1], *m.in_window]
+        for m in (session.journal.metrics, original.journal.metrics)
+    )
     for mine, theirs in zip(*all_of, strict=True):
         found, expected = asdict(mine.summarize()), asdict(theirs.summarize())
         unknown = {name for name, value in expected.items() if value is None}
         assert {name for name, value in found.items() if value is None} == unknown
         for name in expected.keys() - unknown:
             assert found[name] == pytest.approx(expected[name], rel=1e-12)
-    assert list(session.events) == list(original.events)
+    assert list(session.journal.events) == list(original.journal.events)
 
 
 def test_a_branch_after_the_end_of_a_run_is_refused():
     crash = build_configuration(svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.05))
     with pytest.raises(svsa.StateError, match="ended at tick"):
-        Session.branch("branch", crash, [], 500)
+        SimulatedSession.branch("branch", crash, [], 500)

@@ -5,7 +5,7 @@ import numpy as np
 import svsa
 from svsa.session.clock import SimulationClock
 from svsa.session.history import History
-from svsa.session.session import HISTORY_TICKS
+from svsa.session.journal import HISTORY_TICKS
 
 from .sessions import ALL, build_session, read_samples
 
@@ -59,9 +59,11 @@ def test_a_session_longer_than_its_history_keeps_the_newest_samples_of_the_run()
     for count in (1000, HISTORY_TICKS - 300, 800):
         session.step(count)
     whole = svsa.simulate(session.run.configuration, duration_s=ticks * 0.001).samples
-    first = session.history.first_tick
-    assert (first, session.history.end_tick) == (1500, ticks)
-    np.testing.assert_array_equal(session.history.read(first, 7, ALL, [0])[:, 0], whole[first::7])
+    first = session.journal.history.first_tick
+    assert (first, session.journal.history.end_tick) == (1500, ticks)
+    np.testing.assert_array_equal(
+        session.journal.history.read(first, 7, ALL, [0])[:, 0], whole[first::7]
+    )
 
 
 def test_a_copy_of_the_history_does_not_change_while_the_session_goes_on():

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.bench.realtime.configuration import check_takes_no_time
 from svsa.reference.series import MOST_ROWS
 from svsa.run.command import read_command, simulate_again
-from svsa.session.bench import check_takes_no_time
 from svsa.signals import CHANNEL_INDEX
 
 from .sessions import build_configuration, build_session, read_samples
@@ -56,8 +56,8 @@ def test_a_session_with_every_kind_of_reference_is_the_same_again_bit_for_bit():
         session.change(kind, argument)
     session.step(300)
     live = read_samples(session)
-    written = json.loads(json.dumps([command.to_json() for command in session.commands]))
-    again = list(simulate_again(session.initial, map(read_command, written), 0, len(live)))
+    written = json.loads(json.dumps([command.to_json() for command in session.journal.commands]))
+    again = list(simulate_again(session.journal.initial, map(read_command, written), 0, len(live)))
     np.testing.assert_array_equal(np.concatenate(again, axis=1)[0], live)
     position = live[:, CHANNEL_INDEX["position_reference_rad"]]
     assert np.ptp(position) > 0.03, "it has moved"

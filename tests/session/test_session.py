@@ -50,7 +50,7 @@ def test_pause_keeps_the_state_and_start_does_not_make_up_for_the_pause():
 def test_step_runs_exactly_so_many_ticks_and_only_while_paused():
     session = build_session()
     session.step(7)
-    assert session.run.tick == session.history.end_tick == 7
+    assert session.run.tick == session.journal.history.end_tick == 7
     session.start()
     with pytest.raises(svsa.StateError, match="running: pause it"):
         session.step(1)
@@ -100,13 +100,17 @@ def test_a_fault_stops_the_session_until_it_is_reset():
     session.wake(0.0)
     session.wake(0.2)
     assert session.status == "fault"
-    assert session.run.tick == session.history.end_tick == session.run.fault.tick
+    assert session.run.tick == session.journal.history.end_tick == session.run.fault.tick
     assert list_events(session)[-1] == (session.run.tick, "fault")
     assert np.all(np.isfinite(read_samples(session)))
     session.wake(0.4)
     assert list_events(session)[-1] == (session.run.tick, "fault")
     assert [kind for _, kind in list_events(session)].count("fault") == 1
-    assert session.events[-1].label == label_fault(session.run.fault.code) != session.run.fault.code
+    assert (
+        session.journal.events[-1].label
+        == label_fault(session.run.fault.code)
+        != session.run.fault.code
+    )
     for refused in (session.start, lambda: session.step(1)):
         with pytest.raises(svsa.StateError, match="fault"):
             refused()
@@ -121,15 +125,15 @@ def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
     session.change("law", "fl")
     session.change("load", svsa.PaperLoad())
     session.step(60)
-    runs = session.run_number
+    runs = session.journal.run_number
     session.reset()
-    assert (session.run.tick, session.history.end_tick) == (0, 0)
-    assert session.run_number == runs + 1
+    assert (session.run.tick, session.journal.history.end_tick) == (0, 0)
+    assert session.journal.run_number == runs + 1
     assert session.run.configuration.law == "fl"
     assert [scheduled.load for scheduled in session.run.loads] == [PULSE]
     assert list_events(session) == []
-    assert [metrics.summarize() for metrics in session.metrics.since_start] == [None]
-    assert session.metrics.since_load is None
+    assert [metrics.summarize() for metrics in session.journal.metrics.since_start] == [None]
+    assert session.journal.metrics.since_load is None
 
 
 def test_a_running_session_owes_nothing_after_a_reset():

@@ -5,6 +5,7 @@ import pytest
 
 import svsa
 from svsa.run.command import KINDS, Command, read_command, replay
+from svsa.session.session import take_loads_off
 from svsa.signals import CHANNEL_INDEX
 
 from .sessions import PULSE, build_session, list_events, read_samples
@@ -24,10 +25,10 @@ def test_loads_are_logged_when_they_act():
 def test_the_metrics_since_the_load_begin_at_its_onset():
     session = build_session(PULSE)
     session.step(30)
-    assert session.metrics.since_load is None
+    assert session.journal.metrics.since_load is None
     session.step(40)
-    (since,) = [metrics.summarize() for metrics in session.metrics.since_load]
-    (whole,) = [metrics.summarize() for metrics in session.metrics.since_start]
+    (since,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
+    (whole,) = [metrics.summarize() for metrics in session.journal.metrics.since_start]
     assert since.duration_s == pytest.approx(0.04)
     assert whole.duration_s == pytest.approx(0.07)
     error = read_samples(session)[30:, CHANNEL_INDEX["position_error_rad"]]
@@ -40,17 +41,17 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     session.step(10)
     session.change("load", svsa.PaperLoad())
     session.step(30)
-    (loaded,) = [metrics.summarize() for metrics in session.metrics.since_load]
+    (loaded,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
     session.change("unload", 1)
     session.step(50)
-    assert [metrics.summarize() for metrics in session.metrics.since_load] == [loaded]
+    assert [metrics.summarize() for metrics in session.journal.metrics.since_load] == [loaded]
     session.change("load", svsa.PaperLoad())
     session.step(5)
-    (anew,) = [metrics.summarize() for metrics in session.metrics.since_load]
+    (anew,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
     assert anew.duration_s == pytest.approx(0.005)
     session.change("unload", 2)
     session.change("rivals", (svsa.Lane(law="fl"),))
-    first, rival = session.metrics.since_load
+    first, rival = session.journal.metrics.since_load
     assert first.summarize() == anew
     assert rival is None, "the load was on before this lane began"
 
@@ -65,10 +66,10 @@ def test_taking_a_load_off_is_logged_and_ends_it():
     assert session.run.loads == ()
     session.change("load", PULSE)
     assert session.run.loads[0].start_tick > session.run.tick
-    session.clear_loads()
+    take_loads_off(session)
     assert session.run.loads == ()
     assert list_events(session)[2:] == [], "a load that was only planned has not acted"
-    kinds = [(command.tick, command.kind) for command in session.commands]
+    kinds = [(command.tick, command.kind) for command in session.journal.commands]
     assert kinds == [(0, "load"), (10, "unload"), (20, "load"), (20, "unload")]
 
 
@@ -80,10 +81,12 @@ def test_a_push_is_one_mark_however_often_it_is_told():
     number = session.run.loads[0].number
     session.change("unload", number)
     session.step(10)
-    labels = [(event.tick, event.label) for event in session.events]
+    labels = [(event.tick, event.label) for event in session.journal.events]
     assert labels == [(0, "Push on"), (300, "Push off")]
-    assert [row["kind"] for row in map(Command.to_json, session.commands)].count("load") == 15
-    (since,) = [metrics.summarize() for metrics in session.metrics.since_load]
+    assert [row["kind"] for row in map(Command.to_json, session.journal.commands)].count(
+        "load"
+    ) == 15
+    (since,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
     assert since.duration_s == pytest.approx(0.3)
 
 
@@ -103,8 +106,8 @@ def test_a_push_replays_bit_for_bit():
         session.step(60)
     session.change("unload", session.run.loads[0].number)
     session.step(100)
-    written = [read_command(command.to_json()) for command in session.commands]
-    again = [samples for _, samples in replay(session.initial, written, session.run.tick)]
+    written = [read_command(command.to_json()) for command in session.journal.commands]
+    again = [samples for _, samples in replay(session.journal.initial, written, session.run.tick)]
     np.testing.assert_array_equal(np.concatenate(again, axis=1)[0], read_samples(session))
 
 
@@ -145,7 +148,9 @@ def test_every_command_is_logged_with_its_tick():
     events = [kind for _, kind in list_events(session)]
     assert sorted(events) == sorted(changed)
     assert list_events(session) == [(5, kind) for kind in events]
-    assert [(command.tick, command.kind) for command in session.commands] == list_events(session)
+    assert [(command.tick, command.kind) for command in session.journal.commands] == list_events(
+        session
+    )
     assert session.run.configuration.law == "ndobc"
 
 
@@ -159,7 +164,7 @@ def test_a_refused_command_changes_nothing_and_is_not_logged():
         session.change("unload", 99)
     assert (session.run.configuration, session.version) == before
     assert session.run.lanes == lanes
-    assert session.commands == []
+    assert session.journal.commands == []
     assert list_events(session) == []
 
 
@@ -185,7 +190,7 @@ def test_what_is_no_command_is_refused_in_words_and_leaves_no_trace(kind, argume
     with pytest.raises(svsa.SvsaError, match=kind):
         session.change(kind, argument)
     assert (session.run.configuration, session.version, session.run.loads) == before
-    assert session.commands == []
+    assert session.journal.commands == []
     session.change("load", svsa.PaperLoad())
     assert [load.number for load in session.run.loads] == [1, 2]
     plain, spoiled = build_session(PULSE), session
@@ -205,7 +210,7 @@ def test_the_version_grows_with_every_change_and_not_with_time():
         lambda: session.set_speed(0.5),
         lambda: session.change("law", "fl"),
         lambda: session.change("load", svsa.PaperLoad()),
-        session.clear_loads,
+        lambda: take_loads_off(session),
         session.reset,
     ):
         change()

@@ -62,7 +62,7 @@ async def predict_design(
 
 def _read_stiffness(session: Session) -> float:
     """σ_d now, N·m/rad; before the first tick, where it begins."""
-    newest = session.history.read_newest()
+    newest = session.journal.history.read_newest()
     configuration = session.run.configuration
     if newest is None:
         return compute_start_value(configuration.stiffness)

@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body
 
 from svsa.plant.disturbances import Load
+from svsa.session.session import take_loads_off
 from svsa_server.errors import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.session_schemas import SessionState
@@ -48,7 +49,7 @@ def apply_load(
 @router.delete("")
 def clear_loads(hosted: NamedSession) -> SessionState:
     """Take every load off."""
-    hosted.session.clear_loads()
+    take_loads_off(hosted.session)
     return build_state(hosted)
 
 

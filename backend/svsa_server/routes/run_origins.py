@@ -19,8 +19,8 @@ router = APIRouter()
 async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
     """The run that a session is on: how it stood at t = 0 and what was changed since."""
     return _tell(
-        hosted.session.initial.model_dump(mode="json"),
-        ((command.tick, command.to_json()) for command in hosted.session.commands),
+        hosted.session.journal.initial.model_dump(mode="json"),
+        ((command.tick, command.to_json()) for command in hosted.session.journal.commands),
         hosted.session.run.tick,
         hosted.session.run.period_s,
         hosted.session.plant,

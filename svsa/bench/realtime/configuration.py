@@ -2,10 +2,14 @@
 
 from svsa.bench.file import BenchFile
 from svsa.bench.safety.guard import Guard
+from svsa.errors import StateError
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
 from svsa.plant.effects import CurrentLag, Effects, Encoders, StateEstimation
+from svsa.reference.trajectories import Trajectory
 from svsa.run.configuration import Configuration, Design, Lane, load_prototype, read_design
+
+MAX_POINTS_IN_MOTION = 200
 
 
 def read_bench_design(bench: BenchFile) -> Design:
@@ -47,6 +51,19 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
         stiffness=wanted.stiffness,
         loads=wanted.loads,
     )
+
+
+def check_takes_no_time(reference: Trajectory) -> None:
+    """Raise `StateError` for a curve that the loop could not take in between two ticks.
+
+    One of 200 points takes it 2 ms, one of 2000 points 7 ms: long enough to lose the bench.
+    """
+    curve = reference.get_shape().curve
+    if curve is not None and len(curve.breaks) > MAX_POINTS_IN_MOTION:
+        raise StateError(
+            f"The reference has {len(curve.breaks)} points, and a bench that moves takes one of"
+            f" {MAX_POINTS_IN_MOTION} at most: stop it, set the reference, and run it again."
+        )
 
 
 def build_guard(bench: BenchFile) -> Guard:

@@ -1,0 +1,97 @@
+"""The loop of a bench and its supervisor, as a session starts, asks and loses them."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from svsa.bench.realtime.launch import BenchProcesses, Rest, Teller, keep_quiet
+from svsa.bench.realtime.loss import Loss, find_loss, is_supervised
+from svsa.errors import StateError
+from svsa.run.configuration import Configuration
+
+UNKNOWN_S = 0.25
+"""So long after the last tick it may not be known yet who stops the drives."""
+
+
+class SupervisedLoop:
+    """Both processes, which `launch` starts anew.
+
+    start_silence_s: so long may the loop say nothing while it starts, s. rest: lets time pass
+    where a command waits. `starting`: they refuse commands until `open` returns. `memory`: see
+    `LoopMemory`.
+    """
+
+    def __init__(self, bench: Path, start_silence_s: float, rest: Rest = time.sleep) -> None:
+        self._bench, self._start_silence_s, self._rest = bench, start_silence_s, rest
+        self.starting = True
+
+    def launch(self, configuration: Configuration) -> None:
+        """Start both processes; `open` waits for them."""
+        self.processes = BenchProcesses(self._bench, configuration, self._rest)
+        self.memory = self.processes.memory
+
+    def open(self, tell: Teller = keep_quiet) -> None:
+        """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
+
+        tell: hears what the loop does meanwhile.
+        """
+        try:
+            self.processes.wait_until_ready(self._start_silence_s, tell)
+        finally:
+            self.starting = False
+
+    def restart(self, launch: Callable[[], None]) -> None:
+        """End both processes, by force where they do not listen, have them launched, and open."""
+        self.starting = True
+        try:
+            before = self.processes
+            before.end()
+            launch()
+            before.free()
+            self.open()
+        finally:
+            self.starting = False
+
+    def close(self) -> None:
+        """Ramp to zero, and end both."""
+        self.processes.end()
+        self.processes.free()
+
+    @property
+    def loss(self) -> Loss | None:
+        """What has become of the loop where it does not tick, and who stopped the drives."""
+        return None if self.starting else find_loss(self.processes)
+
+    @property
+    def supervised(self) -> bool:
+        """Whether the supervisor is there and its heartbeat fresh."""
+        return is_supervised(self.processes)
+
+    def find_settled_loss(self) -> Loss | None:
+        """As `loss`, once it is known who stops the drives, or could have been."""
+        loss = self.loss
+        is_unknown = loss is not None and loss.stopped_by is None
+        return None if is_unknown and 0.0 < self.processes.silence_s < UNKNOWN_S else loss
+
+    def check_started(self) -> None:
+        """Raise `StateError` while they are being started."""
+        if self.starting:
+            raise StateError(
+                f"The bench is being started ({self.processes.step},"
+                f" {self.processes.age_s:.0f} s): ask again when it is ready."
+            )
+
+    def ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
+        """Have the loop do it, and rest until it answers."""
+        self.check_started()
+        return self.processes.request(wanted, argument)
+
+    def take_states(self) -> list[dict[str, Any]]:
+        """What the loop has told of its state since the last time."""
+        events = self.processes.take_events()
+        return [event for event in events if event["event"] == "state"]
+
+    def request_quick_stop(self) -> None:
+        """The quick stop from any thread, through shared memory alone."""
+        self.memory.fields["quick_stop"] = 1
