@@ -22,7 +22,7 @@ def read_resident_mb() -> float:
     raise RuntimeError("no VmRSS in /proc/self/status")
 
 
-def run_at_full_speed(session: Session, seconds: float) -> None:
+def run_at_full_speed(session: SimulatedSession, seconds: float) -> None:
     """So much session time, in bursts, with a pulse at each burst."""
     end = session.run.time_s + seconds
     pulse = svsa.PulseLoad(torque_nm=(0.2, 0.0, 0.0), duration_s=0.1)
