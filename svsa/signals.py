@@ -5,7 +5,7 @@ Position and torque are positive in the direction of growing q.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple, get_type_hints
 
 
 class State(NamedTuple):
@@ -58,50 +58,56 @@ class Disturbance(NamedTuple):
     w6: float
 
 
-@dataclass(frozen=True)
-class Channel:
-    """One column of the samples: its name (ends in the unit), unit and a label to read.
+class Sample(NamedTuple):
+    """What is recorded of one tick: every field a channel, with its unit and a label to read.
 
     On a bench the disturbances w are not known (NaN), and positions are as measured; the
     residuals are against its simulated twin, and 0 in every other lane.
     """
+
+    time_s: Annotated[float, "s", "Time t"]
+    position_reference_rad: Annotated[float, "rad", "Position reference q_d"]
+    velocity_reference_rad_per_s: Annotated[float, "rad/s", "Velocity reference"]
+    stiffness_reference_nm_per_rad: Annotated[float, "N·m/rad", "Stiffness reference σ_d"]
+    position_rad: Annotated[float, "rad", "Position q"]
+    velocity_rad_per_s: Annotated[float, "rad/s", "Velocity"]
+    position_estimate_rad: Annotated[float, "rad", "Position as the controller knows it"]
+    velocity_estimate_rad_per_s: Annotated[float, "rad/s", "Velocity as the controller knows it"]
+    motor1_position_rad: Annotated[float, "rad", "Principal motor θ1"]
+    motor1_velocity_rad_per_s: Annotated[float, "rad/s", "Principal motor velocity"]
+    motor2_position_rad: Annotated[float, "rad", "Stiffness motor θ2"]
+    motor2_velocity_rad_per_s: Annotated[float, "rad/s", "Stiffness motor velocity"]
+    deflection_rad: Annotated[float, "rad", "Deflection φ"]
+    deflection_limit_rad: Annotated[float, "rad", "Deflection limit"]
+    lever_ratio: Annotated[float, "1", "Lever ratio μ"]
+    stiffness_nm_per_rad: Annotated[float, "N·m/rad", "Stiffness σ"]
+    position_error_rad: Annotated[float, "rad", "Position error q_d − q"]
+    stiffness_error_nm_per_rad: Annotated[float, "N·m/rad", "Stiffness error σ_d − σ"]
+    torque1_nm: Annotated[float, "N·m", "Torque u1 (applied)"]
+    torque2_nm: Annotated[float, "N·m", "Torque u2 (applied)"]
+    disturbance_link_nm: Annotated[float, "N·m", "Disturbance w2 on the link"]
+    disturbance_motor1_nm: Annotated[float, "N·m", "Disturbance w4 on motor 1"]
+    disturbance_motor2_nm: Annotated[float, "N·m", "Disturbance w6 on motor 2"]
+    estimate_link_nm: Annotated[float, "N·m", "Estimate ŵ2"]
+    estimate_motor1_nm: Annotated[float, "N·m", "Estimate ŵ4"]
+    estimate_motor2_nm: Annotated[float, "N·m", "Estimate ŵ6"]
+    position_residual_rad: Annotated[float, "rad", "Position q, bench − twin"]
+    stiffness_residual_nm_per_rad: Annotated[float, "N·m/rad", "Stiffness σ, bench − twin"]
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One column of the samples: its name (ends in the unit), unit and a label to read."""
 
     name: str
     unit: str
     label: str
 
 
-CHANNELS = (
-    Channel("time_s", "s", "Time t"),
-    Channel("position_reference_rad", "rad", "Position reference q_d"),
-    Channel("velocity_reference_rad_per_s", "rad/s", "Velocity reference"),
-    Channel("stiffness_reference_nm_per_rad", "N·m/rad", "Stiffness reference σ_d"),
-    Channel("position_rad", "rad", "Position q"),
-    Channel("velocity_rad_per_s", "rad/s", "Velocity"),
-    Channel("position_estimate_rad", "rad", "Position as the controller knows it"),
-    Channel("velocity_estimate_rad_per_s", "rad/s", "Velocity as the controller knows it"),
-    Channel("motor1_position_rad", "rad", "Principal motor θ1"),
-    Channel("motor1_velocity_rad_per_s", "rad/s", "Principal motor velocity"),
-    Channel("motor2_position_rad", "rad", "Stiffness motor θ2"),
-    Channel("motor2_velocity_rad_per_s", "rad/s", "Stiffness motor velocity"),
-    Channel("deflection_rad", "rad", "Deflection φ"),
-    Channel("deflection_limit_rad", "rad", "Deflection limit"),
-    Channel("lever_ratio", "1", "Lever ratio μ"),
-    Channel("stiffness_nm_per_rad", "N·m/rad", "Stiffness σ"),
-    Channel("position_error_rad", "rad", "Position error q_d − q"),
-    Channel("stiffness_error_nm_per_rad", "N·m/rad", "Stiffness error σ_d − σ"),
-    Channel("torque1_nm", "N·m", "Torque u1 (applied)"),
-    Channel("torque2_nm", "N·m", "Torque u2 (applied)"),
-    Channel("disturbance_link_nm", "N·m", "Disturbance w2 on the link"),
-    Channel("disturbance_motor1_nm", "N·m", "Disturbance w4 on motor 1"),
-    Channel("disturbance_motor2_nm", "N·m", "Disturbance w6 on motor 2"),
-    Channel("estimate_link_nm", "N·m", "Estimate ŵ2"),
-    Channel("estimate_motor1_nm", "N·m", "Estimate ŵ4"),
-    Channel("estimate_motor2_nm", "N·m", "Estimate ŵ6"),
-    Channel("position_residual_rad", "rad", "Position q, bench − twin"),
-    Channel("stiffness_residual_nm_per_rad", "N·m/rad", "Stiffness σ, bench − twin"),
+CHANNELS = tuple(
+    Channel(name, *written.__metadata__)
+    for name, written in get_type_hints(Sample, include_extras=True).items()
 )
-
 CHANNEL_NAMES = tuple(channel.name for channel in CHANNELS)
 CHANNEL_INDEX = {channel.name: index for index, channel in enumerate(CHANNELS)}
 

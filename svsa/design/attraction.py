@@ -7,7 +7,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from svsa.control.installed import get_law
-from svsa.loop.loop import advance, build_lane_state
+from svsa.loop.lane import build_lane_state
+from svsa.loop.loop import advance
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run

@@ -6,7 +6,8 @@ import numpy as np
 
 from svsa.control.call import build_call, read_estimate
 from svsa.design.differences import differentiate
-from svsa.loop.loop import LaneState, apply_torque, decide, observe
+from svsa.loop.lane import LaneState
+from svsa.loop.loop import apply_torque, decide, observe
 from svsa.model.dynamics import compute_internal_torque
 from svsa.plant.disturbances import ConstantLoad, build_load_table, schedule_load
 from svsa.plant.effects import MOST_DELAY_SAMPLES

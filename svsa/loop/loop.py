@@ -11,98 +11,26 @@ once: the law is a compiled function that it is given.
 """
 
 import math
-from typing import NamedTuple
-
-import numpy as np
 
 from svsa.borrowed import borrow
 from svsa.compilation import compiled
-from svsa.control.call import BoundLaw, build_call, compute_law, read_estimate
+from svsa.control.call import build_call, compute_law, read_estimate
 from svsa.control.limits import limit_torque
-from svsa.model.domain import (
-    INSIDE,
-    NOT_FINITE,
-    Domain,
-    check_domain,
-    compute_deflection_limit,
-)
-from svsa.model.dynamics import (
-    Acceleration,
-    Actuator,
-    compute_deflection,
-    compute_internal_torque,
-    compute_unexplained_torque,
-)
-from svsa.model.lever import compute_lever_ratio
-from svsa.model.spring import compute_stiffness
+from svsa.loop.lane import LaneState, borrow_inputs, borrow_law, remember
+from svsa.loop.publish import publish
+from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
+from svsa.model.dynamics import compute_internal_torque
 from svsa.observer.disturbance import (
     correct_disturbance_estimate,
     update_disturbance_estimate,
 )
 from svsa.observer.state import build_measured_state, update_state_estimate
-from svsa.plant.disturbances import LoadTable, compute_load
+from svsa.plant.disturbances import compute_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
-from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench
 from svsa.plant.integration import compute_plant_rate, integrate_from
 from svsa.plant.sensors import are_exact, read_sensors
-from svsa.reference.transition import Stack, compute_trajectory
-from svsa.signals import Disturbance, Reference, State, Torque
-
-AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
-NO_TORQUE = Torque(0.0, 0.0)
-
-
-class Blocks(NamedTuple):
-    """The blocks of the diagram as constants of the compiled loop.
-
-    plant, nominal: `Actuator`. shares: of the observer, see `compute_shares`. torque1_max,
-    torque2_max: N·m, infinite where not limited. decay: e^(−ωT) of the state estimator, 0 where
-    velocities are known. period: s. steps: Runge–Kutta steps a period.
-    """
-
-    plant: Actuator
-    nominal: Actuator
-    shares: tuple[float, float, float]
-    torque1_max: float
-    torque2_max: float
-    bench: Bench
-    decay: float
-    domain: Domain
-    period: float
-    steps: int
-
-
-class Inputs(NamedTuple):
-    """What comes from outside: the stacks of both references and the table of loads."""
-
-    position: Stack
-    stiffness: Stack
-    loads: LoadTable
-
-
-class LaneState(NamedTuple):
-    """What one lane, a controller and its plant, carries from tick to tick.
-
-    x: the plant's state. known: x̂, what the controller knows of it. estimate: ŵ, N·m.
-    torque: what the motors make now, N·m. applied: the mean of what they made in the last period,
-    N·m. asked: the torques asked for in the last samples, newest first, (u1, u2) one after the
-    other, for the delay. memory: what the law remembers, see `Law.start_memory`.
-    """
-
-    x: State
-    known: State
-    estimate: Disturbance
-    torque: Torque
-    applied: Torque
-    asked: tuple[float, ...]
-    memory: np.ndarray
-
-
-def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
-    """A lane at its start. memory: of its law. x: where its plant is, which is known."""
-    asked = (0.0,) * (2 * MOST_DELAY_SAMPLES + 2)
-    return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, asked, memory)
+from svsa.reference.transition import compute_trajectory
+from svsa.signals import Reference, Torque
 
 
 @compiled
@@ -171,68 +99,6 @@ def sense(blocks, lane, x, applied, tick):
         return x
     measurement = read_sensors(blocks.bench, x, tick)
     return know(blocks, lane.known, lane.estimate, applied, measurement)
-
-
-@compiled
-def compute_nominal_torque(blocks, lane, F):
-    """F_n(x), `InternalTorque`, N·m, of the true state. F: that of x̂, often the same."""
-    x, y = lane.x, lane.known
-    if (x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2) == (
-        y.q, y.dq, y.theta1, y.dtheta1, y.theta2, y.dtheta2,
-    ):  # fmt: skip
-        return F
-    return compute_internal_torque(blocks.nominal, x)
-
-
-@compiled
-def publish(blocks, reference, lane, F, estimate, torque, rate, time, sample):
-    """Write one sample, in the order of `CHANNELS`.
-
-    F: F_n(x̂), `InternalTorque`. estimate: the ŵ that the law acts on. torque: what the motors
-    make. rate: ẋ under it.
-    """
-    x, known = lane.x, lane.known
-    phi = compute_deflection(x)
-    mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
-    sigma = compute_stiffness(mu, phi, blocks.plant.K)
-    acceleration = Acceleration(rate.dq, rate.dtheta1, rate.dtheta2)
-    F = compute_nominal_torque(blocks, lane, F)
-    w = compute_unexplained_torque(blocks.nominal, F, torque, acceleration)
-    sample[0], sample[1], sample[2], sample[3] = time, reference.q, reference.dq, reference.sigma
-    sample[4], sample[5], sample[6], sample[7] = x.q, x.dq, known.q, known.dq
-    sample[8], sample[9], sample[10], sample[11] = x.theta1, x.dtheta1, x.theta2, x.dtheta2
-    sample[12], sample[13] = phi, compute_deflection_limit(blocks.domain, mu)
-    sample[14], sample[15] = mu, sigma
-    sample[16], sample[17] = reference.q - x.q, reference.sigma - sigma
-    sample[18], sample[19] = torque.u1, torque.u2
-    sample[20], sample[21], sample[22] = w.w2, w.w4, w.w6
-    sample[23], sample[24], sample[25] = estimate.w2, estimate.w4, estimate.w6
-    sample[26], sample[27] = 0.0, 0.0
-
-
-@compiled
-def borrow_inputs(inputs):
-    """The same `Inputs` without owning their arrays, see `svsa.borrowed`."""
-    p, s, loads = inputs.position, inputs.stiffness, inputs.loads
-    return Inputs(
-        Stack(borrow(p.rows), borrow(p.breaks), borrow(p.coefficients)),
-        Stack(borrow(s.rows), borrow(s.breaks), borrow(s.coefficients)),
-        LoadTable(borrow(loads.rows), borrow(loads.points), loads.changing),
-    )
-
-
-@compiled
-def borrow_law(law):
-    """The same `BoundLaw` without owning its arrays."""
-    return BoundLaw(law.function, borrow(law.nominal), borrow(law.constants), law.is_own)
-
-
-@compiled
-def remember(lane, memory):
-    """The lane with another memory of its law."""
-    return LaneState(
-        lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, memory
-    )
 
 
 @compiled

@@ -9,14 +9,16 @@ from typing import NamedTuple
 
 from svsa.compilation import compiled
 from svsa.control.call import Call, read_estimate
-from svsa.loop.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks, decide, observe
+from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
+from svsa.loop.loop import decide, observe
+from svsa.loop.publish import write_sample
 from svsa.model.domain import compute_deflection_limit
 from svsa.model.dynamics import ExternalLoad, compute_acceleration
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.state import predict_state
 from svsa.plant.drive import compute_late_torque
-from svsa.signals import Disturbance, Measurement, Reference, State, Torque
+from svsa.signals import Disturbance, Measurement, Reference, Sample, State, Torque
 
 
 class Actuation(NamedTuple):
@@ -173,8 +175,8 @@ def foresee(constants, carried):
 
 
 @compiled
-def publish_measured(blocks, carried, tick, sample):
-    """Write one sample of a bench, in the order of `CHANNELS`.
+def publish_measured(blocks, carried, tick, row):
+    """Write one `Sample` of a bench into its row, (channels,).
 
     The true w is unknown; the residuals are filled in by whoever has the twin.
     """
@@ -183,33 +185,34 @@ def publish_measured(blocks, carried, tick, sample):
     q = y.theta1 + y.phi
     mu = compute_lever_ratio(y.theta2, blocks.nominal.mu0, blocks.nominal.gamma)
     sigma = compute_stiffness(mu, y.phi, blocks.nominal.K)
-    sample[:] = (
-        tick * blocks.period,
-        reference.q,
-        reference.dq,
-        reference.sigma,
-        q,
-        known.dq,
-        known.q,
-        known.dq,
-        y.theta1,
-        known.dtheta1,
-        y.theta2,
-        known.dtheta2,
-        y.phi,
-        compute_deflection_limit(blocks.domain, mu),
-        mu,
-        sigma,
-        reference.q - q,
-        reference.sigma - sigma,
-        torque.u1,
-        torque.u2,
-        nothing,
-        nothing,
-        nothing,
-        estimate.w2,
-        estimate.w4,
-        estimate.w6,
-        0.0,
-        0.0,
+    values = Sample(
+        time_s=tick * blocks.period,
+        position_reference_rad=reference.q,
+        velocity_reference_rad_per_s=reference.dq,
+        stiffness_reference_nm_per_rad=reference.sigma,
+        position_rad=q,
+        velocity_rad_per_s=known.dq,
+        position_estimate_rad=known.q,
+        velocity_estimate_rad_per_s=known.dq,
+        motor1_position_rad=y.theta1,
+        motor1_velocity_rad_per_s=known.dtheta1,
+        motor2_position_rad=y.theta2,
+        motor2_velocity_rad_per_s=known.dtheta2,
+        deflection_rad=y.phi,
+        deflection_limit_rad=compute_deflection_limit(blocks.domain, mu),
+        lever_ratio=mu,
+        stiffness_nm_per_rad=sigma,
+        position_error_rad=reference.q - q,
+        stiffness_error_nm_per_rad=reference.sigma - sigma,
+        torque1_nm=torque.u1,
+        torque2_nm=torque.u2,
+        disturbance_link_nm=nothing,
+        disturbance_motor1_nm=nothing,
+        disturbance_motor2_nm=nothing,
+        estimate_link_nm=estimate.w2,
+        estimate_motor1_nm=estimate.w4,
+        estimate_motor2_nm=estimate.w6,
+        position_residual_rad=0.0,
+        stiffness_residual_nm_per_rad=0.0,
     )
+    write_sample(row, values)

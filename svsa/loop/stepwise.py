@@ -10,7 +10,8 @@ import numpy as np
 
 from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
-from svsa.loop.loop import Blocks, Inputs, LaneState, apply_torque, read_reference
+from svsa.loop.lane import Blocks, Inputs, LaneState
+from svsa.loop.loop import apply_torque, read_reference
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
 from svsa.model.dynamics import compute_internal_torque
 from svsa.signals import Disturbance, Reference, State, Torque

@@ -5,7 +5,7 @@ import math
 from svsa.control.call import BoundLaw
 from svsa.control.installed import get_law
 from svsa.control.law import Setting
-from svsa.loop.loop import Blocks
+from svsa.loop.lane import Blocks
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
 from svsa.model.exponential import exp

@@ -1,7 +1,7 @@
 """Why a run ended, in words and numbers."""
 
 from svsa.errors import Fault
-from svsa.loop.loop import Blocks
+from svsa.loop.lane import Blocks
 from svsa.model.domain import (
     DEFLECTION_LIMIT,
     FAULT_CODES,

@@ -9,7 +9,8 @@ from svsa.control.gains import Gains
 from svsa.control.installed import check_installed, get_law
 from svsa.control.parameters import LawParameters
 from svsa.errors import Fault, ParameterError, StateError
-from svsa.loop.loop import AT_REST, Inputs, LaneState, advance, build_lane_state
+from svsa.loop.lane import AT_REST, Inputs, LaneState, build_lane_state
+from svsa.loop.loop import advance
 from svsa.loop.stepwise import Controller, advance_stepwise
 from svsa.model.domain import INSIDE
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness

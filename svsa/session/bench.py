@@ -13,7 +13,7 @@ from svsa.bench.realtime.launch import Rest, Teller, keep_quiet
 from svsa.bench.safety.machine import MOVING, BenchStatus
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
-from svsa.loop.loop import AT_REST
+from svsa.loop.lane import AT_REST
 from svsa.records.header import PlantKind
 from svsa.records.recorder import Recorder
 from svsa.run.command import Command, build_command

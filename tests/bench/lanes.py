@@ -9,7 +9,8 @@ import svsa
 from svsa.control.feedback_linearization import build_gains
 from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
-from svsa.loop.loop import Inputs, advance_tick, build_lane_state
+from svsa.loop.lane import Inputs, build_lane_state
+from svsa.loop.loop import advance_tick
 from svsa.loop.stepwise import Controller
 from svsa.model.dynamics import build_actuator
 from svsa.plant.disturbances import build_load_table

@@ -10,18 +10,10 @@ from svsa.control.call import build_call
 from svsa.control.feedback_linearization import build_gains, compute_feedback_linearization
 from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
-from svsa.loop.loop import (
-    Inputs,
-    LaneState,
-    advance_tick,
-    build_lane_state,
-    compute_control,
-    delay,
-    publish,
-    read_reference,
-    sense,
-)
+from svsa.loop.lane import Inputs, LaneState, build_lane_state
 from svsa.loop.loop import advance as advance_lane
+from svsa.loop.loop import advance_tick, compute_control, delay, read_reference, sense
+from svsa.loop.publish import publish
 from svsa.model.domain import INSIDE, check_domain
 from svsa.model.dynamics import build_actuator, compute_internal_torque
 from svsa.observer.disturbance import update_disturbance_estimate

@@ -10,7 +10,8 @@ from scipy.integrate import quad
 
 import svsa
 from svsa.control.call import build_call
-from svsa.loop.loop import AT_REST, NO_TORQUE, UNDISTURBED, Inputs, compute_control, read_reference
+from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Inputs
+from svsa.loop.loop import compute_control, read_reference
 from svsa.loop.loop import delay as delay_torque
 from svsa.plant.drive import compute_lagged_torque, compute_late_torque, compute_mean_torque
 from svsa.plant.effects import MOST_DELAY_SAMPLES, CurrentLag, Friction, build_bench

@@ -15,7 +15,7 @@ from svsa.bench.safety.machine import BenchStatus
 from svsa.control.call import BoundLaw, build_call
 from svsa.control.installed import get_law
 from svsa.errors import StateError
-from svsa.loop.loop import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
+from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
 from svsa.loop.measured import (
     Actuation,
     BenchConstants,

@@ -1400,9 +1400,6 @@ export interface components {
         /**
          * Channel
          * @description One column of the samples: its name (ends in the unit), unit and a label to read.
-         *
-         *     On a bench the disturbances w are not known (NaN), and positions are as measured; the
-         *     residuals are against its simulated twin, and 0 in every other lane.
          */
         Channel: {
             /** Name */
