@@ -1,17 +1,13 @@
 """A recorded run as one page with 3D replay and plots, which needs no server."""
 
-from collections.abc import Sequence
-from typing import Any
-
 import numpy as np
 
-from svsa.fault_labels import label_fault
-from svsa.plant.disturbances import PushLoad, get_hung_mass
+from svsa.plant.disturbances import get_hung_mass
 from svsa.records.measured_window import find_measured_window, trace_record
 from svsa.records.reader import Record
 from svsa.records.resimulation import read_origin
-from svsa.run.command import Command, list_loads
-from svsa.run.configuration import Configuration
+from svsa.run.command import list_loads
+from svsa.run.events import list_events
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay import build_replay_html
 from svsa_server.lane_schemas import StretchState
@@ -41,8 +37,9 @@ def build_replay(record: Record) -> str:
             "notes": header.notes,
             "configuration": header.configuration,
             "fault": "" if record.fault is None else record.fault.message,
-            "commands": [*list_marks(*read_origin(record)), *_mark_fault(record)],
+            "commands": [command for _, command in record.commands],
         },
+        events=list_events(*read_origin(record), record.fault),
         first_tick=record.first_tick,
         window=find_measured_window(record),
         stretches=[[_place(record, one) for one in lane] for lane in stretches],
@@ -58,11 +55,6 @@ def _place(record: Record, stretch: StretchState) -> LaneStretch:
     return LaneStretch(stretch.name, stretch.ink, stretch.number, first, end)
 
 
-def _mark_fault(record: Record) -> list[dict[str, Any]]:
-    fault = record.fault
-    return [] if fault is None else [{"tick": fault.tick, "label": label_fault(fault.code)}]
-
-
 def compute_hung_mass(record: Record) -> np.ndarray:
     """The mass on the link at every tick of the record, kg, (ticks,)."""
     ticks = np.arange(record.first_tick, record.first_tick + record.tick_count)
@@ -70,21 +62,3 @@ def compute_hung_mass(record: Record) -> np.ndarray:
     for _, load, start, end in list_loads(*read_origin(record)):
         mass[(ticks >= start) & (ticks < end)] += get_hung_mass(load)
     return mass
-
-
-def list_marks(configuration: Configuration, commands: Sequence[Command]) -> list[dict[str, Any]]:
-    """The commands of a run as it tells them: a push is one mark on and one off."""
-    loads = list_loads(configuration, commands)
-    pushes = {load.number: load for load in loads if isinstance(load.load, PushLoad)}
-    told = [
-        command.to_json()
-        for command in commands
-        if not (
-            isinstance(command.argument, PushLoad)
-            or (command.kind == "unload" and command.argument in pushes)
-        )
-    ]
-    for push in pushes.values():
-        told.append({"tick": push.start_tick, "label": "Push on"})
-        told.append({"tick": push.end_tick, "label": "Push off"})
-    return sorted(told, key=lambda mark: mark["tick"])

@@ -11,7 +11,7 @@ from svsa.paper import get_figure
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
 from svsa.run.configuration import MOST_LANES, Configuration, Design
-from svsa.session.journal import Event
+from svsa.run.events import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
 from svsa_server.lane_schemas import LaneMetrics, LaneState, WindowState

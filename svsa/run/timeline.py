@@ -10,9 +10,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from svsa.control.installed import PAPERS_LAW, get_title, list_law_names
-from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
-from svsa.run.command import KINDS, Command
+from svsa.control.installed import PAPERS_LAW, list_law_names
+from svsa.plant.disturbances import Load
+from svsa.run.command import Command
 from svsa.run.configuration import Configuration
 from svsa.run.controllers import (
     Controller,
@@ -20,6 +20,7 @@ from svsa.run.controllers import (
     list_controllers,
     name_controllers,
 )
+from svsa.run.events import describe_change, describe_end, describe_load
 from svsa.run.run import Run, find_origins
 
 MOST_WINDOWS = 1000
@@ -101,7 +102,7 @@ class Timeline:
                 self.load_numbers = [None if lane is None else kept[lane] for lane in origins]
         self._follow_controllers(command.tick)
         if command.kind not in ("load", "unload") and (origins is None or None in origins):
-            self._begin("change", describe_change(command, before), command.tick)
+            self._begin("change", describe_change(command, before.law), command.tick)
         return origins
 
     def begin_load(self, load: Load, tick: int) -> None:
@@ -112,7 +113,7 @@ class Timeline:
 
     def take_off(self, load: Load, tick: int) -> None:
         """A load that acted was taken off by hand."""
-        self._begin("unload", f"{describe_load(load)} off", tick)
+        self._begin("unload", describe_end(load), tick)
 
     def list_stretches(
         self, first_tick: float = 0, most: int = MOST_STRETCHES
@@ -251,25 +252,3 @@ def _configure(configuration: Configuration, command: Command, is_bench: bool) -
             return configuration.changed(**{command.kind: command.argument})
         case _:
             return configuration
-
-
-def describe_change(command: Command, before: Configuration) -> str:
-    """A change in a few words."""
-    if command.kind in ("law", "laws"):
-        law = command.argument if command.kind == "law" else command.argument[0]
-        if law != before.law:
-            return f"{get_title(before.law)} → {get_title(law)}"
-    return KINDS[command.kind].label
-
-
-def describe_load(load: Load) -> str:
-    """A load in a few words."""
-    match load:
-        case PaperLoad():
-            return "3 kg load"
-        case MassLoad():
-            return f"{load.mass_kg:g} kg mass"
-        case PushLoad():
-            return "Push"
-        case _:
-            return f"{load.kind.capitalize()} torque"

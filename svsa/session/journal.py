@@ -3,7 +3,6 @@
 import math
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from svsa.errors import Fault, StateError
@@ -13,8 +12,9 @@ from svsa.records.header import BranchPoint
 from svsa.records.recorder import Recorder
 from svsa.run.command import Command, build_command
 from svsa.run.configuration import MOST_LANES, Configuration
+from svsa.run.events import Event, describe_change, describe_end, describe_onset
 from svsa.run.run import Run
-from svsa.run.timeline import Timeline, describe_change, describe_load
+from svsa.run.timeline import Timeline
 from svsa.run.window_metrics import WindowMetrics
 from svsa.session.history import History
 
@@ -29,16 +29,6 @@ HangLoads = Callable[[tuple[Load, ...]], None]
 
 def hang_nothing(loads: tuple[Load, ...]) -> None:
     """A simulation needs nobody to hang its loads."""
-
-
-@dataclass(frozen=True)
-class Event:
-    """Something that changed the run: when, of what kind, and in words."""
-
-    tick: int
-    time_s: float
-    kind: str
-    label: str
 
 
 class Journal:
@@ -123,7 +113,7 @@ class Journal:
                     self.metrics.begin_window()
                 self.version += 1
             case kind:
-                self.log(kind, describe_change(command, before))
+                self.log(kind, describe_change(command, before.law))
 
     def _follow(self, command: Command) -> None:
         """Lanes have the past of those that they continue; in a new window metrics begin anew."""
@@ -169,13 +159,13 @@ class Journal:
                 self._end_load(load)
 
     def _begin_load(self, load: Load) -> None:
-        self.log("load_on", f"{describe_load(load)} on")
+        self.log("load_on", describe_onset(load))
         self.timeline.begin_load(load, self.run.tick)
         self.metrics.begin_load()
         self._hang_loads()
 
     def _end_load(self, load: Load) -> None:
-        self.log("load_off", f"{describe_load(load)} off")
+        self.log("load_off", describe_end(load))
         self._hang_loads()
 
     def _hang_loads(self) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
+from svsa.run.events import Event
 from tests.scene.replay_page import CHANNELS, make_run, write_page
 
 PATIENCE_MS = 60_000
@@ -183,7 +184,7 @@ def test_the_run_tells_about_itself(page: Page, exported: Path) -> None:
     watch = open_file(page, exported)
     expect(page).to_have_title("A test run")
     expect(page.get_by_text("9.9.9").first).to_be_visible()
-    page.get_by_role("button", name="Go to 2.00 s 3 kg on").click()
+    page.get_by_role("button", name="Go to 2.00 s 3 kg load on").click()
     assert page.evaluate("svsaReplay.time()") == pytest.approx(2.0)
     expect(page.get_by_role("button", name=re.compile("^Go to"))).to_have_count(2)
     row = page.get_by_role("row", name=re.compile("FL"))
@@ -220,7 +221,8 @@ def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
         tmp_path,
         lanes=(evil, "<b>FL</b>", "😀" * 100, ""),
         title=evil,
-        details={evil: evil, "commands": [{"tick": 10, "label": evil}, 7, {"tick": math.nan}]},
+        details={evil: evil},
+        events=[Event(10, 0.01, "load_on", evil)],
     )
     watch = open_file(page, path)
     assert page.evaluate("window.bad") is None

@@ -15,8 +15,9 @@ from svsa.control.installed import list_law_names
 from svsa.records.measured_window import trace_record
 from svsa.records.reader import open_record
 from svsa.records.resimulation import compare_with_simulation
+from svsa.run.command import build_command
+from svsa.run.events import list_events
 from svsa_server.lanes import list_record_stretches, name_lanes
-from svsa_server.replay_export import list_marks
 
 EXAMPLE = Path(__file__).parents[1] / "data" / "example_law"
 SCRIPT = """
@@ -94,7 +95,8 @@ def test_lanes_and_replay_of_such_a_record_have_its_name(made):
     assert all(name.startswith("motor_pd (not installed)") for name in names)
     assert len(set(names)) == 2
     configuration = svsa.open_run(made[1]).configuration
-    assert list_marks(configuration, []) == []
+    event, *_ = list_events(configuration, [build_command(5, "law", "fl")])
+    assert event.label == "motor_pd (not installed) → FL"
 
 
 def test_simulated_again_it_is_refused_with_the_laws_that_are_installed(made):

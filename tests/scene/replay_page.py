@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from svsa.run.events import Event
 from svsa.signals import CHANNEL_NAMES
 from svsa_scene.replay import build_replay_html
 
@@ -46,8 +47,11 @@ def write_page(folder: Path, lanes: tuple[str, ...] = ("NDOBC", "FL"), **changes
         "details": {
             "version": "9.9.9",
             "configuration": {"law": "ndobc", "end_s": math.inf},
-            "commands": [{"tick": 1000, "kind": "gains"}, (2000, {"kind": "load"})],
         },
+        "events": [
+            Event(1000, 1.0, "gains", "Gains changed"),
+            Event(2000, 2.0, "load_on", "3 kg load on"),
+        ],
     }
     path = folder / "run.html"
     path.write_text(build_replay_html(**(arguments | changes)), encoding="utf-8")

@@ -14,8 +14,9 @@ import pytest
 
 from svsa.errors import ParameterError
 from svsa.records.measured_window import MeasuredWindow
+from svsa.run.events import Event
 from svsa.run.metrics import compute_metrics
-from svsa_scene.replay_curves import decimate, list_events, pack_curves
+from svsa_scene.replay_curves import decimate, pack_curves
 from svsa_scene.replay_packing import ArrayPack
 from tests.scene.replay_page import CHANNELS, PERIOD_S, make_run, write_page
 
@@ -86,23 +87,6 @@ def test_equal_arrays_are_stored_once() -> None:
     assert pack.export()["places"] == [(0, 2), (8, 1)]
 
 
-def test_events_are_mass_changes_and_commands_and_one_fact_is_told_once() -> None:
-    mass = np.array([0.0, 0.0, 3.0, 3.0, 0.0])
-    commands = [
-        {"tick": 102, "kind": "load", "argument": {"kind": "paper"}},
-        [101, {"kind": "gains"}],
-        {"tick": 103, "label": "my_mark"},
-        {"tick": 3, "kind": "gains"},
-        {"tick": 199, "kind": "gains"},
-    ]
-    assert list_events(mass, {"commands": commands}, 100) == [
-        (1, "Gains changed"),
-        (2, "3 kg on"),
-        (3, "my mark"),
-        (4, "3 kg off"),
-    ]
-
-
 @pytest.mark.parametrize(
     ("changes", "named"),
     [
@@ -130,6 +114,17 @@ def read_run(page: Path) -> dict[str, Any]:
 
 def test_the_run_inside_the_page_is_strict_json(tmp_path: Path) -> None:
     assert read_run(write_page(tmp_path))["lanes"] == ["NDOBC", "FL"]
+
+
+def test_its_events_are_those_of_its_samples_in_its_own_time(tmp_path: Path) -> None:
+    ticks = (2999, 3000, 5000, 7000, 7001)
+    events = [Event(tick, tick / 1000, "law", f"at {tick}") for tick in ticks]
+    run = read_run(write_page(tmp_path, events=events, first_tick=3000))
+    assert run["events"] == [
+        {"time_s": 0.0, "kind": "law", "label": "at 3000"},
+        {"time_s": 2.0, "kind": "law", "label": "at 5000"},
+        {"time_s": 4.0, "kind": "law", "label": "at 7000"},
+    ]
 
 
 def test_its_numbers_are_of_the_window_that_it_names_in_its_own_time(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import pytest
 
 import svsa
 from svsa.fault_labels import label_fault
+from svsa.run import events
 from svsa.session.clock import LONGEST_BACKLOG_S
 
 from .sessions import PULSE, build_session, list_events, read_samples
@@ -111,6 +112,9 @@ def test_a_fault_stops_the_session_until_it_is_reset():
         == label_fault(session.run.fault.code)
         != session.run.fault.code
     )
+    journal = session.journal
+    recorded = events.list_events(journal.initial, journal.commands, session.run.fault)
+    assert recorded == list(journal.events)
     for refused in (session.start, lambda: session.step(1)):
         with pytest.raises(svsa.StateError, match="fault"):
             refused()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.run import events
 from svsa.run.command import KINDS, Command, read_command, replay
 from svsa.session.session import take_loads_off
 from svsa.signals import CHANNEL_INDEX
@@ -221,3 +222,37 @@ def test_the_version_grows_with_every_change_and_not_with_time():
     before = session.version
     session.wake(0.1)
     assert session.version == before
+
+
+def test_a_record_tells_what_was_told_live():
+    """Of the same commands the same events: laws by name, loads that were planned or not."""
+    session = build_session(PULSE)
+    session.step(20)
+    session.change("law", "fl")
+    session.change("gains", session.run.configuration.gains)
+    session.step(50)
+    session.change("rivals", (svsa.Lane(law="ndobc"),))
+    session.change("load", svsa.PaperLoad())
+    session.step(20)
+    session.change("laws", ("ndobc", "fl"))
+    for torque in (0.1, 0.2):
+        session.change("load", svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05))
+        session.step(30)
+    session.change("unload", 2)
+    session.change("load", svsa.ConstantLoad(torque_nm=(1.0, 0.0, 0.0)))
+    session.step(60)
+    told = list(session.journal.events)
+    assert [event.label for event in told] == [
+        "NDOBC → FL",
+        "Gains changed",
+        "Pulse torque on",
+        "Pulse torque off",
+        "Lanes changed",
+        "3 kg load on",
+        "FL → NDOBC",
+        "Push on",
+        "3 kg load off",
+        "Constant torque on",
+        "Push off",
+    ]
+    assert events.list_events(session.journal.initial, session.journal.commands) == told

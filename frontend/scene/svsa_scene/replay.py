@@ -7,7 +7,7 @@ in it asks for a network, and its content security policy would refuse it.
 import html
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from importlib.util import find_spec
 from pathlib import Path
@@ -18,8 +18,9 @@ import numpy.typing as npt
 
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.records.measured_window import MeasuredWindow
+from svsa.run.events import Event
 from svsa_scene.pose import LaneStretch
-from svsa_scene.replay_curves import compute_metrics, list_events, pack_curves
+from svsa_scene.replay_curves import compute_metrics, pack_curves
 from svsa_scene.replay_motion import POSE_CHANNELS, record_motion
 from svsa_scene.replay_packing import ArrayPack
 
@@ -48,6 +49,7 @@ def build_replay_html(
     load_mass_kg: np.ndarray | None,
     details: dict[str, Any],
     *,
+    events: Iterable[Event] = (),
     first_tick: int = 0,
     stretches: Sequence[Sequence[LaneStretch]] | None = None,
     window: MeasuredWindow | None = None,
@@ -60,9 +62,9 @@ def build_replay_html(
     `svsa.signals.CHANNELS`, at least those of a pose; more are left out. samples: float64 (ticks,
     lanes, channels), SI. load_mass_kg: mass hung on the link at every tick, (ticks,), kg; None is
     no mass. details: what the page says about the run (JSON); `version` and other plain values
-    stand in its header, `commands` ({"tick", "label" or "kind", …} or (tick, {…})) are marked on
-    the plots. window: in which the page measures; left out, the whole run. first_tick:
-    tick of the first sample, as the commands count; the page's time begins there at 0.
+    stand in its header. events: marked on the plots, as far as they are of these samples. window:
+    in which the page measures; left out, the whole run. first_tick: tick of the first sample, as
+    events and window count; the page's time begins there at 0.
 
     Takes some seconds and starts viser on a loopback port meanwhile: call it in a thread. Raises
     `ParameterError` for arrays that do not fit, `ReplayError` where the page was not built.
@@ -82,7 +84,6 @@ def build_replay_html(
         times = first_tick * period_s, end * period_s
         window = MeasuredWindow("start", "", first_tick, end, *times, True, tuple(lanes))
     motion = record_motion(samples, channels, stretches, period_s, mass, pack)
-    events = list_events(mass, details, first_tick)
     run = {
         "title": title,
         "period_s": period_s,
@@ -90,7 +91,15 @@ def build_replay_html(
         "lanes": lanes,
         "stretches": [[_write_stretch(one, period_s) for one in lane] for lane in stretches],
         "details": details,
-        "events": [{"time_s": tick * period_s, "label": label} for tick, label in events],
+        "events": [
+            {
+                "time_s": (event.tick - first_tick) * period_s,
+                "kind": event.kind,
+                "label": event.label,
+            }
+            for event in events
+            if 0 <= event.tick - first_tick <= len(samples)
+        ],
         "window": _write_window(window, period_s, first_tick),
         "metrics": compute_metrics(
             samples[window.first_tick - first_tick : window.end_tick - first_tick],
@@ -112,6 +121,11 @@ def _write_window(window: MeasuredWindow, period_s: float, first_tick: int) -> d
         "start_s": (window.first_tick - first_tick) * period_s,
         "end_s": (window.end_tick - first_tick) * period_s,
     }
+
+
+def _write_event(event: Event, period_s: float, first_tick: int) -> dict[str, Any]:
+    time_s = (event.tick - first_tick) * period_s
+    return {"time_s": time_s, "kind": event.kind, "label": event.label}
 
 
 def _write_stretch(stretch: LaneStretch, period_s: float) -> dict[str, Any]:

@@ -1,15 +1,14 @@
-"""The curves, marks and numbers of a run for its page, from samples at full rate."""
+"""The curves and numbers of a run for its page, from samples at full rate."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from svsa.records.measured_window import MeasuredWindow, summarize
-from svsa.run.command import KINDS
 from svsa.run.metrics import MEASURED, RunningMetrics
 from svsa.signals import PLOTTED
 from svsa_scene.replay_packing import ArrayPack
@@ -28,13 +27,6 @@ _LEAST_AXES = {
     "stiffness_reference_nm_per_rad": 2.0,
 }
 _LEAST_TORQUE_AXIS_NM = 1.0
-
-
-class Event(NamedTuple):
-    """A mark on the time axis: tick and words."""
-
-    tick: int
-    label: str
 
 
 def decimate(values: Array, stride: int) -> Array:
@@ -100,51 +92,3 @@ def compute_metrics(
     for lane, running in enumerate(lanes):
         running.update_measured(samples[:, lane, columns])
     return [asdict(metrics) for metrics in summarize(lanes, window) or ()]
-
-
-def list_events(
-    load_mass_kg: Array, details: Mapping[str, Any], first_tick: int = 0
-) -> list[Event]:
-    """Where the hung mass changes, and the commands in `details["commands"]`; ticks from 0.
-
-    A command is {"tick": …, …} or (tick, {…}), its tick counted as `first_tick` is; its words
-    are its `label` or its kind's. A command about loads where the mass changes is that change.
-    """
-    before = np.concatenate([[0.0], load_mass_kg[:-1]])
-    edges = np.flatnonzero(load_mass_kg != before)
-    events = [
-        Event(int(tick), _describe_mass(float(before[tick]), float(load_mass_kg[tick])))
-        for tick in edges
-    ]
-    for command in details.get("commands") or ():
-        event = _read_command(command)
-        if event is None or not 0 <= event.tick - first_tick <= len(load_mass_kg):
-            continue
-        tick = event.tick - first_tick
-        if "load" in event.label.lower() and np.any(np.abs(edges - tick) <= 1):
-            continue
-        events.append(Event(tick, event.label))
-    return sorted(events, key=lambda event: event.tick)
-
-
-def _describe_mass(before: float, now: float) -> str:
-    if now == 0.0:
-        return f"{before:.3g} kg off"
-    return f"{now:.3g} kg on"
-
-
-def _read_command(command: Any) -> Event | None:
-    if isinstance(command, list | tuple) and len(command) == 2:
-        tick, content = command
-    elif isinstance(command, Mapping):
-        tick, content = command.get("tick"), command
-    else:
-        return None
-    if not isinstance(tick, int | float) or not np.isfinite(tick):
-        return None
-    words = content
-    if isinstance(content, Mapping):
-        named = (content.get(key) for key in ("label", "kind", "name"))
-        words = next((word for word in named if isinstance(word, str) and word), "command")
-        words = KINDS[words].label if words in KINDS else words
-    return Event(int(tick), str(words).replace("_", " ")[:60])

@@ -6,8 +6,9 @@ import { boundsOf } from "./bounds";
 import { Curve } from "./curves";
 import { extentOf } from "./decimation";
 import type { Bound, Trace } from "./definitions";
+import { drawEventLines } from "./eventlines";
 import { StrokeLayer } from "./layer";
-import { drawBeginning, drawBounds, drawCursorSamples, drawEvents } from "./marks";
+import { drawBeginning, drawBounds, drawCursorSamples } from "./marks";
 import { includeBounds, niceRange } from "./range";
 import type { ChartView } from "./span";
 
@@ -39,7 +40,10 @@ export class Chart {
         scales: { x: { time: false, auto: false }, y: { auto: false } },
         axes: [timeGrid(), { ...valueAxis(), size: LEFT_PX }],
         series: [{}],
-        hooks: { drawClear: [drawEvents], draw: [() => this.#drawStrokes()] },
+        hooks: {
+          drawClear: [(plot) => drawEventLines(plot, session.peek()?.events ?? [])],
+          draw: [() => this.#drawStrokes()],
+        },
       },
       [[0, 1]],
       host,

@@ -3,8 +3,8 @@ import type { SessionEvent } from "../api/types";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { closeOnEscape } from "../widgets/escape";
+import { isLoad } from "./eventlines";
 import { onFrame, shareOf } from "./frame";
-import { isLoad } from "./marks";
 import { shownRing } from "./span";
 import { StepNumbers } from "./stepnumbers";
 

@@ -1,7 +1,5 @@
-/** What is drawn behind and above the curves: events, bounds, and the samples under the cursors. */
+/** What is drawn behind and above the curves: bounds, and the samples under the cursors. */
 import type uPlot from "uplot";
-import type { SessionEvent } from "../api/types";
-import { session } from "../state/session";
 import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
 import { cursorSamples } from "./cursors";
@@ -14,16 +12,6 @@ import { shownRing } from "./span";
 const LABEL_PX = 11;
 const SAMPLE_PX = 4;
 
-export const isLoad = (event: SessionEvent) =>
-  event.kind === "load_on" || event.kind === "load_off";
-
-function eventsInView(plot: uPlot): SessionEvent[] {
-  const { min, max } = plot.scales.x as uPlot.Scale;
-  if (min === undefined || max === undefined) return [];
-  const events = session.peek()?.events ?? [];
-  return events.filter((event) => event.time_s >= min && event.time_s <= max);
-}
-
 function strokeLine(
   context: CanvasRenderingContext2D,
   from: [number, number],
@@ -33,21 +21,6 @@ function strokeLine(
   context.moveTo(...from);
   context.lineTo(...to);
   context.stroke();
-}
-
-/** Vertical lines at the events in view. */
-export function drawEvents(plot: uPlot): void {
-  const { ctx: context, bbox } = plot;
-  context.save();
-  context.strokeStyle = palette.peek().mark;
-  context.lineWidth = devicePixelRatio;
-  context.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
-  for (const event of eventsInView(plot)) {
-    const x = Math.round(plot.valToPos(event.time_s, "x", true));
-    context.globalAlpha = isLoad(event) ? 1 : 0.5;
-    strokeLine(context, [x, bbox.top], [x, bbox.top + bbox.height]);
-  }
-  context.restore();
 }
 
 /** Faint lines at ±value of each bound that is on the axis. */

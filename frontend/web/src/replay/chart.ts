@@ -1,13 +1,13 @@
 /** One uPlot of the replay: curves that stand still, a line at the present time. */
 import uPlot from "uplot";
 import { plainAxis, valueAxis } from "../plots/axes";
+import { drawEventLines, type RunEvent } from "../plots/eventlines";
 import { palette } from "../plots/palette";
 import { niceRange } from "../plots/range";
 import { text } from "../text/replay";
 import { range, seek, showAll, showRange, timeS } from "./clock";
 import type { Curve } from "./curves";
-import type { RunEvent } from "./data";
-import { drawEventLabels, drawEvents } from "./marks";
+import { drawEventLabels } from "./marks";
 
 const X_AXIS_PX = 24;
 const LABELS_PX = 17;
@@ -54,7 +54,7 @@ export class Chart {
         axes: [timeAxis(isLast), valueAxis()],
         series: [{}, ...content.curves.map(drawnCurve)],
         hooks: {
-          drawClear: [(plot) => drawEvents(plot, events)],
+          drawClear: [(plot) => drawEventLines(plot, events)],
           draw: [
             ...(isFirst ? [(plot: uPlot) => drawEventLabels(plot, events)] : []),
             () => this.showTime(),

@@ -39,7 +39,7 @@ const REFERENCE_DASHES = [
   [10, 3, 2, 3],
 ] as const;
 
-const { plots } = text;
+const { channelLabels: labels, plots } = text;
 
 /** Copies what a controller did; where it was not in control there is no number. */
 function copyStretch(
@@ -107,15 +107,15 @@ export function definePlots(recording: Recording): ReplayPlot[] {
       values,
     }));
   const one = (...curves: Curve[][]): Choice[] => [{ label: "", curves: curves.flat() }];
-  const load = (label: string, name: string): Choice => ({
-    label,
+  const load = (name: "link" | "motor1" | "motor2"): Choice => ({
+    label: labels[`estimate_${name}_nm`],
     curves: [...lanes(`estimate_${name}_nm`, 1), ...truth(`disturbance_${name}_nm`)],
   });
 
   const all: ReplayPlot[] = [
     {
       key: "position",
-      title: plots.position,
+      title: plots.presets.position,
       unit: "deg",
       span: 2,
       choices: one(
@@ -125,14 +125,14 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     },
     {
       key: "error",
-      title: plots.error,
+      title: plots.presets.error,
       unit: "deg",
       span: 0.004,
       choices: one(lanes("position_error_rad", DEGREES_PER_RADIAN)),
     },
     {
       key: "stiffness",
-      title: plots.stiffness,
+      title: plots.presets.stiffness,
       unit: "N·m/rad",
       span: 2,
       choices: one(
@@ -142,24 +142,20 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     },
     {
       key: "torque",
-      title: plots.torque,
+      title: plots.presets.torque,
       unit: "N·m",
       span: 1,
       choices: [
-        { label: plots.torque1, curves: lanes("torque1_nm", 1) },
-        { label: plots.torque2, curves: lanes("torque2_nm", 1) },
+        { label: labels.torque1_nm, curves: lanes("torque1_nm", 1) },
+        { label: labels.torque2_nm, curves: lanes("torque2_nm", 1) },
       ],
     },
     {
       key: "disturbance",
-      title: plots.disturbance,
+      title: plots.presets.disturbance,
       unit: "N·m",
       span: 1,
-      choices: [
-        load(plots.link, "link"),
-        load(plots.motor1, "motor1"),
-        load(plots.motor2, "motor2"),
-      ],
+      choices: [load("link"), load("motor1"), load("motor2")],
     },
   ];
   return all

@@ -1,5 +1,6 @@
 /** The run inside the page: JSON, and arrays of numbers packed into one compressed text. */
 import type { Metrics } from "../api/types";
+import type { RunEvent } from "../plots/eventlines";
 import type { Measured } from "../runs/measured";
 import { type Mark, markOf } from "../state/plant";
 import { type Packed, unpack } from "./packing";
@@ -24,11 +25,6 @@ export interface Motion {
   frames: number;
   tracks: Track[];
   theme: Record<string, unknown>;
-}
-
-export interface RunEvent {
-  time_s: number;
-  label: string;
 }
 
 /** Who controlled a lane, from a time of the page on up to before another. */

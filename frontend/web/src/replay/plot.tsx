@@ -1,13 +1,13 @@
 import { effect } from "@preact/signals";
 import type { RefObject } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import type { RunEvent } from "../plots/eventlines";
 import { palette } from "../plots/palette";
 import { text } from "../text/replay";
 import { formatNumber } from "../units";
 import { Chart, type ChartContent } from "./chart";
 import { range, timeS } from "./clock";
 import type { Curve, ReplayPlot } from "./curves";
-import type { RunEvent } from "./data";
 
 export interface PlotProps {
   plot: ReplayPlot;

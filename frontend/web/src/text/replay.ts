@@ -1,5 +1,8 @@
-/** Every word of the page of an exported run. */
+/** Every word of the page of an exported run; of its plots, those of the live page. */
+import { plotsText } from "./plots";
+
 export const text = {
+  channelLabels: plotsText.channelLabels,
   name: "SVSA Lab",
   recorded: "recorded run",
   broken: "This file is damaged or was cut off: the run in it cannot be read.",
@@ -50,22 +53,8 @@ export const text = {
     more: (count: number) => `and ${count} more`,
   },
   plots: {
-    heading: "Plots",
+    ...plotsText.plots,
     hint: "Click: go there. Drag: zoom in. Double click: whole run.",
-    timeTick: (seconds: number) => `${Number(seconds.toFixed(4))} s`,
-    toggle: (label: string) => `Show or hide ${label}`,
-    position: "Position",
-    error: "Position error",
-    stiffness: "Stiffness",
-    torque: "Torque",
-    disturbance: "Disturbance",
     choose: (title: string) => `${title}: which one`,
-    reference: "reference",
-    true: "true",
-    torque1: "u₁",
-    torque2: "u₂",
-    link: "link",
-    motor1: "motor 1",
-    motor2: "motor 2",
   },
 } as const;
