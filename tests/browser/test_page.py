@@ -112,6 +112,19 @@ def test_the_3d_view_shows_the_mechanism(page: Page, lab: Lab) -> None:
     expect(canvas).to_be_visible(timeout=PATIENCE_MS)
 
 
+def test_the_documentation_takes_the_theme_of_the_page(page: Page, lab: Lab) -> None:
+    for scheme, brightness in (("light", 255), ("dark", 30)):
+        page.emulate_media(color_scheme=scheme)  # pyright: ignore[reportArgumentType]
+        page.goto(lab.url + "/docs")
+        part = page.locator(".swagger-ui").first
+        expect(part).to_contain_text("/api/v1/health")
+        colour = part.evaluate("one => getComputedStyle(one).backgroundColor")
+        opaque = "rgba(0, 0, 0, 0)" not in colour
+        shown = [int(part) for part in re.findall(r"\d+", colour)[:3]] if opaque else [255] * 3
+        assert max(shown) <= brightness + 10
+        assert min(shown) >= brightness - 10
+
+
 def test_a_lab_with_a_secret_asks_for_it_once(page: Page) -> None:
     with run_lab(secret="correct horse battery") as lab:
         page.goto(lab.url)

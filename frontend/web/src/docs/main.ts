@@ -1,6 +1,13 @@
 /** The documentation of REST and stream: Swagger UI from this server, and nothing from elsewhere. */
+import { effect } from "@preact/signals";
 import SwaggerUI from "swagger-ui-dist/swagger-ui-es-bundle.js";
 import "swagger-ui-dist/swagger-ui.css";
+import "./docs.css";
+import { theme } from "../state/preferences";
+
+effect(() => {
+  document.documentElement.classList.toggle("dark-mode", theme.value === "dark");
+});
 
 SwaggerUI({
   url: "openapi.json",
