@@ -93,4 +93,10 @@ def test_a_recording_is_begun_told_and_ended(page: Page, lab: Lab) -> None:
     recording.click()
     expect(page.get_by_role("button", name="Record", exact=True)).to_be_visible()
     expect(find_switch(page)).to_be_enabled()
+    note = page.get_by_role("status").filter(has_text=re.compile("^Saved:"))
+    expect(note).to_be_visible()
+    told, work = note.bounding_box(), page.locator(".lab").bounding_box()
+    assert told is not None
+    assert work is not None
+    assert told["y"] + told["height"] <= work["y"], "what is told covers nothing"
     assert lab.read()["recording"] is None

@@ -109,6 +109,44 @@ def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visite
     assert not cut
 
 
+@pytest.mark.parametrize("visited", ["simulation"], indirect=True)
+def test_a_list_of_plots_shows_whole_ones_where_legends_have_two_rows(
+    visited: Page, lab: Lab
+) -> None:
+    """Controllers that followed one another, each with its entry in every legend."""
+    visited.set_viewport_size({"width": 1280, "height": 900})
+    lab.jump(1)
+    for bandwidth in (40, 50, 70, 80):
+        channels = [float(bandwidth)] * 3
+        path = lab.session + "/observer"
+        request = {"bandwidth_rad_per_s": channels}
+        lab.client.put(path, json=request).raise_for_status()
+        lab.jump(1)
+    entries = visited.locator(".plot").first.locator(".legend-entry")
+    expect(entries).to_have_count(6)
+    foot = get_box(visited.locator(".plots-foot"))["y"]
+    plots = [get_box(one) for one in visited.locator(".plots-stage > .plot").all()]
+    seen = [one for one in plots if one["y"] < foot - 1]
+    assert get_box(visited.locator(".plot-head").first)["height"] > 40
+    assert len(seen) < len(plots)
+    assert max(one["y"] + one["height"] for one in seen) <= foot + 2
+    expect(visited.get_by_role("button", name=re.compile("more plots? below"))).to_be_visible()
+
+
+@pytest.mark.parametrize("visited", ["simulation"], indirect=True)
+def test_what_is_refused_at_the_edge_of_the_panel_is_brought_into_sight(
+    visited: Page, lab: Lab
+) -> None:
+    visited.set_viewport_size({"width": 1280, "height": 720})
+    lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
+    visited.get_by_role("button", name="Excite and record").click()
+    refused = visited.get_by_text("take every load off first")
+    expect(refused).to_be_in_viewport(ratio=1)
+    edge = get_box(visited.get_by_role("group", name="Controls", exact=True).locator(".groups"))
+    box = get_box(refused)
+    assert box["y"] + box["height"] <= edge["y"] + edge["height"]
+
+
 def test_every_group_of_controls_is_in_sight_or_named_at_the_edge(visited: Page) -> None:
     visited.set_viewport_size({"width": 1280, "height": 720})
     visited.evaluate("for (const fold of document.querySelectorAll('details')) fold.open = true")

@@ -144,6 +144,46 @@ def test_a_tag_is_given_on_the_page_of_a_run_and_filters_the_table(
     assert own_lab.client.get(f"/api/v1/runs/{runs[1]}").json()["tags"] == []
 
 
+def test_a_replay_that_takes_its_time_is_told_of(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    held: list[Route] = []
+    page.route("**/replay", lambda route: held.append(route))
+    page.goto(f"{own_lab.url}/?run={runs[1]}", wait_until="commit")
+    waiting = page.get_by_role("status").filter(has_text="Making the replay…")
+    expect(waiting).to_be_visible()
+    expect(find_replay(page).get_by_role("button", name="Play")).to_have_count(0)
+    held[0].continue_()
+    expect(find_replay(page).get_by_role("button", name="Play")).to_be_visible(timeout=PATIENCE_MS)
+    expect(waiting).to_have_count(0)
+
+
+NUMBERS_CUT = """() => [...document.querySelectorAll(".overlay-table td, .overlay-table th")]
+    .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText)"""
+
+
+def test_on_a_phone_the_numbers_of_an_overlay_come_beside_the_whole_names(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    long = "A name as long as somebody types it who does not think of tables, not even of one"
+    own_lab.client.patch(f"/api/v1/runs/{runs[1]}", json={"name": long}).raise_for_status()
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.goto(f"{own_lab.url}/?overlay={','.join(runs)}")
+    table = page.get_by_role("region", name="Each in the window named")
+    name = table.get_by_role("rowheader").filter(has_text=long)
+    name.scroll_into_view_if_needed()
+    whole = table.bounding_box()
+    first = name.bounding_box()
+    assert whole is not None
+    assert first is not None
+    assert first["width"] < 0.6 * whole["width"]
+    assert page.evaluate(NUMBERS_CUT) == []
+    table.evaluate("one => one.scrollTo({ left: 400 })")
+    moved = name.bounding_box()
+    assert moved is not None
+    assert moved["x"] == pytest.approx(first["x"], abs=1), "the name stays beside its numbers"
+
+
 def test_no_control_of_the_live_session_stands_above_a_replay(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:

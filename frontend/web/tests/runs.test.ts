@@ -16,6 +16,7 @@ const details = (change: object) =>
   }) as unknown as RunDetails;
 let readPlace: typeof ReadPlace;
 let writePlace: typeof WritePlace;
+let tellDegrees: typeof import("../src/runs/columns").tellDegrees;
 let describeMeasured: typeof import("../src/runs/measured").describeMeasured;
 let explainSettled: typeof import("../src/runs/measured").explainSettled;
 let overlay: typeof import("../src/runs/overlaid").overlay;
@@ -42,6 +43,7 @@ beforeAll(async () => {
   });
   ({ readPlace, writePlace } = await import("../src/runs/place"));
   ({ describeMeasured, explainSettled } = await import("../src/runs/measured"));
+  ({ tellDegrees } = await import("../src/runs/columns"));
   ({ overlay } = await import("../src/runs/overlaid"));
   ({ areAlike } = await import("../src/runs/metricstable"));
   ({ drawSpark } = await import("../src/runs/spark"));
@@ -84,6 +86,15 @@ describe("the window of a run's numbers", () => {
     expect(describeMeasured(measured, true)).toBe("FL: 3 kg load, 2.00–5.00 s");
     expect(describeMeasured({ ...measured, is_whole: true })).toBe("Whole run");
     expect(describeMeasured({ ...measured, label: "" })).toBe("From the start, 2.00–5.00 s");
+  });
+
+  it("has every lane's number by its law, for where a table has no room for all", () => {
+    const metrics = [{ peak_position_error_rad: 0.0628 }, { peak_position_error_rad: 0.195 }];
+    const run = details({ window: { ...window, lanes: ["NDOBC", "FL"] }, metrics });
+    expect(tellDegrees(run, "peak_position_error_rad")).toBe("NDOBC 3.6°, FL 11°");
+    expect(tellDegrees(details({ window: null, metrics }), "peak_position_error_rad")).toBe(
+      undefined,
+    );
   });
 
   it("has a steady error where its load stays, and is long enough", () => {

@@ -16,7 +16,6 @@ import { Banners } from "./banners";
 import { Comparison } from "./comparison";
 import { Login } from "./login";
 import { Readout } from "./readout";
-import { SavedNote } from "./savednote";
 import { StatusBar } from "./statusbar";
 import { TopBar } from "./topbar";
 import { View } from "./view";
@@ -56,7 +55,6 @@ export function App() {
       <LearnPanel />
       {state !== null && at.kind === "lab" && <Tour />}
       <CallsDrawer />
-      <SavedNote />
       <StatusBar />
     </>
   );

@@ -6,6 +6,7 @@ import { perform } from "../state/actions";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
+import { SavedNote } from "./savednote";
 
 /** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */
 function Told({ now }: { now: NonNullable<typeof told.value> }) {
@@ -78,6 +79,7 @@ export function Banners() {
         </div>
       )}
       <ControlBanner />
+      <SavedNote />
       <Problem control="session" />
     </div>
   );

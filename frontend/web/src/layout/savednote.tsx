@@ -26,12 +26,12 @@ export function SavedNote() {
     saved.value = null;
   };
   return (
-    <div class="undo saved" role="status" hidden={now === null}>
+    <div class="banner is-news" role="status" hidden={now === null}>
       {now && (
         <>
-          <span>
+          <p>
             <strong>{head}</strong> {rest}
-          </span>
+          </p>
           {now.stage === "saved" && (
             <span onClickCapture={close}>
               <PlaceLink to={{ kind: "run", run: now.run, timeS: 0 }} class="button">

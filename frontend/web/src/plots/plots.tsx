@@ -75,11 +75,12 @@ export function Plots() {
   const list = useRef<HTMLElement>(null);
   useEffect(() => {
     const ends = [followSession(), followChannels(), releaseCursors()];
-    if (list.current !== null) ends.push(keepShare(list.current));
     return () => {
       for (const end of ends) end();
     };
   }, []);
+  const shown = setups.value;
+  useEffect(() => (list.current === null ? undefined : keepShare(list.current)), [shown]);
   const phase = setups.value.find(({ preset }) => preset === "phase");
   const isEmpty = setups.value.length === 0;
   const looks = {

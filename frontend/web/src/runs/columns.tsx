@@ -36,10 +36,28 @@ function windowOf(run: RunSummary): string | null {
   return run.window && describeMeasured(shiftToRecord(run.window, run), isNamed);
 }
 
-const degrees = (run: RunSummary, measure: Measure): string | null =>
-  run.metrics === null || run.metrics.length === 0
-    ? null
-    : run.metrics.map((lane) => formatDegrees(lane[measure])).join(" / ");
+const degreesOf = (run: RunSummary, measure: Measure): string[] =>
+  (run.metrics ?? []).map((lane) => formatDegrees(lane[measure]));
+
+/** Lane by lane; where there is no room for all of them, whole values are left out. */
+function Degrees({ values }: { values: readonly string[] }) {
+  return (
+    <>
+      {values.map((value, lane) => (
+        <span key={lane} class="run-value">
+          {lane > 0 && "/ "}
+          {value}
+        </span>
+      ))}
+    </>
+  );
+}
+
+/** Each with who controlled the lane. */
+export const tellDegrees = (run: RunSummary, measure: Measure): string | undefined =>
+  run.window?.lanes
+    .map((name, lane) => `${name} ${degreesOf(run, measure)[lane] ?? formatNumber(null)}`)
+    .join(", ");
 
 const formatDegrees = (rad: number | null): string =>
   rad === null ? formatNumber(null) : `${formatNumber(toDegrees(rad), 2, 4)}°`;
@@ -54,10 +72,10 @@ const measureOf = (
   sort: measure,
   isDownFirst: true,
   isNumber: true,
-  show: (run: RunSummary) => degrees(run, measure),
+  show: (run: RunSummary) =>
+    run.metrics?.length ? <Degrees values={degreesOf(run, measure)} /> : null,
+  hintOf: (run: RunSummary) => tellDegrees(run, measure),
 });
-
-const namesOf = ({ window }: RunSummary): string | undefined => window?.lanes.join(" / ");
 
 const setting = (read: (settings: NonNullable<RunSummary["settings"]>) => string) => ({
   show: (run: RunSummary) => run.settings && <Marked>{read(run.settings)}</Marked>,
@@ -118,30 +136,27 @@ export const COLUMNS: readonly Column[] = [
     show: windowOf,
     hintOf: (run) => windowOf(run) ?? undefined,
   },
-  {
-    ...measureOf("peak", "peak_position_error_rad", {
-      name: words.columns.peak,
-      hint: words.columns.peakHint,
-      label: words.peak,
-    }),
-    hintOf: namesOf,
-  },
+  measureOf("peak", "peak_position_error_rad", {
+    name: words.columns.peak,
+    hint: words.columns.peakHint,
+    label: words.peak,
+  }),
   {
     ...measureOf("settled", "settled_position_error_rad", {
       name: words.columns.settled,
       hint: words.columns.settledHint,
       label: words.settled,
     }),
-    hintOf: (run) => (run.window === null ? undefined : explainSettled(run.window)),
+    hintOf: (run) =>
+      run.window === null
+        ? undefined
+        : `${tellDegrees(run, "settled_position_error_rad")}: ${explainSettled(run.window)}`,
   },
-  {
-    ...measureOf("rms", "rms_position_error_rad", {
-      name: words.columns.rms,
-      hint: words.columns.rmsHint,
-      label: words.rms,
-    }),
-    hintOf: namesOf,
-  },
+  measureOf("rms", "rms_position_error_rad", {
+    name: words.columns.rms,
+    hint: words.columns.rmsHint,
+    label: words.rms,
+  }),
   {
     key: "duration",
     name: words.columns.duration,

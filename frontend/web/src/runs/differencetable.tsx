@@ -57,7 +57,9 @@ export function DifferenceTable({ runs }: { runs: readonly string[] }) {
     <section class="overlay-table difference" tabIndex={0} aria-label={words.title}>
       <table>
         <caption>
-          {words.title} <small class="unit">{words.hint}</small>
+          <span>
+            {words.title} <small class="unit">{words.hint}</small>
+          </span>
         </caption>
         <thead>
           <tr>

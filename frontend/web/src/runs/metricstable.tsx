@@ -70,8 +70,10 @@ export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
     <section class="overlay-table" tabIndex={0} aria-label={words.table}>
       <table>
         <caption>
-          {words.table}
-          {!areAlike(curves) && <small class="unit"> {words.unequal}</small>}
+          <span>
+            {words.table}
+            {!areAlike(curves) && <small class="unit"> {words.unequal}</small>}
+          </span>
         </caption>
         <thead>
           <tr>
@@ -90,8 +92,10 @@ export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
           {curves.map((curve, row) => (
             <tr key={curve.key}>
               <th scope="row">
-                <Swatch look={curve.ink} />
-                {nameCurve(curve)}
+                <span class="overlay-name">
+                  <Swatch look={curve.ink} />
+                  {nameCurve(curve)}
+                </span>
               </th>
               <td class="overlay-window">{windowOf(curve)}</td>
               {columns.map((column) => (

@@ -1,4 +1,4 @@
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { replayAddress } from "../api/runs";
 import { pressStop } from "../safety/stop";
 import { theme } from "../state/preferences";
@@ -26,6 +26,8 @@ function passStop(event: KeyboardEvent): void {
 export function ReplayFrame({ run, name, startS, onMoment }: ReplayFrameProps) {
   const frame = useRef<HTMLIFrameElement>(null);
   const moment = useRef(startS);
+  const address = `${theme.value} ${run}`;
+  const [shown, setShown] = useState("");
   useEffect(() => {
     const timer = setInterval(() => {
       const replay = (frame.current?.contentWindow as Partial<Window> | null)?.svsaReplay;
@@ -36,15 +38,23 @@ export function ReplayFrame({ run, name, startS, onMoment }: ReplayFrameProps) {
     return () => clearInterval(timer);
   }, [onMoment]);
   return (
-    <iframe
-      key={theme.value}
-      ref={frame}
-      class="replay-frame"
-      title={text.run.replay(name)}
-      src={replayAddress(run, moment.current)}
-      onLoad={({ currentTarget: { contentWindow } }) =>
-        contentWindow?.addEventListener("keydown", passStop, true)
-      }
-    />
+    <div class="replay-place">
+      {shown !== address && (
+        <p class="replay-waiting" role="status">
+          {text.run.waiting}
+        </p>
+      )}
+      <iframe
+        key={address}
+        ref={frame}
+        class="replay-frame"
+        title={text.run.replay(name)}
+        src={replayAddress(run, moment.current)}
+        onLoad={({ currentTarget: { contentWindow } }) => {
+          contentWindow?.addEventListener("keydown", passStop, true);
+          setShown(address);
+        }}
+      />
+    </div>
   );
 }

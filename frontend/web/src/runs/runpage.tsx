@@ -23,20 +23,23 @@ interface WrittenProps {
   onWrite: (value: string) => unknown;
 }
 
-/** A line of text that is kept when it is left, or with Enter; Escape takes the draft back. */
+/** A line of text, wrapped where it is long, that is kept when it is left, or with Enter; Escape takes the draft back. */
 function Written({ label, hint, value, longest, onWrite, ...rest }: WrittenProps) {
   const [draft, setDraft] = useState<string | null>(null);
   return (
-    <input
-      type="text"
+    <textarea
+      rows={1}
       class={rest.class}
       aria-label={label}
       placeholder={hint}
       maxLength={longest}
       value={draft ?? value}
-      onInput={(event) => setDraft(event.currentTarget.value)}
+      onInput={(event) => setDraft(event.currentTarget.value.replace(/\s*\n\s*/g, " "))}
       onKeyDown={(event) => {
-        if (event.key === "Enter") event.currentTarget.blur();
+        if (event.key === "Enter") {
+          event.preventDefault();
+          event.currentTarget.blur();
+        }
         if (event.key === "Escape") setDraft(null);
       }}
       onBlur={() => {

@@ -1,11 +1,16 @@
+import { useEffect, useRef } from "preact/hooks";
 import { problem } from "../state/actions";
 
-/** Why the server refused what a control asked for. */
+/** Why the server refused what a control asked for; brought into sight where its panel scrolls. */
 export function Problem({ control, id }: { control: string; id?: string }) {
-  const isMine = problem.value?.control === control;
+  const line = useRef<HTMLParagraphElement>(null);
+  const mine = problem.value?.control === control ? problem.value : null;
+  useEffect(() => {
+    if (mine !== null) line.current?.scrollIntoView({ block: "nearest" });
+  }, [mine]);
   return (
-    <p class="problem" id={id} role="alert" hidden={!isMine}>
-      {isMine && problem.value?.message}
+    <p class="problem" id={id} role="alert" hidden={mine === null} ref={line}>
+      {mine?.message}
     </p>
   );
 }
