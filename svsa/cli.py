@@ -139,8 +139,11 @@ def compile_loop() -> None:
 
 
 def prepare() -> None:
-    """Have the control loop compiled, and say so where it takes long."""
-    from svsa.control.installed import list_law_names
+    """Have the control loop and every law compiled, and say so where it takes long.
+
+    A law that does not work is named, and the others go on.
+    """
+    from svsa.control.installed import LawError, list_law_names
     from svsa.experiment.simulate import simulate
     from svsa.loop.loop import advance
 
@@ -151,7 +154,10 @@ def prepare() -> None:
         _messages.print(text)
     with _messages.status(text):
         for law in list_law_names():
-            simulate("4a", law, duration_s=0.01)
+            try:
+                simulate("4a", law, duration_s=0.01)
+            except LawError as error:
+                _messages.print(f"[bold red]{escape(str(error))}[/]", highlight=False)
 
 
 def main() -> None:

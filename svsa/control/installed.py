@@ -10,16 +10,12 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, WithJsonSchema
 
 from svsa.control.gains import Gains
-from svsa.control.law import NAME, Law
+from svsa.control.law import NAME, Law, LawError
 from svsa.control.parameters import LawParameters, UnreadParameters
-from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.errors import ParameterError, Violation
 
 GROUP = "svsa.laws"
 PAPERS_LAW = "ndobc"
-
-
-class LawError(SvsaError):
-    """A law that is installed and cannot be used."""
 
 
 @cache
@@ -79,29 +75,34 @@ def get_law(name: str) -> Law:
     return law
 
 
-def is_installed(name: str) -> bool:
-    """Whether there is a law of this name here."""
-    return name in _find_entries()
+def is_usable(name: str) -> bool:
+    """Whether a law of this name is installed here and loads."""
+    try:
+        return bool(get_law(name))
+    except (ParameterError, LawError):
+        return False
 
 
 def get_title(name: str) -> str:
-    """How a law is called in a legend; one that is not installed says so."""
-    return get_law(name).title if is_installed(name) else f"{name} (not installed)"
+    """How a law is called in a legend; one that is not installed, or does not load, says so."""
+    if is_usable(name):
+        return get_law(name).title
+    return f"{name} (does not load)" if name in _find_entries() else f"{name} (not installed)"
 
 
 def has_own_parameters(name: str) -> bool:
     """Whether a law has parameters of its own, and does not take the gains of the run."""
-    return not is_installed(name) or get_law(name).parameters is not Gains
+    return not is_usable(name) or get_law(name).parameters is not Gains
 
 
 def read_parameters(name: str, given: Any) -> LawParameters:
-    """Parameters of the law of this name; those of a law that is not installed stay as they are.
+    """Parameters of the law of this name; those of a law that cannot be used stay as they are.
 
     Raises `ParameterError` for what are none.
     """
     if not has_own_parameters(name):
         raise ParameterError(Violation("", given, "", f"left out: {name} takes the run's gains"))
-    model = get_law(name).parameters if is_installed(name) else UnreadParameters
+    model = get_law(name).parameters if is_usable(name) else UnreadParameters
     if isinstance(given, model):
         return given
     if not isinstance(given, dict) or not all(isinstance(key, str) for key in given):

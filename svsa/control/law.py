@@ -10,7 +10,7 @@ import numpy as np
 
 from svsa.control.call import BoundLaw, bind
 from svsa.control.parameters import LawParameters
-from svsa.errors import ParameterError, Violation
+from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.model.domain import Domain
 from svsa.model.dynamics import Actuator
 from svsa.packed import pack
@@ -19,6 +19,10 @@ EstimateSource = Literal["none", "observer", "own"]
 
 NAME = re.compile(r"[a-z][a-z0-9_]{0,39}", re.ASCII)
 _ESTIMATE = ("w2", "w4", "w6")
+
+
+class LawError(StateError):
+    """A law that is installed and cannot be used."""
 
 
 class Setting(NamedTuple):
@@ -94,10 +98,20 @@ class Law:
         return self._start.view(np.float64).copy()
 
     def bind(self, parameters: LawParameters, setting: Setting) -> BoundLaw:
-        """The law as the compiled loop calls it; compiled where it has not been before."""
-        constants = pack(self.build(parameters, setting))
+        """The law as the compiled loop calls it; compiled where it has not been before.
+
+        Raises `LawError` where the law's own code fails at it.
+        """
         is_own = self.estimate == "own"
-        return bind(self.control, pack(setting.nominal), constants, self._start, is_own)
+        try:
+            constants = pack(self.build(parameters, setting))
+            return bind(self.control, pack(setting.nominal), constants, self._start, is_own)
+        except SvsaError:
+            raise
+        except Exception as error:
+            first, *_ = str(error).strip().split("\n")
+            told = f"{type(error).__name__}: {first}"
+            raise LawError(f"The law {self.name} does not compile: {told}") from error
 
 
 def _name_front(memory: np.dtype) -> tuple[str, ...]:

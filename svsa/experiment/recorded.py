@@ -4,6 +4,7 @@ from pathlib import Path
 
 from svsa.errors import ParameterError
 from svsa.experiment.result import Result, build_results
+from svsa.records.acting import read_acting
 from svsa.records.catalogue.entry import RunPage
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.header import HEADER_FILE, RecordError
@@ -48,11 +49,8 @@ def open_run(run: str | Path) -> Result:
         configuration, commands = read_origin(record)
     except ParameterError as error:
         raise RecordError(f"Run {header.run_id} cannot be opened: {error}") from None
-    law, rivals = configuration.law, configuration.rivals
-    for command in commands:
-        if command.tick <= record.first_tick:
-            law = command.argument if command.kind == "law" else law
-            rivals = command.argument if command.kind == "rivals" else rivals
+    acting = read_acting(header, record.commands, record.first_tick, record.tick_count)
+    law, rivals = acting.get_values("law")[0], acting.get_values("rivals")[0]
     laws = (law, *(rival.law for rival in rivals))
     samples = record.samples.transpose(1, 0, 2)
     if len(laws) != len(samples):

@@ -57,27 +57,31 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
     A command at a sample's tick acts on that sample: one given after the last acted on none.
     """
     end = first_tick + max(ticks, 1)
-    commands = _split_laws(header.configuration.get("rivals"), commands)
+    commands = _tell_by_lanes(header.configuration.get("rivals"), commands)
     return Acting(
         {name: _follow(name, header.configuration, commands, first_tick, end) for name in SETTINGS},
         _find_loads(header, commands, first_tick, end),
     )
 
 
-def _split_laws(rivals: Any, commands: Commands) -> Commands:
-    """Laws given to several lanes at once, as a law of the first and lanes beside it."""
+def _tell_by_lanes(rivals: Any, commands: Commands) -> Commands:
+    """What was given to some lanes, as a law of the first and all lanes beside it."""
     split: Commands = []
     for tick, command in commands:
         kind, argument = command.get("kind"), command.get("argument")
         if kind == "rivals":
             rivals = argument
         laws = _read(KINDS["laws"].argument, argument) if kind == "laws" else None
-        lanes = _read(KINDS["rivals"].argument, rivals) if laws else None
+        one = _read(KINDS["lane"].argument, argument) if kind == "lane" else None
+        lanes = _read(KINDS["rivals"].argument, rivals) if laws or one else None
         if laws and lanes is not None:
             given = [lane.controlled_by(law) for lane, law in zip(lanes, laws[1:], strict=False)]
             rivals = (*given, *lanes[len(given) :])
             split += [(tick, {"kind": "law", "argument": laws[0]})]
             split += [(tick, {"kind": "rivals", "argument": rivals})]
+        elif one and lanes is not None and one.lane <= len(lanes) + 1:
+            rivals = (*lanes[: one.lane - 2], one.controller, *lanes[one.lane - 1 :])
+            split.append((tick, {"kind": "rivals", "argument": rivals}))
         else:
             split.append((tick, command))
     return split

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from svsa.control.installed import get_law, is_installed
+from svsa.control.installed import get_law, is_usable
 from svsa.plant.disturbances import (
     PAPER_ARM_M,
     ConstantLoad,
@@ -82,8 +82,8 @@ def describe_lanes(lanes: Sequence[Lane]) -> str:
 
 
 def tell_law(name: str) -> str:
-    """The title of a law, or the name of one that is not installed."""
-    return get_law(name).title if is_installed(name) else name
+    """The title of a law, or the name of one that cannot be used here."""
+    return get_law(name).title if is_usable(name) else name
 
 
 def _tell_own(lane: Lane) -> str:

@@ -17,7 +17,7 @@ from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load, ScheduledLoad, follow_loads
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.run.configuration import Configuration, Lane
+from svsa.run.configuration import Configuration, Lane, LaneSetting
 from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
@@ -54,6 +54,7 @@ KINDS: dict[str, CommandKind] = {
     ),
     "effects": CommandKind(Run.set_effects, TypeAdapter(Effects), "Effects changed"),
     "rivals": CommandKind(Run.set_rivals, TypeAdapter(tuple[Lane, ...]), "Lanes changed"),
+    "lane": CommandKind(Run.set_lane, TypeAdapter(LaneSetting), "A lane changed"),
     "load": CommandKind(Run.add_load, TypeAdapter(Load), "Load applied"),
     "unload": CommandKind(Run.remove_load, TypeAdapter(Whole), "Load taken off"),
 }

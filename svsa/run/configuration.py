@@ -75,6 +75,13 @@ class Lane(Checked):
         return self if law == self.law else self.changed(law=law, parameters=None)
 
 
+class LaneSetting(Checked):
+    """What controls a lane beside the first."""
+
+    lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MOST_LANES)
+    controller: Lane
+
+
 class Configuration(Design):
     """Everything that decides a run, besides the commands given while it runs."""
 
@@ -130,6 +137,16 @@ class Configuration(Design):
             lane.controlled_by(law) for lane, law in zip(self.rivals, laws[1:], strict=False)
         ]
         return self.changed(law=laws[0], rivals=(*changed, *self.rivals[len(changed) :]))
+
+    def with_lane(self, setting: LaneSetting) -> Self:
+        """One lane beside with this controller; raises `ParameterError` where there is none."""
+        lanes = len(self.lanes)
+        if setting.lane > lanes:
+            bound = f"2 to {lanes}, of the lanes that run" if lanes > 1 else "none: one lane runs"
+            raise ParameterError(Violation("lane", setting.lane, "", bound))
+        at = setting.lane - 2
+        rivals = (*self.rivals[:at], setting.controller, *self.rivals[at + 1 :])
+        return self.changed(rivals=rivals)
 
 
 def read_design(path: Path | str) -> Design:

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from svsa.control.installed import get_law, get_title, is_installed
+from svsa.control.installed import get_law, get_title, is_usable
 from svsa.control.parameters import LawParameters, UnreadParameters
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.run.configuration import Configuration, Lane
@@ -65,7 +65,7 @@ def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]
 
 
 def _build(configuration: Configuration, lane: Lane, place: str) -> Controller:
-    if not is_installed(lane.law):
+    if not is_usable(lane.law):
         written = lane.parameters or configuration.parameters.get(lane.law) or UnreadParameters()
         return Controller(place, lane.law, written, None, 1)
     is_observing = get_law(lane.law).estimate == "observer"

@@ -64,6 +64,8 @@ def describe_change(command: Command, law: LawName) -> str:
     given = find_law(command)
     if given is not None and given != law:
         return f"{get_title(law)} → {get_title(given)}"
+    if command.kind == "lane":
+        return f"{get_title(command.argument.controller.law)} set beside"
     return KINDS[command.kind].label
 
 

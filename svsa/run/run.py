@@ -34,7 +34,7 @@ from svsa.reference.trajectories import (
 )
 from svsa.reference.transition import Stack, build_stack, push_trajectory
 from svsa.run.blocks import bind_law, build_blocks
-from svsa.run.configuration import MOST_LOADS, Configuration, Lane
+from svsa.run.configuration import MOST_LOADS, Configuration, Lane, LaneSetting
 from svsa.run.fault import build_fault
 from svsa.signals import State
 
@@ -89,7 +89,7 @@ class Run:
         self.lanes = [
             build_lane_state(get_law(lane.law).start_memory(), x) for lane in configuration.lanes
         ]
-        self._connect()
+        self._connect(self.configuration)
         for load in configuration.loads:
             self.add_load(load)
 
@@ -165,14 +165,25 @@ class Run:
         A law that comes remembers nothing. Raises `ParameterError` where there are fewer lanes
         than laws.
         """
-        before, configuration = self.configuration.lanes, self.configuration.controlled_by(laws)
+        self._control(self.configuration.controlled_by(laws))
+
+    def set_lane(self, setting: LaneSetting) -> None:
+        """Control one lane beside the first otherwise from now on; its plant stays as it is.
+
+        The same law remembers, another one remembers nothing. Raises `ParameterError` where
+        there is no such lane.
+        """
+        self._control(self.configuration.with_lane(setting))
+
+    def _control(self, configuration: Configuration) -> None:
+        """The same lanes under these controllers."""
         check_laws(configuration)
-        self.configuration = configuration
+        before = self.configuration.lanes
+        self._connect(configuration)
         self.lanes = [
             _follow_law(lane, old.law, new.law)
-            for lane, old, new in zip(self.lanes, before, self.configuration.lanes, strict=True)
+            for lane, old, new in zip(self.lanes, before, configuration.lanes, strict=True)
         ]
-        self._connect()
 
     def set_gains(self, gains: Gains) -> None:
         """Use these gains from now on."""
@@ -206,12 +217,11 @@ class Run:
         before, configuration = self.configuration, self.configuration.changed(rivals=rivals)
         check_laws(configuration)
         origins = find_origins(before.rivals, rivals)
+        self._connect(configuration)
         self.lanes = [
             _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
             for origin, lane in zip(origins, configuration.lanes, strict=True)
         ]
-        self.configuration = configuration
-        self._connect()
 
     def add_load(self, load: Load) -> ScheduledLoad:
         """Apply a load now or at its `start_s`; raises `StateError` when there are too many.
@@ -243,18 +253,16 @@ class Run:
 
     def _set_loads(self, loads: tuple[ScheduledLoad, ...]) -> None:
         self.loads = loads
-        self._connect()
+        self._connect(self.configuration)
 
     def _configure(self, **changes: object) -> None:
-        self.configuration = self.configuration.changed(**changes)
-        self._connect()
+        self._connect(self.configuration.changed(**changes))
 
-    def _connect(self) -> None:
-        c = self.configuration
-        self.blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
-        self.laws = [
-            bind_law(c, lane, blocks) for lane, blocks in zip(c.lanes, self.blocks, strict=True)
-        ]
+    def _connect(self, c: Configuration) -> None:
+        """What the loop is given under a configuration; a law that fails at it changes nothing."""
+        blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
+        self.laws = [bind_law(c, lane, own) for lane, own in zip(c.lanes, blocks, strict=True)]
+        self.configuration, self.blocks = c, blocks
         self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
 
 

@@ -250,5 +250,7 @@ def _configure(configuration: Configuration, command: Command, is_bench: bool) -
             return configuration.controlled_by(complete_laws(command.argument, is_bench))
         case "gains" | "parameters" | "observer" | "rivals":
             return configuration.changed(**{command.kind: command.argument})
+        case "lane":
+            return configuration.with_lane(command.argument)
         case _:
             return configuration

@@ -19,7 +19,7 @@ from svsa.records.recorder import Recorder
 from svsa.run.command import Command, build_command
 from svsa.run.configuration import Configuration, Lane
 from svsa.run.run import Start
-from svsa.session.bench_run import BenchRun
+from svsa.session.bench_run import TWIN, BenchRun
 from svsa.session.clock import Pace
 from svsa.session.fault_latch import FaultLatch
 from svsa.session.hands import Hands
@@ -298,6 +298,11 @@ class BenchSession:
         """The command at the tick at which the loop has taken it."""
         if command.kind in ("position", "stiffness") and self.status == "running":
             check_takes_no_time(command.argument)
+        if command.kind == "lane" and command.argument.lane == TWIN + 1:
+            raise StateError(
+                f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
+                " of the bench: set those, or a lane after it."
+            )
         if command.kind == "rivals":
             self._wait_for_changes()
             twin = Lane(law=self.run.configuration.law)

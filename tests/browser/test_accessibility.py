@@ -83,6 +83,14 @@ def open_equation(page: Page, lab: Lab) -> None:
     expect(page.locator("math").first).to_be_attached()
 
 
+def open_laws(page: Page, lab: Lab) -> None:
+    rivals = {"rivals": [{"law": "fl_integral"}]}
+    lab.client.put(lab.session + "/lanes", json=rivals).raise_for_status()
+    open_lab(page, lab)
+    page.get_by_role("button", name=re.compile("^Settings of FL")).press("Enter")
+    page.get_by_role("button", name=re.compile("^Control law: ")).press("Enter")
+
+
 def open_realism(page: Page, lab: Lab) -> None:
     open_lab(page, lab)
     group = page.get_by_role("region", name="Realism", exact=True)
@@ -145,6 +153,7 @@ def open_private(page: Page, lab: Lab) -> None:
         pytest.param(open_button("Place poles"), (WIDE, PHONE), id="design"),
         pytest.param(open_button("Plots"), (WIDE,), id="plots"),
         pytest.param(open_button("Cursors"), (WIDE,), id="cursors"),
+        pytest.param(open_laws, (WIDE, PHONE), id="laws"),
         pytest.param(open_realism, (HIGH, PHONE), id="realism"),
         pytest.param(open_event, (WIDE,), id="event"),
         pytest.param(open_calls, (HIGH, PHONE), id="calls"),

@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.test_page import ONE_DEGREE, open_page, wait_for_samples
+from tests.browser.test_page import ONE_DEGREE, choose_law, open_page, wait_for_samples
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -77,9 +77,42 @@ def test_the_law_and_its_rival_change_places(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     find_switch(page).click()
     expect(find_switch(page)).to_be_checked()
-    page.get_by_role("radio", name="FL", exact=True).check(force=True)
+    choose_law(page, "FL")
     expect(find_switch(page)).to_have_accessible_name("Compare with NDOBC")
     assert [lane["law"] for lane in lab.read()["lanes"]] == ["fl", "ndobc"]
+
+
+def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, lab: Lab) -> None:
+    """Chosen, set, taken back and removed by key; the actuator of the lane stays where it is."""
+    open_page(page, lab)
+    page.get_by_role("button", name="Add", exact=True).press("Enter")
+    laws = page.get_by_role("dialog", name="Add", exact=True)
+    expect(laws.get_by_role("button", name=re.compile("^NDOBC "))).to_be_focused()
+    page.keyboard.press("End")
+    page.keyboard.press("Home")
+    page.keyboard.press("Enter")
+    beside = page.get_by_role("list", name="Beside it")
+    settings = beside.get_by_role("button", name="Settings of NDOBC (2)", exact=True)
+    settings.press("Enter")
+    expect(settings).to_have_attribute("aria-expanded", "true")
+    field = beside.get_by_role("spinbutton", name=re.compile("^ωq"))
+    field.fill("40")
+    field.press("Enter")
+    expect(beside.get_by_role("button", name="Remove NDOBC ωq 40", exact=True)).to_be_visible()
+    legend = page.get_by_role("region", name="Position error plot", exact=True)
+    expect(legend.get_by_role("button", name=re.compile("^NDOBC ωq 40"))).to_be_visible()
+    ids = [lane["id"] for lane in lab.read()["lanes"]]
+
+    field.fill("9000")
+    field.press("Enter")
+    expect(beside.get_by_role("alert")).to_contain_text("1000 rad/s")
+    page.get_by_role("button", name=re.compile("^Undo")).press("Enter")
+    remove = beside.get_by_role("button", name="Remove NDOBC ωq 60 (2)", exact=True)
+    expect(remove).to_be_visible()
+    assert [lane["id"] for lane in lab.read()["lanes"]] == ids
+    remove.press("Enter")
+    expect(beside).to_have_count(0)
+    assert lab.read()["configuration"]["rivals"] == []
 
 
 def test_a_recording_is_begun_told_and_ended(page: Page, lab: Lab) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.test_page import open_page
+from tests.browser.test_page import choose_law, open_page
 from tests.lab import Lab, run_lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -52,7 +52,7 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
     address = f"{lab.url}/api/v1/sessions/lab/loads"
     python = f'httpx.post("{address}", json={{"kind": "paper"}})'
     expect(calls.first).to_contain_text(python)
-    page.get_by_role("radio", name="FL", exact=True).check(force=True)
+    choose_law(page, "FL")
     expect(calls.last).to_contain_text('json={"law": "fl"}')
     calls.first.get_by_role("button", name="Copy POST sessions/lab/loads").click()
     expect(calls.first.get_by_role("status")).to_have_text("Copied")

@@ -9,14 +9,16 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.cli import prepare
 from svsa.compilation import compiled, watch_compilation
 from svsa.control import installed
 from svsa.control.installed import LawError, get_law, list_law_names
 from svsa.control.law import Law
 from svsa.design.sampled_loop import linearize_tick
 from svsa.loop.loop import advance as advance_lane
+from svsa.records.wording import tell_law
 from svsa.run.command import build_command, replay
-from svsa.run.controllers import name_controllers
+from svsa.run.controllers import list_controllers, name_controllers
 from svsa.run.run import Run
 from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Torque
@@ -214,6 +216,40 @@ def test_a_broken_package_is_named_and_the_lab_goes_on(install, value, words):
 
 
 TICKS = 3
+
+
+@compiled
+def stumble(nominal, constants, memory, x, reference, estimate, applied, period):
+    return Torque(x.no_such_angle, 0.0)
+
+
+STUMBLE = Law("stumble", "Stumble", "", "", "", stumble)
+
+
+def test_a_law_that_does_not_compile_is_named_and_changes_nothing(install):
+    install(stumble="STUMBLE")
+    run = Run(build_configuration())
+    before = run.configuration
+    with pytest.raises(LawError, match="law stumble does not compile: Typing"):
+        run.set_law("stumble")
+    assert run.configuration == before
+    assert advance(run, 10).shape[1] == 10
+
+
+def test_the_lab_starts_without_the_laws_that_do_not_work(install, capsys):
+    install(broken="missing", stumble="STUMBLE")
+    prepare()
+    told = capsys.readouterr().err
+    assert "The law broken of the package" in told
+    assert "The law stumble does not compile" in told
+
+
+def test_what_was_recorded_with_a_law_that_does_not_load_has_its_name(install):
+    install(broken="missing")
+    configuration = build_configuration(law="broken", parameters={"broken": {"rate": 2.0}})
+    (controller,) = list_controllers(configuration, is_bench=False)
+    assert name_controllers([controller]) == {controller: "broken (does not load)"}
+    assert tell_law("broken") == "broken"
 
 
 def test_a_law_without_a_name_or_with_an_estimate_that_nobody_finds_is_none():

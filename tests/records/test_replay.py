@@ -93,7 +93,7 @@ def test_another_seed_is_another_run():
 def test_a_part_of_a_record_is_simulated_from_the_start_and_cut_out():
     session = play_busy_session()
     whole = read_samples(session)
-    first = session.journal.commands[-1].tick
+    first = next(command.tick for command in session.journal.commands if command.kind == "rivals")
     for start, ticks in ((0, 1), (0, first), (29, 3), (57, first - 57)):
         found = collect(session.journal.initial, session.journal.commands, start, ticks)
         np.testing.assert_array_equal(found[0], whole[start : start + ticks])

@@ -11,7 +11,7 @@ from svsa.records.header import RecordHeader
 from svsa.records.settings import RunSettings, describe_settings, name_figure
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
 from svsa.run.command import Command
-from svsa.run.configuration import Configuration, Lane, load_prototype
+from svsa.run.configuration import Configuration, Lane, LaneSetting, load_prototype
 from svsa.signals import CHANNELS
 
 TICKS = 8000
@@ -174,3 +174,10 @@ def test_laws_that_changed_places_are_told_of_every_lane() -> None:
     settings = describe((3000, "laws", ("fl", "ndobc")), rivals=(Lane(law="fl"),))
     assert settings.name.split(" · ")[1] == "NDOBC → FL vs FL → NDOBC"
     assert settings.law_kinds == ("ndobc", "fl")
+
+
+def test_a_lane_that_was_set_otherwise_is_told_as_one_beside() -> None:
+    setting = LaneSetting(lane=2, controller=Lane(law="fl_integral"))
+    assert (
+        describe((3000, "lane", setting), rivals=(Lane(law="fl"),)).laws == "NDOBC vs FL → FL + I"
+    )

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.run.configuration import Lane, LaneSetting
 from svsa.run.metrics import compute_metrics
 from svsa.run.run import Run
+from svsa.run.timeline import name_stretches
 from svsa.signals import CHANNEL_INDEX
 from tests.session.sessions import (
     EVERY_EFFECT,
@@ -211,3 +213,59 @@ def test_a_session_with_rivals_can_be_reset_and_starts_them_from_rest():
     session.step(80)
     for lane in (0, 1):
         np.testing.assert_array_equal(read_samples(session, lane), samples[lane])
+
+
+def build_integral(pole: float) -> Lane:
+    return Lane(law="fl_integral", parameters={"position_pole_rad_per_s": pole})
+
+
+def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
+    """The same samples as a run whose own law has these parameters, changed at that tick."""
+    run = Run(build_configuration(PULSE, rivals=(build_integral(40.0), FL), **NOISY))
+    advance(run, 90)
+    before = list(run.lanes)
+    run.set_lane(LaneSetting(lane=2, controller=build_integral(60.0)))
+    assert run.lanes == before
+    assert np.any(before[1].memory != 0.0), "the law has something to remember"
+    alone = Run(
+        build_configuration(
+            PULSE, law="fl_integral", parameters={"fl_integral": build_integral(40.0).parameters}
+        ).changed(**NOISY)
+    )
+    advance(alone, 90)
+    alone.set_parameters({"fl_integral": build_integral(60.0).parameters})
+    samples = advance(run, 100)
+    np.testing.assert_array_equal(samples[1], advance(alone, 100)[0])
+    run.set_lane(LaneSetting(lane=3, controller=build_integral(60.0)))
+    assert not np.any(run.lanes[2].memory), "another law begins without a past"
+
+
+@pytest.mark.parametrize(
+    ("rivals", "lane", "bound"), [((), 2, "none: one lane runs"), ((FL,), 3, "2 to 2")]
+)
+def test_only_a_lane_that_runs_is_set_otherwise(rivals, lane, bound):
+    run = Run(build_configuration(rivals=rivals))
+    with pytest.raises(svsa.ParameterError, match=f"lane is {lane}: it must be {bound}"):
+        run.set_lane(LaneSetting(lane=lane, controller=NDOBC))
+    with pytest.raises(svsa.ParameterError, match="lane"):
+        LaneSetting(lane=1, controller=NDOBC)
+
+
+def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
+    """The curve before keeps the name and ink of the law that drew it."""
+    session = build_session(PULSE, law="fl_integral", rivals=(Lane(law="fl_integral"),))
+    session.step(60)
+    (second_id,) = session.journal.timeline.lane_ids[1:]
+    session.change("lane", LaneSetting(lane=2, controller=build_integral(40.0)))
+    session.step(40)
+    assert session.journal.timeline.lane_ids[1] == second_id
+    assert np.all(np.isfinite(read_samples(session, 1)))
+    lanes = session.journal.timeline.list_stretches()
+    names = name_stretches(lanes)
+    told = [[(names[s.controller], s.first_tick, s.end_tick) for s in lane] for lane in lanes]
+    assert told == [
+        [("FL + I a 54.6", 0, None)],
+        [("FL + I a 54.6 (2)", 0, 60), ("FL + I a 40", 60, None)],
+    ]
+    assert len({s.ink for lane in lanes for s in lane}) == 3
+    assert session.journal.timeline.window.label == "FL + I set beside"

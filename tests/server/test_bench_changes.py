@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import pytest
 
 from svsa.control.gains import Gains
+from svsa.errors import StateError
 from svsa.session.bench import BenchSession
 from svsa_server.gain_schemas import GainsRequest
 from svsa_server.hosted import HostedSession
@@ -53,3 +54,12 @@ def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
     asyncio.run(ask())
     configuration = session.run.configuration
     assert [lane.law for lane in configuration.lanes] == ["fl", "fl", "ndobc"]
+
+
+def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
+    """Refused before the loop hears of it: it would control its own twin otherwise."""
+    told = len(session.loop.processes.told)  # pyright: ignore[reportAttributeAccessIssue]
+    setting = {"lane": 2, "controller": {"law": "ndobc", "observer": None}}
+    with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
+        session.change("lane", setting)
+    assert len(session.loop.processes.told) == told  # pyright: ignore[reportAttributeAccessIssue]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import svsa
 from svsa.plant.effects import CurrentLag, Friction, LinkGravity, SensorNoise
 from svsa.run.command import KINDS, read_command, simulate_again
-from svsa.run.configuration import Configuration
+from svsa.run.configuration import Configuration, LaneSetting
 
 from .sessions import EVERY_EFFECT, PULSE, build_session
 
@@ -68,11 +68,10 @@ effects = st.sampled_from([svsa.IDEAL, svsa.RIG, EVERY_EFFECT]) | st.builds(
     noise=st.none() | st.builds(SensorNoise, motor_std_rad=st.floats(0.0, 1e-4)),
     gravity=st.none() | st.builds(LinkGravity, moment_nm=st.floats(0.0, 1.0)),
 )
-rivals = st.lists(
-    st.builds(svsa.Lane, law=laws, gains=st.none() | gains, observer=st.none() | observers)
-    | st.builds(svsa.Lane, law=st.just("fl_integral"), parameters=integral_poles),
-    max_size=3,
-).map(tuple)
+lanes = st.builds(
+    svsa.Lane, law=laws, gains=st.none() | gains, observer=st.none() | observers
+) | st.builds(svsa.Lane, law=st.just("fl_integral"), parameters=integral_poles)
+rivals = st.lists(lanes, max_size=3).map(tuple)
 
 ARGUMENTS = {
     "position": positions,
@@ -86,6 +85,7 @@ ARGUMENTS = {
     "nominal": actuators,
     "effects": effects,
     "rivals": rivals,
+    "lane": st.builds(LaneSetting, lane=st.integers(2, 4), controller=lanes),
     "load": loads,
     "unload": st.sampled_from([1, 2, 3]),
 }
@@ -94,6 +94,7 @@ REFUSED = [
     ("law", "no_law"),
     ("gains", {"position_coefficients": (1.0, 1.0, 1.0, 1.0)}),
     ("rivals", (svsa.Lane(law="fl"),) * 4),
+    ("lane", {"lane": 1, "controller": {"law": "fl"}}),
     ("unload", 99),
     ("unload", 0),
 ]
@@ -120,6 +121,7 @@ BUSY = [
     (11, ("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))),
     (5, ("law", "ndobc")),
     (25, ("rivals", (svsa.Lane(law="fl"),))),
+    (9, ("lane", LaneSetting(lane=2, controller=svsa.Lane(law="fl_integral")))),
 ]
 
 

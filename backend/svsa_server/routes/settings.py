@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from fastapi import APIRouter, Body
+from fastapi import APIRouter, Body, Path
 
 from svsa.checked import Checked
 from svsa.control.installed import check_installed, read_parameters
@@ -12,7 +12,9 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa.run.configuration import LaneSetting
 from svsa_server.gain_schemas import GainsRequest
+from svsa_server.law_schemas import InstalledLane
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.session_schemas import SessionState
 from svsa_server.setting_schemas import LanesRequest, LawRequest, build_patch
@@ -175,6 +177,28 @@ def set_lanes(
 ) -> SessionState:
     """Run other controllers beside the session's own: same references, loads and noise."""
     hosted.session.change("rivals", request.rivals)
+    return build_state(hosted)
+
+
+@router.put("/lanes/{lane}")
+def set_lane(
+    hosted: NamedSession,
+    lane: Annotated[int, Path(description="Number of a lane beside lane 1", examples=[2])],
+    request: Annotated[
+        InstalledLane,
+        Body(
+            examples=[
+                {"law": "fl_integral", "parameters": {"position_pole_rad_per_s": 40.0}},
+                {"law": "fl"},
+            ]
+        ),
+    ],
+) -> SessionState:
+    """Control one lane beside the session's own otherwise; its plant stays where it is.
+
+    What is left out is the session's. The same law goes on with what it remembers.
+    """
+    hosted.session.change("lane", LaneSetting(lane=lane, controller=request))
     return build_state(hosted)
 
 

@@ -8,6 +8,7 @@ import "./plots/plots.css";
 import "./plots/stage.css";
 import "./plots/tools.css";
 import "./controls/controls.css";
+import "./controls/laws.css";
 import "./controls/realism.css";
 import "./controls/load.css";
 import "./controls/shaped.css";

@@ -142,6 +142,11 @@ describe("an experiment as a script", () => {
 
   it("knows the call of every kind of command", () => {
     expect(stepOf("rivals", [])).toEqual({ method: "PUT", path: "/lanes", body: { rivals: [] } });
+    const setting = { lane: 3, controller: { law: "fl", gains: null } };
+    expect(stepOf("lane", setting)).toEqual({
+      ...{ method: "PUT", path: "/lanes/3" },
+      body: { law: "fl" },
+    });
     expect(stepOf("gains", { a: 1 })).toEqual({ method: "PUT", path: "/gains", body: { a: 1 } });
     expect(stepOf("nominal", { a: 1 }).method).toBe("PATCH");
   });

@@ -45,6 +45,8 @@ def test_parameters_are_set_by_law_and_what_is_left_out_stays(lab: Lab) -> None:
         ("law", {"law": "no_law"}, "installed here: ndobc, "),
         ("lanes", {"rivals": [{"law": "no_law"}]}, "installed here: ndobc, "),
         ("lanes", {"rivals": [{"law": "ndobc", "parameters": {"a": 1}}]}, "takes the run's gains"),
+        ("lanes/2", {"law": "fl"}, "none: one lane runs"),
+        ("lanes/1", {"law": "fl"}, "at least 2"),
         ("parameters", {"no_law": {}}, "installed here"),
         ("parameters", {"ndobc": {}}, "takes the run's gains"),
         (
@@ -74,3 +76,18 @@ def test_the_same_law_twice_with_other_parameters_side_by_side(lab: Lab) -> None
     assert names[1:] == ["FL + I a 70", "FL"]
     assert names[0].startswith("FL + I a ")
     assert state["configuration"]["rivals"][0]["parameters"]["stiffness_pole_rad_per_s"] == 32.9
+
+
+def test_one_lane_is_set_by_its_number_and_the_others_stay(lab: Lab) -> None:
+    rivals = [{"law": "fl"}, {"law": "fl_integral"}]
+    lab.client.put(lab.session + "/lanes", json={"rivals": rivals}).raise_for_status()
+    ids = [lane["id"] for lane in lab.read()["lanes"]]
+    slow = {"law": "fl_integral", "parameters": {"position_pole_rad_per_s": 40.0}}
+    state = lab.client.put(lab.session + "/lanes/2", json=slow).raise_for_status().json()
+    names = [lane["name"] for lane in state["lanes"]]
+    assert names == ["NDOBC", "FL + I a 40", "FL + I a 54.6"]
+    assert [lane["id"] for lane in state["lanes"]] == ids
+    bad = slow | {"parameters": {"position_pole_rad_per_s": 200.0}}
+    answer = lab.client.put(lab.session + "/lanes/2", json=bad)
+    assert answer.status_code == 422
+    assert "position_pole_rad_per_s is 200.0 rad/s" in answer.json()["message"]

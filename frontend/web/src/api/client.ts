@@ -9,6 +9,7 @@ import type {
   Configuration,
   EffectsRequest,
   Figure,
+  Lane,
   Law,
   LawRow,
   Load,
@@ -58,8 +59,10 @@ export const putParameters = (parameters: Body<"put", "/parameters">[0]) =>
 export const readLaws = () => request("get", "laws") as Promise<LawRow[]>;
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
-export const putLanes = (laws: readonly Law[]) =>
-  call("put", "/lanes", { rivals: laws.map((law) => ({ law })) });
+export const putLanes = (rivals: readonly Lane[]) => call("put", "/lanes", { rivals: [...rivals] });
+/** lane: its number, from 2 on; its plant stays where it is. */
+export const putLane = (lane: number, controller: Lane) =>
+  send("put", `/lanes/${lane}`, controller);
 export const putEffects = (effects: EffectsRequest) => send("put", "/effects", effects);
 export const patchActuator = (patch: ActuatorPatch) => call("patch", "/actuator", patch);
 export const patchNominal = (patch: ActuatorPatch) => call("patch", "/nominal", patch);

@@ -15,6 +15,9 @@ export type EffectsRequest = {
     : Effects[K];
 };
 export type ActuatorParameters = Configuration["actuator"];
+/** A controller beside the first; null or left out: as the session's. */
+export type Lane = Schemas["Lane"];
+export type Gains = Schemas["Gains"];
 /** The name of a law. */
 export type Law = Configuration["law"];
 export type LawRow = Schemas["LawState"];

@@ -1,56 +1,62 @@
 import { useId } from "preact/hooks";
 import type { SessionState } from "../api/types";
-import { inkOf } from "../plots/inks";
-import { Swatch } from "../plots/legend";
-import { CONTROL, compareWith, toggleCompare } from "../state/commands";
-import { rivalsOf } from "../state/lanes";
-import { otherLaw, titleOf, usableLaws } from "../state/laws";
+import { addLane, CONTROL, toggleCompare } from "../state/commands";
+import { lanesBeside } from "../state/lanes";
+import { otherLaw, titleOf } from "../state/laws";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
+import { Beside } from "./beside";
+import { LawPicker } from "./lawpicker";
 
-/** Another law beside the session's own, switched on and off; of several others, which one. */
+const MOST_LANES = 4;
+const words = text.beside;
+
+/** Other controllers beside the session's own: switched on and off, added, set, removed. */
 export function Compare({ state }: { state: SessionState }) {
-  const { law } = state.configuration;
-  const rivals = rivalsOf(state);
+  const beside = lanesBeside(state);
+  const other = otherLaw(state.configuration.law);
   const id = useId();
-  const isOn = rivals.length > 0;
+  const isOn = beside.length > 0;
   const isRecording = state.recording !== null;
-  const rival = rivals[0]?.law ?? otherLaw(law);
-  const others = usableLaws.value.filter(({ name }) => name !== law || name === rival);
-  if (rival === undefined) return null;
-  const present = state.lanes.at(-rivals.length || state.lanes.length)?.stretches.at(-1);
+  const isFull = state.lanes.length >= MOST_LANES;
+  const most = beside.length;
+  if (!isOn && other === undefined) return null;
+  const laws = isOn ? beside.map(({ controller }) => controller.law) : [other ?? ""];
+  const names = [...new Set(laws)].map(titleOf).join(", ");
+  const whyNotAdded = isFull ? words.full(most) : words.addHint;
   return (
     <>
-      <button
-        type="button"
-        role="switch"
-        class="compare"
-        aria-checked={isOn}
-        aria-keyshortcuts="c"
-        aria-describedby={id}
-        disabled={isRecording}
-        title={isRecording ? text.compare.whileRecording : text.compare.does}
-        onClick={() => void toggleCompare(state)}
-      >
-        <span class="compare-track" aria-hidden="true" />
-        <span class="compare-words">{text.compare.with(titleOf(rival))}</span>
-        {present && <Swatch look={inkOf(present.ink)} />}
-      </button>
-      {isOn && rivals.length === 1 && others.length > 1 && (
-        <div class="compare-law">
-          <select
-            aria-label={text.compare.law}
-            disabled={isRecording}
-            value={rival}
-            onChange={(event) => void compareWith(event.currentTarget.value)}
-          >
-            {others.map(({ name, title }) => (
-              <option key={name} value={name}>
-                {title}
-              </option>
-            ))}
-          </select>
-        </div>
+      <div class="compare-line">
+        <button
+          type="button"
+          role="switch"
+          class="compare"
+          aria-checked={isOn}
+          aria-keyshortcuts="c"
+          aria-describedby={id}
+          disabled={isRecording}
+          title={isRecording ? text.compare.whileRecording : text.compare.does}
+          onClick={() => void toggleCompare(state)}
+        >
+          <span class="compare-track" aria-hidden="true" />
+          <span class="compare-words">{text.compare.with(names)}</span>
+        </button>
+        <LawPicker
+          class="compare-add"
+          label={words.add}
+          button={words.add}
+          title={isRecording ? text.compare.whileRecording : whyNotAdded}
+          value={null}
+          isDisabled={isRecording || isFull}
+          onChoose={(law) => addLane(state, law)}
+        />
+      </div>
+      {isOn && (
+        <ul class="besides" aria-label={words.list}>
+          {beside.map((one) => (
+            <Beside key={one.id} state={state} beside={one} isRecording={isRecording} />
+          ))}
+        </ul>
       )}
       <span class="visually-hidden" id={id}>
         {isRecording ? text.compare.whileRecording : text.compare.does}

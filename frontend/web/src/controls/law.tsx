@@ -1,5 +1,6 @@
 import { putParameters } from "../api/client";
 import type { LawParameter, LawRow, SessionState } from "../api/types";
+import { Undo } from "../design/summary";
 import type { SliderRange } from "../widgets/scale";
 import { Field } from "./field";
 
@@ -23,7 +24,15 @@ export function changedAt(held: Value, index: number | null, value: number): Val
   return held.map((number, at) => (at === index ? value : number));
 }
 
-function Parameter({ law, row, held }: { law: LawRow; row: LawParameter; held: Value }) {
+interface ParameterProps {
+  /** Of the form, among all of the page. */
+  name: string;
+  row: LawParameter;
+  held: Value;
+  send: (value: Value) => Promise<SessionState>;
+}
+
+function Parameter({ name, row, held, send }: ParameterProps) {
   const unit = row.unit === "1" ? "" : row.unit;
   const places = row.kind === "numbers" ? (held as number[]).map((_, index) => index) : [null];
   const label = isWordy(row) ? row.symbol : row.meaning;
@@ -33,35 +42,56 @@ function Parameter({ law, row, held }: { law: LawRow; row: LawParameter; held: V
       {places.map((index) => (
         <Field
           key={index}
-          name={`parameters.${law.name}.${row.name}${index === null ? "" : `[${index}]`}`}
+          name={`${name}.${row.name}${index === null ? "" : `[${index}]`}`}
           label={index === null ? label : `${label} ${index + 1}`}
           {...(isWordy(row) ? { labelRest: row.meaning } : {})}
           unit={unit}
           value={index === null ? (held as number) : ((held as number[])[index] as number)}
           {...rangeOf(row)}
-          send={(value) =>
-            putParameters({ [law.name]: { [row.name]: changedAt(held, index, value) } })
-          }
+          send={(value) => send(changedAt(held, index, value))}
         />
       ))}
     </>
   );
 }
 
-/** A form of the parameters that a law says it has. */
-export function LawForm({ law, state }: { law: LawRow; state: SessionState }) {
-  const held = state.configuration.parameters[law.name] ?? {};
+interface ParameterFieldsProps {
+  law: LawRow;
+  name: string;
+  held: Record<string, unknown>;
+  /** Takes every parameter, those that stay too. */
+  send: (parameters: Record<string, unknown>) => Promise<SessionState>;
+}
+
+/** A field for each number of a law's own parameters. */
+export function ParameterFields({ law, name, held, send }: ParameterFieldsProps) {
   const numbers = law.parameters.filter(({ kind }) => kind === "number" || kind === "numbers");
   return (
     <>
       {numbers.map((row) => (
         <Parameter
           key={row.name}
-          law={law}
+          name={name}
           row={row}
           held={(held[row.name] as Value | undefined) ?? row.default}
+          send={(value) => send({ ...held, [row.name]: value })}
         />
       ))}
+    </>
+  );
+}
+
+/** What the session's law is set to, and the way back. */
+export function LawForm({ law, state }: { law: LawRow; state: SessionState }) {
+  return (
+    <>
+      <ParameterFields
+        law={law}
+        name={`parameters.${law.name}`}
+        held={state.configuration.parameters[law.name] ?? {}}
+        send={(parameters) => putParameters({ [law.name]: parameters })}
+      />
+      <Undo />
     </>
   );
 }

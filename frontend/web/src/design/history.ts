@@ -1,16 +1,20 @@
-/** What gains and observer were before: a step for every change, whoever made it. */
+/** What gains, observer and parameters of laws were before: a step for every change, whoever made it. */
 import { effect, signal } from "@preact/signals";
-import { putGains, putObserver } from "../api/client";
-import type { Configuration, SessionState } from "../api/types";
+import { putGains, putLane, putObserver, putParameters } from "../api/client";
+import type { Lane, SessionState } from "../api/types";
 import { perform } from "../state/actions";
+import { lanesBeside } from "../state/lanes";
 import { session } from "../state/session";
 
 const MOST_STEPS = 50;
 
+/** parameters: by law. beside: by the identity of the lane. */
 export interface Design {
   position: readonly number[];
   stiffness: readonly number[];
   observer: readonly [number, number, number];
+  parameters: Readonly<Record<string, Record<string, unknown>>>;
+  beside: Readonly<Record<string, Lane>>;
 }
 
 export const steps = signal<readonly Design[]>([]);
@@ -18,16 +22,41 @@ export const steps = signal<readonly Design[]>([]);
 let known: Design | null = null;
 let isUndoing = false;
 
-function designOf({ gains, observer }: Configuration): Design {
+export function designOf(state: SessionState): Design {
+  const { gains, observer, parameters } = state.configuration;
   return {
     position: gains.position_coefficients,
     stiffness: gains.stiffness_coefficients,
     observer: observer.bandwidth_rad_per_s,
+    parameters,
+    beside: Object.fromEntries(lanesBeside(state).map(({ id, controller }) => [id, controller])),
   };
 }
 
-export const isSame = (one: Design, other: Design): boolean =>
+const isEqual = (one: unknown, other: unknown): boolean =>
   JSON.stringify(one) === JSON.stringify(other);
+
+/** The laws that both designs know, and that are set differently. */
+export const changedLaws = (one: Design, other: Design): string[] =>
+  Object.keys(one.parameters).filter(
+    (law) => law in other.parameters && !isEqual(one.parameters[law], other.parameters[law]),
+  );
+
+/** The lanes that both designs have, under the same law and set differently. */
+export const changedLanes = (one: Design, other: Design): string[] =>
+  Object.keys(one.beside).filter((id) => {
+    const [held, now] = [one.beside[id], other.beside[id]];
+    return held !== undefined && held.law === now?.law && !isEqual(held, now);
+  });
+
+const isOther = (key: "position" | "stiffness" | "observer", one: Design, other: Design) =>
+  !isEqual(one[key], other[key]);
+
+/** Whether nothing that can be taken back differs: what lanes and laws there are is none of it. */
+export const isSame = (one: Design, other: Design): boolean =>
+  !(["position", "stiffness", "observer"] as const).some((key) => isOther(key, one, other)) &&
+  changedLaws(one, other).length === 0 &&
+  changedLanes(one, other).length === 0;
 
 /** The steps after a change to `next`: the one before it is kept. */
 export function keepStep(kept: readonly Design[], before: Design): Design[] {
@@ -38,7 +67,7 @@ export function watchDesign(): void {
   effect(() => {
     const state = session.value;
     if (state === null) return;
-    const design = designOf(state.configuration);
+    const design = designOf(state);
     if (known !== null && !isSame(known, design) && !isUndoing) {
       steps.value = keepStep(steps.peek(), known);
     }
@@ -46,19 +75,41 @@ export function watchDesign(): void {
   });
 }
 
-async function put(design: Design): Promise<SessionState> {
-  const [c0, c1, c2, c3] = design.position as [number, number, number, number];
-  const [s0, s1] = design.stiffness as [number, number];
-  await putGains({ position_coefficients: [c0, c1, c2, c3], stiffness_coefficients: [s0, s1] });
-  return putObserver(...design.observer);
+/** The calls that bring a design back: one for each part that differs from what is there now. */
+export function callsBack(design: Design, state: SessionState): (() => Promise<SessionState>)[] {
+  const now = designOf(state);
+  const calls: (() => Promise<SessionState>)[] = [];
+  if (isOther("position", design, now) || isOther("stiffness", design, now)) {
+    const [c0, c1, c2, c3] = design.position as [number, number, number, number];
+    const [s0, s1] = design.stiffness as [number, number];
+    calls.push(() =>
+      putGains({ position_coefficients: [c0, c1, c2, c3], stiffness_coefficients: [s0, s1] }),
+    );
+  }
+  if (isOther("observer", design, now)) calls.push(() => putObserver(...design.observer));
+  for (const law of changedLaws(design, now)) {
+    calls.push(() => putParameters({ [law]: design.parameters[law] ?? {} }));
+  }
+  for (const id of changedLanes(design, now)) {
+    const lane = lanesBeside(state).find((one) => String(one.id) === id)?.lane;
+    if (lane !== undefined) calls.push(() => putLane(lane, design.beside[id] as Lane));
+  }
+  return calls;
 }
 
-/** Back by one step; resolves false where the server refused. */
+/** Back by one step, past those whose lane has gone; resolves false where the server refused. */
 export async function undo(): Promise<boolean> {
+  const state = session.peek();
+  if (state === null || isUndoing) return false;
+  steps.value = steps.peek().filter((step) => callsBack(step, state).length > 0);
   const last = steps.peek().at(-1);
-  if (last === undefined || isUndoing) return false;
+  if (last === undefined) return false;
   isUndoing = true;
-  const isDone = await perform("design.undo", () => put(last));
+  const isDone = await perform("design.undo", async () => {
+    let reached = state;
+    for (const call of callsBack(last, state)) reached = await call();
+    return reached;
+  });
   isUndoing = false;
   if (isDone) steps.value = steps.peek().slice(0, -1);
   return isDone;

@@ -90,6 +90,17 @@ export function bandwidthOf(poles: Poles): number {
   return product ** (1 / poles.length);
 }
 
+/** c₀ … c_{n−1} of (s + p)ⁿ. */
+export function coefficientsOf(count: number, bandwidth: number): number[] {
+  let polynomial = [1];
+  for (let power = 0; power < count; power++) {
+    polynomial = [...polynomial, 0].map((_, k) => {
+      return bandwidth * (polynomial[k] ?? 0) + (polynomial[k - 1] ?? 0);
+    });
+  }
+  return polynomial.slice(0, count);
+}
+
 export const areTogether = (poles: Poles): boolean =>
   poles.every(({ re, im }) => im === 0 && re === poles[0]?.re);
 

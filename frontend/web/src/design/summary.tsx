@@ -31,6 +31,16 @@ export function UndoButton() {
   );
 }
 
+/** The button by itself, with why a step back was refused. */
+export function Undo() {
+  return (
+    <div class="design-open">
+      <UndoButton />
+      <Problem control="design.undo" />
+    </div>
+  );
+}
+
 /** The poles in use, and the way to other ones. */
 export function DesignSummary() {
   const now = inUse.value;

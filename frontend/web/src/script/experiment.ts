@@ -36,6 +36,10 @@ export function stepOf(kind: string, argument: unknown): Step {
     }
     case "rivals":
       return { method: "PUT", path: "/lanes", body: { rivals: prune(argument) } };
+    case "lane": {
+      const { lane, controller } = argument as { lane: number; controller: unknown };
+      return { method: "PUT", path: `/lanes/${lane}`, body: prune(controller) };
+    }
     case "actuator":
     case "nominal":
       return { method: "PATCH", path: `/${kind}`, body: argument };

@@ -9,10 +9,10 @@ import {
   startRecording,
   stopRecording,
 } from "../api/client";
-import type { Law, SessionState } from "../api/types";
+import type { Lane, Law, SessionState } from "../api/types";
 import { perform } from "./actions";
-import { rivalsOf } from "./lanes";
-import { otherLaw } from "./laws";
+import { gainsOf, lanesBeside, rivalsOf } from "./lanes";
+import { lawOf, otherLaw } from "./laws";
 import { hungWeights, nextWeight } from "./load";
 
 /** Names of the controls that show why a command was refused. */
@@ -32,12 +32,22 @@ export function toggleRecording({ recording }: SessionState): Promise<boolean> {
 
 export function toggleCompare(state: SessionState): Promise<boolean> {
   const other = otherLaw(state.configuration.law);
-  return compareWith(rivalsOf(state).length > 0 || other === undefined ? null : other);
+  const isOn = rivalsOf(state).length > 0;
+  return perform(CONTROL.compare, () => putLanes(isOn || !other ? [] : [{ law: other }]));
 }
 
-/** Run this law beside the session's own, or none. */
-export function compareWith(law: Law | null): Promise<boolean> {
-  return perform(CONTROL.compare, () => putLanes(law === null ? [] : [law]));
+/** One more beside; the session's own law with settings of its own, which are those of now. */
+export function addLane(state: SessionState, law: Law): Promise<boolean> {
+  const { configuration } = state;
+  const lane: Lane = { law };
+  if (law === configuration.law && lawOf(law)?.takes_gains) lane.gains = gainsOf(lane, state);
+  else if (law === configuration.law) lane.parameters = configuration.parameters[law] ?? {};
+  return perform(CONTROL.compare, () => putLanes([...rivalsOf(state), lane]));
+}
+
+export function removeLane(state: SessionState, lane: number): Promise<boolean> {
+  const kept = lanesBeside(state).filter((one) => one.lane !== lane);
+  return perform(CONTROL.compare, () => putLanes(kept.map(({ controller }) => controller)));
 }
 
 async function removeWeights(state: SessionState): Promise<SessionState> {

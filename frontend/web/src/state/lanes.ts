@@ -1,20 +1,53 @@
 /** The lanes of the session: what runs side by side, and under which names. */
 import { computed } from "@preact/signals";
-import type { LaneRow, Law, SessionState } from "../api/types";
+import type { Gains, Lane, LaneRow, Law, SessionState } from "../api/types";
 import { session } from "./session";
 
 /** The controllers set beside the session's own; a bench's simulated twin is none of them. */
 export const rivalsOf = ({ configuration: { rivals }, bench }: SessionState) =>
   bench === null ? rivals : rivals.slice(1);
 
+/** A controller beside the session's own, on the lane of this number. */
+export interface LaneBeside {
+  lane: number;
+  /** The lane's own in the whole run. */
+  id: number;
+  name: string;
+  ink: number;
+  controller: Lane;
+}
+
+export function lanesBeside(state: SessionState): LaneBeside[] {
+  const first = 1 + state.configuration.rivals.length - rivalsOf(state).length;
+  return rivalsOf(state).flatMap((controller, index) => {
+    const row = state.lanes[first + index];
+    const lane = first + index + 1;
+    const ink = row?.stretches.at(-1)?.ink ?? 0;
+    return row ? [{ lane, id: row.id, name: row.name, ink, controller }] : [];
+  });
+}
+
+/** The gains of a lane: its own, or the session's while it has none. */
+export function gainsOf({ gains }: Lane, { configuration }: SessionState): Gains {
+  const { position_coefficients, stiffness_coefficients } = configuration.gains;
+  return gains ?? ({ position_coefficients, stiffness_coefficients } as Gains);
+}
+
+/** Whether something of it is its own, and not the session's. */
+export const hasOwnSettings = ({ gains, parameters, observer }: Lane): boolean =>
+  [gains, parameters, observer].some((own) => own !== null && own !== undefined);
+
 /**
  * The laws of the lanes beside when the session takes a law: the lane that has it takes the
- * session's in exchange, each from where its actuator is. None where no lane has it.
+ * session's in exchange, each from where its actuator is. None where no lane has it, or where it
+ * is set there otherwise: that is another controller, which stays.
  */
 export function lawsBeside(law: Law, state: SessionState): Law[] {
   const { law: before, rivals } = state.configuration;
   const twins = rivals.length - rivalsOf(state).length;
-  const other = rivals.findIndex((rival, index) => index >= twins && rival.law === law);
+  const other = rivals.findIndex(
+    (rival, index) => index >= twins && rival.law === law && !hasOwnSettings(rival),
+  );
   if (other < 0) return [];
   return rivals.map((rival, index) => {
     if (index < twins) return law;

@@ -3,6 +3,8 @@ import { computed, signal } from "@preact/signals";
 import { readLaws } from "../api/client";
 import type { Law, LawRow } from "../api/types";
 
+const RETRY_MS = 2000;
+
 export const laws = signal<readonly LawRow[]>([]);
 
 /** Those that can be used; a broken one is named in `brokenLaws`. */
@@ -19,7 +21,31 @@ export const titleOf = (name: Law): string => lawOf(name)?.title ?? name;
 export const otherLaw = (law: Law): Law | undefined =>
   usableLaws.value.find(({ name }) => name !== law)?.name;
 
-/** Once, when the page opens: laws are installed before the lab starts. */
+const plain = (words: string): string => words.toLowerCase().trim();
+
+/** Those that have every word in their name, title or summary. */
+export function findLaws(listed: readonly LawRow[], sought: string): LawRow[] {
+  const wanted = plain(sought).split(/\s+/);
+  return listed.filter(({ name, title, summary }) => {
+    const said = plain(`${name} ${title} ${summary}`);
+    return wanted.every((word) => said.includes(word));
+  });
+}
+
+const ESTIMATES = ["observer", "own", "none"] as const;
+
+/** By whose estimate of the load they act on; while there are few it is one group. */
+export const groupLaws = (listed: readonly LawRow[]) =>
+  ESTIMATES.map((estimate) => ({
+    estimate,
+    laws: listed.filter((law) => law.estimate === estimate),
+  })).filter((group) => group.laws.length > 0);
+
+/** When the page opens, once: laws are installed before the lab starts. */
 export async function openLaws(): Promise<void> {
-  laws.value = await readLaws();
+  try {
+    laws.value = await readLaws();
+  } catch {
+    setTimeout(() => void openLaws(), RETRY_MS);
+  }
 }

@@ -54,7 +54,7 @@ export const designText = {
     discard: "Discard",
     discardHint: "Back to what is in use",
     undo: "Undo",
-    undoHint: "Back to the gains and the observer before",
+    undoHint: "Back to the settings before: gains, observer, parameters of laws",
     undoSteps: (count: number) => `Undo, ${count} ${count === 1 ? "step" : "steps"} kept`,
     summary: (group: string) => `${group} poles`,
   },

@@ -5,6 +5,7 @@ import { controlsText } from "./controls";
 import { designText } from "./design";
 import { identificationText } from "./identification";
 import { keysText } from "./keys";
+import { lawsText } from "./laws";
 import { learningText } from "./learning";
 import { pageText } from "./page";
 import { plotsText } from "./plots";
@@ -21,6 +22,7 @@ export const text = {
   ...benchText,
   ...designText,
   ...learningText,
+  ...lawsText,
   ...sceneText,
   ...keysText,
   ...identificationText,

@@ -8,6 +8,7 @@ interface PopupProps {
   title: string;
   class: string;
   popupClass?: string;
+  isDisabled?: boolean;
   children: (close: () => void) => ComponentChildren;
 }
 
@@ -31,7 +32,15 @@ function place(popup: HTMLElement, button: HTMLElement): void {
 }
 
 /** A button and what it opens; Esc or a press elsewhere closes it and gives the focus back. */
-export function Popup({ button, name, title, class: look, popupClass, children }: PopupProps) {
+export function Popup({
+  button,
+  name,
+  title,
+  class: look,
+  popupClass,
+  isDisabled,
+  children,
+}: PopupProps) {
   const id = useId();
   const popup = useRef<HTMLDivElement>(null);
   const opener = useRef<HTMLButtonElement>(null);
@@ -53,6 +62,7 @@ export function Popup({ button, name, title, class: look, popupClass, children }
         aria-label={name}
         aria-haspopup="dialog"
         title={title}
+        disabled={isDisabled}
       >
         {button}
       </button>
