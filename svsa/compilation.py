@@ -22,6 +22,7 @@ import shutil
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 import numba
@@ -124,6 +125,21 @@ def compiled(function: Callable[..., Any]) -> Any:
         return numba.njit(cache=True, **_OPTIONS)(function)
     finally:
         config.CACHE_DIR = before  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def find_fingerprint(function: Callable[..., Any]) -> str:
+    """What changes with the text that a function of a file is made of."""
+    return _compute_fingerprint(Path(function.__code__.co_filename))
+
+
+def specialize(function: Callable[..., Any], name: str, **given: Any) -> Any:
+    """The function compiled with these in place of the globals of its file.
+
+    name: stands for what is given in the cache, so that another has another.
+    """
+    copy = FunctionType(function.__code__, function.__globals__ | given, name)
+    copy.__qualname__ = name
+    return compiled(copy)
 
 
 class _CompilationListener(event.Listener):

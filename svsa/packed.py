@@ -5,6 +5,7 @@ that costs more than the equations do, the tuple goes in as a record of an array
 names.
 """
 
+from collections.abc import Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -15,7 +16,12 @@ def pack(values: tuple[Any, ...]) -> np.ndarray:
 
     Whole numbers stay whole; a tuple without names becomes a short array.
     """
-    return np.array([values], dtype=_build_dtype(values))
+    return pack_all([values])
+
+
+def pack_all(rows: Sequence[tuple[Any, ...]]) -> np.ndarray:
+    """`pack` of many tuples of one kind: a record each, shape (rows,)."""
+    return np.array(list(rows), dtype=_build_dtype(rows[0]))
 
 
 def view_field(record: np.ndarray, name: str) -> np.ndarray:

@@ -11,8 +11,10 @@ from svsa.experiment.bench_run import LockstepBench
 from svsa.identification.identify import identify
 from svsa.paper import FIGURES
 from svsa.plant.disturbances import ConstantLoad
+from svsa.run.batch import run_configurations
 from tests.identification.excited_run import build_configuration, build_run, play
 from tests.rig.in_process_rig import start_in_process
+from tests.session.sessions import EVERY_EFFECT
 
 TICKS = 10
 
@@ -21,6 +23,7 @@ def main() -> None:
     prepare()
     compile_bench()
     compile_identification()
+    compile_batches()
 
 
 def compile_bench() -> None:
@@ -41,6 +44,17 @@ def compile_identification() -> None:
     move = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=1.0)
     configuration = build_configuration(position=move)
     identify(build_run(configuration, play(configuration, [], 8.0)[0]))
+
+
+def compile_batches() -> None:
+    """Lanes of a law with every effect, and without any."""
+    for law, effects in (
+        ("ndobc", EVERY_EFFECT),
+        ("ndobc", svsa.IDEAL),
+        ("fl_integral", svsa.IDEAL),
+    ):
+        configuration = FIGURES["4a"].build_configuration(law).changed(effects=effects, seed=7)
+        run_configurations([configuration], TICKS * configuration.sampling.period_s)
 
 
 if __name__ == "__main__":

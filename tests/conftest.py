@@ -11,7 +11,7 @@ from tests.lab import Lab, run_lab
 TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
-    *("package", "", "model", "reference", "control", "observer", "plant", "loop", "run"),
+    *("package", "", "lanes", "model", "reference", "control", "observer", "plant", "loop", "run"),
     *("session", "records", "export", "design", "identification", "experiment", "arena"),
     *("rig", "hardware", "scene", "server", "browser"),
 )

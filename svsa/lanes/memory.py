@@ -9,7 +9,8 @@ from numba.extending import intrinsic
 
 from svsa.lanes.number import LANES, VECTOR, Lanes
 
-_DOUBLES = 8
+ALIGNMENT = 8
+"""Bytes: arrays of doubles begin anywhere."""
 
 
 def point(context: Any, builder: Any, kind: Any, array: Any, row: Any) -> Any:
@@ -19,30 +20,31 @@ def point(context: Any, builder: Any, kind: Any, array: Any, row: Any) -> Any:
     return builder.gep(begin, [row])
 
 
-def _is_array(kind: Any) -> bool:
+def are_rows(kind: Any) -> bool:
+    """Whether a kind is an array that lanes can be read of."""
     return isinstance(kind, types.Array) and kind.dtype == types.float64 and kind.layout == "C"
 
 
 @intrinsic
 def _load(typing: Any, array: Any, row: Any) -> Any:
-    if not _is_array(array):
+    if not are_rows(array):
         return None
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         place = point(context, builder, array, *arguments)
-        return builder.load(place, align=_DOUBLES)
+        return builder.load(place, align=ALIGNMENT)
 
     return LANES(array, types.intp), generate
 
 
 @intrinsic
 def _store(typing: Any, array: Any, row: Any, value: Any) -> Any:
-    if not _is_array(array) or not isinstance(value, Lanes | types.Number):
+    if not are_rows(array) or not isinstance(value, Lanes | types.Number):
         return None
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         place = point(context, builder, array, *arguments[:2])
-        builder.store(arguments[2], place, align=_DOUBLES)
+        builder.store(arguments[2], place, align=ALIGNMENT)
         return context.get_dummy_value()
 
     return types.void(array, types.intp, LANES), generate

@@ -94,7 +94,7 @@ def learn(operation: Any, choose_signature: Callable[..., Any]) -> None:
 
 
 def define(
-    operation: Any, generate: Callable[..., Any], result: types.Type, *operands: Lanes | Truths
+    operation: Any, generate: Callable[..., Any], result: types.Type, *operands: types.Type
 ) -> None:
     """Let compiled functions know an operation where one of its operands is of lanes.
 
@@ -105,7 +105,7 @@ def define(
         pairs = list(zip(operands, kinds, strict=False))
         if len(kinds) != len(operands) or not any(a == b for a, b in pairs):
             return None
-        fits = all(a == b or a.can_convert_from(context, b) is not None for a, b in pairs)
+        fits = all(a == b or context.can_convert(b, a) is not None for a, b in pairs)
         return signature(result, *operands) if fits else None
 
     learn(operation, choose_signature)

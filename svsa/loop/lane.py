@@ -8,7 +8,7 @@ from svsa.borrowed import borrow
 from svsa.compilation import compiled
 from svsa.control.call import BoundLaw
 from svsa.model.domain import Domain
-from svsa.model.dynamics import Actuator
+from svsa.model.dynamics import Actuator, ExternalLoad
 from svsa.plant.disturbances import LoadTable
 from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench
 from svsa.reference.transition import Stack
@@ -63,6 +63,20 @@ class LaneState(NamedTuple):
     applied: Torque
     asked: tuple[float, ...]
     memory: np.ndarray
+
+
+class Action(NamedTuple):
+    """What a torque begins in a tick.
+
+    asked: the delay's queue with it. target: what is due of it now, made: what the motors make
+    of that at once, N·m. load: `ExternalLoad`. rate: ẋ under both.
+    """
+
+    asked: tuple[float, ...]
+    target: Torque
+    made: Torque
+    load: ExternalLoad
+    rate: State
 
 
 def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:

@@ -16,7 +16,8 @@ from svsa.borrowed import borrow
 from svsa.compilation import compiled
 from svsa.control.call import build_call, compute_law, read_estimate
 from svsa.control.limits import limit_torque
-from svsa.loop.lane import LaneState, borrow_inputs, borrow_law, remember
+from svsa.lanes.choice import choose, some
+from svsa.loop.lane import Action, LaneState, borrow_inputs, borrow_law, remember
 from svsa.loop.publish import publish
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
 from svsa.model.dynamics import compute_internal_torque
@@ -28,7 +29,7 @@ from svsa.observer.state import build_measured_state, update_state_estimate
 from svsa.plant.disturbances import compute_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
 from svsa.plant.integration import compute_plant_rate, integrate_from
-from svsa.plant.sensors import are_exact, read_sensors
+from svsa.plant.sensors import are_inexact, read_sensors
 from svsa.reference.transition import compute_trajectory
 from svsa.signals import Reference, Torque
 
@@ -85,20 +86,24 @@ def observe(blocks, known, estimate, applied, measurement):
 @compiled
 def know(blocks, known, estimate, applied, measurement):
     """x̂ with this `Measurement`. known, estimate, applied: as in `observe`."""
-    if blocks.decay > 0.0:
-        return update_state_estimate(
-            blocks.nominal, blocks.decay, known, estimate, applied, measurement, blocks.period
-        )
-    return build_measured_state(measurement)
+    measured, estimates = build_measured_state(measurement), blocks.decay > 0.0
+    if not some(estimates):
+        return measured
+    x = update_state_estimate(
+        blocks.nominal, blocks.decay, known, estimate, applied, measurement, blocks.period
+    )
+    return choose(estimates, x, measured)
 
 
 @compiled
 def sense(blocks, lane, x, applied, tick):
     """x̂ at `tick`, of the plant's state x: x itself where the sensors are perfect."""
-    if blocks.decay == 0.0 and are_exact(blocks.bench):
+    differs = (blocks.decay > 0.0) | are_inexact(blocks.bench)
+    if not some(differs):
         return x
     measurement = read_sensors(blocks.bench, x, tick)
-    return know(blocks, lane.known, lane.estimate, applied, measurement)
+    known = know(blocks, lane.known, lane.estimate, applied, measurement)
+    return choose(differs, known, x)
 
 
 @compiled
@@ -137,24 +142,40 @@ def apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sam
     `Reference` then. torque: asked for, within the limits, N·m. estimate: the ŵ behind it,
     `Disturbance`, N·m. sample: (channels,), written. Returns `LaneState` and F at the end.
     """
-    plant, nominal, bench, period = blocks.plant, blocks.nominal, blocks.bench, blocks.period
-    table, time, steps = inputs.loads, tick * period, blocks.steps
+    action = act(blocks, inputs, lane, torque, tick)
+    time = tick * blocks.period
+    publish(blocks, reference, lane, F, estimate, action.made, action.rate, time, sample)
+    return move(blocks, inputs, lane, F, action, tick)
+
+
+@compiled
+def act(blocks, inputs, lane, torque, tick):
+    """`Action` of a torque within the limits, N·m: delay, drive, loads and what they do at once."""
+    bench, time = blocks.bench, tick * blocks.period
     asked, target = delay(bench, lane.asked, torque)
-    load = compute_load(table, tick, period, time)
+    load = compute_load(inputs.loads, tick, blocks.period, time)
     made = compute_lagged_torque(lane.torque, target, bench.lag, 0.0)
-    rate = compute_plant_rate(plant, bench, lane.x, made, load)
-    publish(blocks, reference, lane, F, estimate, made, rate, time, sample)
+    rate = compute_plant_rate(blocks.plant, bench, lane.x, made, load)
+    return Action(asked, target, made, load, rate)
+
+
+@compiled
+def move(blocks, inputs, lane, F, action, tick):
+    """The rest of the tick: plant, read, observer. Returns `LaneState` and F_n(x̂) at its end."""
+    plant, nominal, bench, period = blocks.plant, blocks.nominal, blocks.bench, blocks.period
+    start, target, load = lane.torque, action.target, action.load
+    table, steps = inputs.loads, blocks.steps
     x = integrate_from(
-        plant, bench, lane.x, rate, lane.torque, target, table, load, tick, period, steps
+        plant, bench, lane.x, action.rate, start, target, table, load, tick, period, steps
     )
-    made = compute_lagged_torque(lane.torque, target, bench.lag, period)
-    applied = compute_mean_torque(lane.torque, target, bench.lag, period)
+    made = compute_lagged_torque(start, target, bench.lag, period)
+    applied = compute_mean_torque(start, target, bench.lag, period)
     known = sense(blocks, lane, x, applied, tick + 1)
     F_known = compute_internal_torque(nominal, known)
     observed = correct_disturbance_estimate(
         nominal, blocks.shares, lane.estimate, lane.known, F, known, F_known, applied, period
     )
-    return LaneState(x, known, observed, made, applied, asked, lane.memory), F_known
+    return LaneState(x, known, observed, made, applied, action.asked, lane.memory), F_known
 
 
 @compiled

@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from svsa.compilation import compiled
+from svsa.lanes.bits import as_bits, as_float
 from svsa.model.exponential import log
 from svsa.model.trigonometry import cos
 
@@ -32,8 +33,8 @@ def scramble(counter):
 def draw_uniform(seed, tick, channel):
     """A number in (0, 1) for this seed, tick and channel (whole numbers ≥ 0, channel < 64)."""
     position = np.uint64(tick) * _CHANNELS + np.uint64(channel)
-    bits = scramble(scramble(np.uint64(seed)) + position)
-    return (np.float64(bits >> _S11) + 0.5) * 2.0**-53
+    bits = scramble(scramble(as_bits(seed)) + position)
+    return (as_float(bits >> _S11) + 0.5) * 2.0**-53
 
 
 @compiled

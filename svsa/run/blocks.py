@@ -1,6 +1,7 @@
 """A lane of a configuration as constants of the compiled loop."""
 
 import math
+from typing import Any
 
 from svsa.control.call import BoundLaw
 from svsa.control.installed import get_law
@@ -9,8 +10,10 @@ from svsa.loop.lane import Blocks
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
 from svsa.model.exponential import exp
+from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.observer.disturbance import compute_shares
 from svsa.plant.effects import build_bench
+from svsa.reference.trajectories import compute_start_value
 from svsa.run.configuration import Configuration, Lane
 
 
@@ -35,6 +38,23 @@ def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: in
 
 def bind_law(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
     """The law of one lane among its blocks; compiled where it has not been before."""
+    return get_law(lane.law).bind(configuration.get_parameters(lane), build_setting(blocks))
+
+
+def build_constants(configuration: Configuration, lane: Lane, blocks: Blocks) -> tuple[Any, ...]:
+    """The constants of one lane's law among its blocks."""
+    return get_law(lane.law).build(configuration.get_parameters(lane), build_setting(blocks))
+
+
+def build_setting(blocks: Blocks) -> Setting:
+    """What a law is set into by these blocks."""
     b = blocks
-    setting = Setting(b.nominal, b.domain, b.torque1_max, b.torque2_max, b.period)
-    return get_law(lane.law).bind(configuration.get_parameters(lane), setting)
+    return Setting(b.nominal, b.domain, b.torque1_max, b.torque2_max, b.period)
+
+
+def compute_start_ratio(configuration: Configuration) -> float:
+    """μ0 of a run that starts at rest: σ(0) = σ_d(0) at θ2 = 0."""
+    return compute_lever_ratio_for_stiffness(
+        compute_start_value(configuration.stiffness),
+        configuration.actuator.rotational_stiffness_nm_per_rad,
+    )

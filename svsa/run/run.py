@@ -13,7 +13,7 @@ from svsa.loop.lane import AT_REST, Inputs, LaneState, build_lane_state
 from svsa.loop.loop import advance
 from svsa.loop.stepwise import Controller, advance_stepwise
 from svsa.model.domain import INSIDE
-from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
+from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
@@ -29,11 +29,10 @@ from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.reference.trajectories import (
     PositionReference,
     StiffnessReference,
-    compute_start_value,
     get_range,
 )
 from svsa.reference.transition import Stack, build_stack, push_trajectory
-from svsa.run.blocks import bind_law, build_blocks
+from svsa.run.blocks import bind_law, build_blocks, compute_start_ratio
 from svsa.run.configuration import MOST_LOADS, Configuration, Lane, LaneSetting
 from svsa.run.fault import build_fault
 from svsa.signals import State
@@ -75,10 +74,7 @@ class Run:
         self._load_count = 0
         self.loads: tuple[ScheduledLoad, ...] = ()
         if start is None:
-            self.mu0: float = compute_lever_ratio_for_stiffness(
-                compute_start_value(configuration.stiffness),
-                configuration.actuator.rotational_stiffness_nm_per_rad,
-            )
+            self.mu0 = compute_start_ratio(configuration)
             x = AT_REST
             self._position = build_stack(configuration.position)
             self._stiffness = build_stack(configuration.stiffness)

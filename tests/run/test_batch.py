@@ -1,0 +1,146 @@
+"""Many runs side by side: each has the bits of the same run alone, whatever runs beside it."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import svsa
+from svsa.loop.batch import SUMMARY
+from svsa.model.domain import DEFLECTION_LIMIT, FAULT_CODES
+from svsa.run.batch import build_run_batch, run_configurations
+from svsa.run.configuration import Configuration
+from svsa.run.metrics import compute_metrics
+from svsa.run.run import Run
+from svsa.signals import CHANNELS, State
+from tests.session.scripts import actuators, gains, observers
+from tests.session.sessions import EVERY_EFFECT
+
+TICKS, BEGIN = 400, 150
+LOADS = (
+    svsa.ConstantLoad(torque_nm=(0.5, 0.0, 0.1), start_s=0.1),
+    svsa.SineLoad(torque_nm=(0.3, 0.2, 0.0), frequency_hz=3.0, start_s=0.2),
+    svsa.MassLoad(mass_kg=0.5, start_s=0.3),
+)
+CRASH = svsa.ConstantLoad(torque_nm=(30.0, 0.0, 0.0), start_s=0.2)
+
+effects = st.builds(
+    lambda kept: EVERY_EFFECT.changed(
+        **{name: None for name, is_kept in kept.items() if not is_kept}
+    ),
+    st.fixed_dictionaries(
+        dict.fromkeys(
+            ("encoders", "estimation", "friction", "current_lag", "noise", "gravity"), st.booleans()
+        )
+    ),
+)
+changes = st.fixed_dictionaries(
+    {
+        "actuator": actuators,
+        "gains": gains,
+        "observer": observers,
+        "effects": effects,
+        "seed": st.integers(0, 2**63 - 1),
+    }
+)
+
+
+def build(law: str, **chosen: object) -> Configuration:
+    return svsa.paper.get_figure("4a").build_configuration(law).changed(**chosen)
+
+
+def assert_is_run_alone(summary: np.void, configuration: Configuration) -> None:
+    run = Run(configuration)
+    samples = np.empty((1, TICKS, len(CHANNELS)))
+    done = run.advance(samples)
+    assert FAULT_CODES.get(summary["code"]) == (run.fault.code if run.fault else None)
+    assert summary["ticks"] == done
+    assert tuple(summary[name] for name in State._fields) == run.lanes[0].x
+    if done <= BEGIN:
+        return
+    metrics = compute_metrics(samples[0, BEGIN:done], run.period_s)
+    count = done - BEGIN
+    assert summary["position_peak"] == metrics.peak_position_error_rad
+    assert summary["stiffness_peak"] == metrics.peak_stiffness_error_nm_per_rad
+    assert summary["torque1_peak"] == metrics.peak_torque1_nm
+    assert summary["torque2_peak"] == metrics.peak_torque2_nm
+    sums = {
+        "position_squares": count * metrics.rms_position_error_rad**2,
+        "stiffness_squares": count * metrics.rms_stiffness_error_nm_per_rad**2,
+        "position_absolute": metrics.integral_position_error_rad_s / run.period_s,
+    }
+    for name, value in sums.items():
+        assert summary[name] == pytest.approx(value, rel=1e-12)
+    effort = summary["torque1_squares"] + summary["torque2_squares"]
+    assert effort * run.period_s == pytest.approx(metrics.effort_n2m2_s, rel=1e-12)
+    last = run_last_errors(samples[0, done - 1])
+    assert (summary["position_last"], summary["stiffness_last"]) == last
+
+
+def run_last_errors(sample: np.ndarray) -> tuple[float, float]:
+    names = [channel.name for channel in CHANNELS]
+    position, stiffness = (
+        names.index("position_error_rad"),
+        names.index("stiffness_error_nm_per_rad"),
+    )
+    return sample[position], sample[stiffness]
+
+
+def compare(configurations: list[Configuration]) -> np.ndarray:
+    period = configurations[0].sampling.period_s
+    summaries = run_configurations(configurations, TICKS * period, BEGIN * period)
+    assert (summaries.dtype, summaries.shape) == (SUMMARY, (len(configurations),))
+    for summary, configuration in zip(summaries, configurations, strict=True):
+        assert_is_run_alone(summary, configuration)
+    return summaries
+
+
+@settings(max_examples=8, deadline=None)
+@given(drawn=st.lists(changes, min_size=1, max_size=10))
+def test_every_lane_is_the_run_alone_with_any_parameters_effects_and_seed(drawn: list) -> None:
+    """One with every effect among them, so that one machine code serves them all."""
+    first = build("ndobc", effects=EVERY_EFFECT, seed=7, loads=LOADS)
+    compare([first, *(build("ndobc", loads=LOADS, **one) for one in drawn)])
+
+
+def test_a_law_keeps_its_memory_in_each_lane() -> None:
+    """And in lanes without any effect, the last group not full."""
+    design = svsa.load_prototype()
+    shares = np.linspace(0.7, 1.3, 11)
+    plants = [
+        design.actuator.changed(link_inertia_kg_m2=share * design.actuator.link_inertia_kg_m2)
+        for share in shares
+    ]
+    summaries = compare([build("fl_integral", actuator=plant, loads=LOADS) for plant in plants])
+    assert len(np.unique(summaries["q"])) == len(shares)
+
+
+def test_a_run_that_ends_stays_where_it_ended_and_stops_no_other() -> None:
+    """Each at its own tick; a lane that holds is no fault of the lanes beside it."""
+    masses = np.linspace(0.6, 1.4, 8)
+    design = svsa.load_prototype()
+    plants = [
+        design.actuator.changed(link_inertia_kg_m2=share * design.actuator.link_inertia_kg_m2)
+        for share in masses
+    ]
+    crashing = [build("fl_integral", actuator=plant, loads=(CRASH,)) for plant in plants]
+    summaries = compare(crashing)
+    assert set(summaries["code"]) == {DEFLECTION_LIMIT}
+    assert len(set(summaries["ticks"])) > 1
+
+
+def test_runs_under_other_references_come_back_in_their_order() -> None:
+    angles = (0.1, -0.2, 0.1, 0.3)
+    configurations = [
+        build("fl_integral", position=svsa.ConstantPosition(position_rad=angle)) for angle in angles
+    ]
+    summaries = compare(configurations)
+    assert summaries["q"][0] == summaries["q"][2]
+    assert summaries["q"][1] < summaries["q"][0] < summaries["q"][3]
+
+
+def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -> None:
+    rig = svsa.RIG
+    mixed = [build("ndobc", effects=rig.changed(delay_samples=delay)) for delay in (1, 2)]
+    with pytest.raises(svsa.ParameterError, match=r"blocks\.bench\.delay.*every run of a batch"):
+        build_run_batch(mixed)
