@@ -4,6 +4,7 @@ A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, 
 """
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import greatest, least
 from svsa.model.dynamics import compute_deflection
 from svsa.model.lever import compute_lever_ratio_slope
 
@@ -17,9 +18,9 @@ def guard_deflection(nominal, x, F, w, ddq, bound, rate, u1):
     """
     phi, dphi = compute_deflection(x), x.dq - x.dtheta1
     damped = ddq + 2.0 * rate * dphi
-    least = nominal.B1 * (damped - rate * rate * (bound - phi)) - F.motor1 - w.w4
-    most = nominal.B1 * (damped + rate * rate * (bound + phi)) - F.motor1 - w.w4
-    return min(max(u1, least), most)
+    low = nominal.B1 * (damped - rate * rate * (bound - phi)) - F.motor1 - w.w4
+    high = nominal.B1 * (damped + rate * rate * (bound + phi)) - F.motor1 - w.w4
+    return least(greatest(u1, low), high)
 
 
 @compiled
@@ -31,6 +32,6 @@ def guard_lever(nominal, x, F, w, mu, mu_min, mu_max, rate, u2):
     """
     slope = compute_lever_ratio_slope(nominal.gamma)
     damped, inertia = -2.0 * rate * slope * x.dtheta2, nominal.B2 / slope
-    most = inertia * (damped + rate * rate * (mu_max - mu)) - F.motor2 - w.w6
-    least = inertia * (damped - rate * rate * (mu - mu_min)) - F.motor2 - w.w6
-    return min(max(u2, least), most)
+    high = inertia * (damped + rate * rate * (mu_max - mu)) - F.motor2 - w.w6
+    low = inertia * (damped - rate * rate * (mu - mu_min)) - F.motor2 - w.w6
+    return least(greatest(u2, low), high)

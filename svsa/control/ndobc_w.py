@@ -26,6 +26,7 @@ from svsa.control.disturbed import Disturbed, compute_disturbed
 from svsa.control.guard import guard_deflection, guard_lever
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
+from svsa.lanes.choice import choose, greatest, least, some
 from svsa.model.domain import Domain, compute_deflection_limit
 from svsa.model.dynamics import compute_internal_torque
 from svsa.model.exponential import exp
@@ -140,10 +141,10 @@ def govern_stiffness(nominal, constants, memory, reference, w, period):
     deflection = constants.governed_share * compute_deflection_limit(constants.domain, mu)
     most = compute_elastic_torque(mu, deflection, nominal.K)
     need = abs(w.w2 - nominal.M * reference.ddq - nominal.D * reference.dq)
-    ratio = max(need / most, 1.0)
-    wanted = min(reference.sigma * ratio * math.sqrt(math.sqrt(ratio)), GOVERNED_MOST)
-    added = max(wanted - reference.sigma, 0.0)
-    rate = GOVERNED_UP if added > memory.sigma else GOVERNED_DOWN
+    ratio = greatest(need / most, 1.0)
+    wanted = least(reference.sigma * ratio * math.sqrt(math.sqrt(ratio)), GOVERNED_MOST)
+    added = greatest(wanted - reference.sigma, 0.0)
+    rate = choose(added > memory.sigma, GOVERNED_UP, GOVERNED_DOWN)
     ddsigma = rate * (rate * (added - memory.sigma) - 2.0 * memory.dsigma)
     memory.dsigma += period * ddsigma
     memory.sigma += period * memory.dsigma
@@ -162,13 +163,21 @@ def compute_demand(nominal, reference, x, q, w, most, a):
     dde, ddde = reference.ddq - q.ddq, reference.dddq - q.dddq
     wanted = reference.ddq + a * (2.0 * de + a * e)
     torque = w.w2 - D * x.dq - M * wanted
-    if abs(torque) <= most:
-        dwanted = reference.dddq + a * (2.0 * dde + a * de)
-        ddwanted = reference.ddddq + a * (2.0 * ddde + a * dde)
-    else:
-        wanted = (w.w2 - D * x.dq - min(max(torque, -most), most)) / M
-        dwanted, ddwanted = -D / M * q.ddq, -D / M * q.dddq
+    within = abs(torque) <= most
+    clipped = least(greatest(torque, -most), most)
+    wanted = choose(within, wanted, (w.w2 - D * x.dq - clipped) / M)
+    dwanted = choose(within, reference.dddq + a * (2.0 * dde + a * de), -D / M * q.ddq)
+    ddwanted = choose(within, reference.ddddq + a * (2.0 * ddde + a * dde), -D / M * q.dddq)
     return ddwanted + a * (2.0 * (dwanted - q.dddq) + a * (wanted - q.ddq))
+
+
+@compiled
+def place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a):
+    """U = A⁻¹(y − drift under ŵ) with the poles at −a and −p, before limits. c: `Constants`."""
+    p = c.p_over_a * a
+    y1 = compute_demand(nominal, reference, x, q, w, most, a)
+    y2 = reference.ddsigma + ddsigma + p * (2.0 * de_sigma + p * e_sigma)
+    return solve_decoupling(ξ, y1 - q.ddddq, y2 - q.ddsigma)
 
 
 @compiled
@@ -188,17 +197,15 @@ def control(nominal, constants, memory, x, reference, estimate, applied, period)
     limit = compute_deflection_limit(c.domain, mu)
     most = TORQUE_RATIO * compute_elastic_torque(mu, SPRING_SHARE * limit, nominal.K)
     e_sigma, de_sigma = reference.sigma + sigma - ξ.sigma, reference.dsigma + dsigma - ξ.dsigma
-    a = min(c.a_max, c.a_max - memory.yielded + c.back)
-    torque = Torque(0.0, 0.0)
+    a = least(c.a_max, c.a_max - memory.yielded + c.back)
+    torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)
     for _ in range(MOST_STEPS):
-        p = c.p_over_a * a
-        y1 = compute_demand(nominal, reference, x, q, w, most, a)
-        y2 = reference.ddsigma + ddsigma + p * (2.0 * de_sigma + p * e_sigma)
-        torque = solve_decoupling(ξ, y1 - q.ddddq, y2 - q.ddsigma)
-        reached = abs(torque.u1) <= c.torque1_max and abs(torque.u2) <= c.torque2_max
-        if reached or a <= c.a_min:
+        beyond = (abs(torque.u1) > c.torque1_max) | (abs(torque.u2) > c.torque2_max)
+        gives = beyond & (a > c.a_min)
+        if not some(gives):
             break
-        a *= GIVE
+        a = choose(gives, GIVE * a, a)
+        torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)
     memory.yielded = c.a_max - a
     F = compute_internal_torque(nominal, x)
     u1 = guard_deflection(

@@ -6,6 +6,7 @@ They see what the law is told, x̂ and the torque that really acted, and so do n
 from typing import NamedTuple
 
 from svsa.compilation import compiled
+from svsa.lanes.choice import choose
 from svsa.model.dynamics import compute_internal_torque
 from svsa.observer.disturbance import compute_unexplained_mean
 from svsa.signals import Disturbance, State
@@ -55,17 +56,25 @@ def observe_disturbance(nominal, share, rate_share, memory, x, torque, period):
     nominal: `Actuator`. share: g. rate_share: h. memory: `Observed`, written. x: x̂ now. torque:
     `Torque` that acted in the last period, N·m. period: T, s. Returns ŵ, `Disturbance`.
     """
-    if memory.is_started != 0.0:
-        F_old = compute_internal_torque(nominal, memory.x)
-        F_new = compute_internal_torque(nominal, x)
-        seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
-        h = rate_share / period
-        w2 = memory.w2 + period * memory.dw2
-        w4 = memory.w4 + period * memory.dw4
-        w6 = memory.w6 + period * memory.dw6
-        r2, r4, r6 = seen.w2 - w2, seen.w4 - w4, seen.w6 - w6
-        memory.w2, memory.dw2 = w2 + share * r2, memory.dw2 + h * r2
-        memory.w4, memory.dw4 = w4 + share * r4, memory.dw4 + h * r4
-        memory.w6, memory.dw6 = w6 + share * r6, memory.dw6 + h * r6
+    F_old = compute_internal_torque(nominal, memory.x)
+    F_new = compute_internal_torque(nominal, x)
+    return observe_unexplained(nominal, share, rate_share, memory, x, F_old, F_new, torque, period)
+
+
+@compiled
+def observe_unexplained(nominal, share, rate_share, memory, x, F_old, F_new, torque, period):
+    """`observe_disturbance` with F at both ends by a model of one's own, `InternalTorque`, N·m."""
+    seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
+    g = choose(memory.is_started > 0.0, share, 0.0)
+    h = choose(memory.is_started > 0.0, rate_share, 0.0) / period
+    w2, w4, w6 = (
+        memory.w2 + period * memory.dw2,
+        memory.w4 + period * memory.dw4,
+        memory.w6 + period * memory.dw6,
+    )
+    r2, r4, r6 = seen.w2 - w2, seen.w4 - w4, seen.w6 - w6
+    memory.w2, memory.dw2 = w2 + g * r2, memory.dw2 + h * r2
+    memory.w4, memory.dw4 = w4 + g * r4, memory.dw4 + h * r4
+    memory.w6, memory.dw6 = w6 + g * r6, memory.dw6 + h * r6
     remember_state(memory, x)
     return get_observed(memory)

@@ -12,11 +12,14 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from svsa.arena.measure import Entry, measure_law
+from svsa.arena.measure import Entry, measure_law, measure_rms, run_scenario
+from svsa.arena.scenarios import IDEAL_4A
+from svsa.control.installed import get_law
 
 NEAR = 1.05
 COUNTS = 1.15
 """A steady error on the rig is a cycle among counts, which any change moves by some per cent."""
+RECOVERY = 1.1
 
 
 class Mark(NamedTuple):
@@ -25,7 +28,7 @@ class Mark(NamedTuple):
     off: float | str
     u48: int
     sine: float
-    mass: float
+    mass: float | str
     step: float
 
 
@@ -35,7 +38,18 @@ MARKS = {
     "ndobc": Mark((0.0012, 4.14, 0.0013), (5.63, 0.0072, 0.24), "fault", 32, 2.38, 0.314, 2.0),
     "fl_integral": Mark((0.0016, 4.69, 0.0017), (5.92, 0.0072, 0.32), 5.8, 16, 2.64, 0.351, 2.0),
     "ndobc_w": Mark((0.0002, 4.89, 0.0002), (6.15, 0.0075, 0.27), 6.7, 0, 1.11, 0.086, 8.5),
+    "linear_dob": Mark((0.0015, 4.81, 0.0022), (6.16, 0.0076, 0.28), 5.6, 16, 2.80, 0.383, 3.0),
+    "adrc": Mark((0.0028, 5.36, 0.0030), (5.49, 0.0080, 0.68), 5.1, 16, 2.79, 0.397, 3.0),
+    "pi_observer": Mark((0.0014, 5.15, 0.0015), (5.27, 0.0058, 0.18), "fault", 44, 2.33, 0.31, 2.0),
+    "esp": Mark((0.0011, 4.41, 0.0010), (5.48, 0.0062, 0.21), 5.2, 16, 2.23, 0.254, 2.5),
+    "lqi": Mark((0.0023, 6.11, 0.0032), (7.46, 0.0090, 0.35), 7.0, 8, 3.68, 0.488, 3.0),
+    "pid": Mark((0.0033, 16.1, 0.0093), (17.4, 0.067, 4.2), 16.7, 16, 5.23, "fault", 1.5),
+    "backstepping": Mark((0.0080, 6.74, 0.0077), (5.53, 0.030, 11), 4.6, 0, 1.76, 0.255, 5.0),
+    "super_twisting": Mark((0.111, 4.38, 0.111), (5.38, 0.036, 14), 5.6, 17, 1.02, 1.12, 2.0),
 }
+"""Not as the prototypes: the linear observer has one fault more (15); the PI observer more (24) and
+2 N·m (2.5); super-twisting fewer (31), 1.11° under 3 kg (0.70°), 2 N·m (3); PID 1.5 N·m (2).
+"""
 
 
 @cache
@@ -46,22 +60,26 @@ def measure(law: str) -> dict[str, Any]:
 @pytest.mark.parametrize("law", MARKS)
 def test_a_law_is_as_good_as_its_prototype(law):
     row, mark = measure(law), MARKS[law]
-    for name, figures, steady in (("ideal_4a", mark.ideal, NEAR), ("rig_4a", mark.rig, COUNTS)):
-        names = ("before_deg", "peak_deg", "steady_deg") if name == "ideal_4a" else (
-            "peak_deg", "steady_deg", "recovery_s"
-        )  # fmt: skip
-        for column, figure in zip(names, figures, strict=True):
-            found = math.inf if row[name][column] is None else row[name][column]
-            near = steady if column == "steady_deg" else NEAR
-            assert found <= near * figure, (name, column)
+    ideal, rig = row["ideal_4a"], row["rig_4a"]
+    for column, figure in zip(("before_deg", "peak_deg", "steady_deg"), mark.ideal, strict=True):
+        assert ideal[column] <= NEAR * figure, column
+    for column, figure, near in zip(
+        ("peak_deg", "steady_deg"), mark.rig, (NEAR, COUNTS), strict=False
+    ):
+        assert rig[column] <= near * figure, column
+    recovery = math.inf if rig["recovery_s"] is None else rig["recovery_s"]
+    assert recovery <= RECOVERY * mark.rig[2]
     assert row["unloading_faults_of_48"] <= mark.u48
     assert row["sine_2hz_rms_deg"] <= NEAR * mark.sine
-    assert row["mass_rms_deg"] <= NEAR * mark.mass
     assert row["largest_link_step_nm"] >= mark.step
-    if mark.off == "fault":
-        assert row["faults"].get("unloading") == "deflection_limit"
-    else:
-        assert row["unloading_peak_deg"] <= NEAR * mark.off
+    for name, column, figure in (
+        ("unloading", "unloading_peak_deg", mark.off),
+        ("mass", "mass_rms_deg", mark.mass),
+    ):
+        if figure == "fault":
+            assert row["faults"].get(name) == "deflection_limit"
+        else:
+            assert row[column] <= NEAR * figure
 
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
@@ -83,3 +101,21 @@ def test_ndobc_w_answers_the_open_question():
     assert row["largest_link_step_nm"] >= 8.0
     for column in ("sine_2hz_rms_deg", "mass_rms_deg"):
         assert row[column] < 0.5 * measure("ndobc")[column]
+
+
+def test_a_pd_on_the_motors_knows_nothing_of_a_load_on_the_link():
+    """The spring bends by 2 N·m at 15 N·m/rad, and a PD leaves it so: 8.5°, for ever."""
+    row = measure("pd")
+    assert row["faults"] == {}
+    assert row["ideal_4a"]["steady_deg"] == pytest.approx(8.52, rel=0.05)
+    assert row["rig_4a"]["recovery_s"] is None
+
+
+@pytest.mark.parametrize(("law", "error"), [("esp", 13.2), ("backstepping", 11.0)])
+def test_without_its_estimate_a_load_stays(law, error):
+    """Without ŵ2 the same structure yields by degrees; with gains of its own by 8.6° and 6.1°."""
+    without = get_law(law).parameters(estimate_share=0.0)
+    result = run_scenario(IDEAL_4A, Entry(law, without))
+    assert result.fault is None
+    assert measure_rms(result, 8.0, 20.0) == pytest.approx(error, rel=0.05)
+    assert measure(law)["ideal_4a"]["steady_deg"] < 0.01

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from svsa.observer.disturbance import update_disturbance_estimate
+from svsa.observer.extended import Extended, build_triple_pole, observe_extended
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.packed import pack
 from svsa.signals import Disturbance, Torque
@@ -55,3 +56,16 @@ def test_a_load_that_grows_steadily_is_estimated_without_lag():
     assert memory["dw6"] == pytest.approx(2.0, rel=2e-3)
     plain, _ = follow(1.0 - kept, 0.0, states, still)
     assert plain[-1].w6 == pytest.approx(2.0 - 2.0 / 40.0, rel=2e-3)
+
+
+def test_an_extended_observer_finds_what_accelerates_besides():
+    """z̈ = b u + 3 with b u = −1: position, velocity and the 3 are found from positions alone."""
+    gains, memory = build_triple_pole(100.0, T), pack(Extended())
+    for tick in range(400):
+        t = tick * T
+        observe_extended(gains, memory[0], 0.2 + 0.5 * t + t * t, 0.5, -1.0, T)
+    found = memory[0]
+    t = 399 * T
+    assert found["position"] == pytest.approx(0.2 + 0.5 * t + t * t, rel=1e-9)
+    assert found["velocity"] == pytest.approx(0.5 + 2.0 * t, rel=1e-6)
+    assert found["acceleration"] == pytest.approx(3.0, rel=1e-6)

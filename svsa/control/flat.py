@@ -1,0 +1,67 @@
+"""Flatness: q_d and σ_d, with their derivatives, are motions and torques of the whole actuator."""
+
+from typing import NamedTuple
+
+from svsa.compilation import compiled
+from svsa.model.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
+from svsa.model.spring import compute_reaction_torque, compute_spring_derivatives
+
+NEWTON_STEPS = 4
+
+
+class Flat(NamedTuple):
+    """Where both motors have to be for the reference, rad, rad/s; the torques for it, N·m.
+
+    mu: μ there.
+    """
+
+    theta1: float
+    dtheta1: float
+    theta2: float
+    dtheta2: float
+    u1: float
+    u2: float
+    mu: float
+
+
+@compiled
+def compute_flat(nominal, reference):
+    """The motion and the torques of an undisturbed nominal actuator that follows the reference.
+
+    τ_e = −M q̈_d − D q̇_d; Newton for (φ, μ) with τ_e(φ, μ) = τ_e and σ(φ, μ) = σ_d; their rates
+    through J = [[σ, τ_μ], [σ_φ, σ_μ]]; u from Eq 1. Returns `Flat`.
+    """
+    M, D, K, r = nominal.M, nominal.D, nominal.K, reference
+    torque = -M * r.ddq - D * r.dq
+    dtorque, ddtorque = -M * r.dddq - D * r.ddq, -M * r.ddddq - D * r.dddq
+    mu = compute_lever_ratio_for_stiffness(r.sigma, K)
+    phi = torque / r.sigma
+    s = compute_spring_derivatives(mu, phi, K)
+    for _ in range(NEWTON_STEPS):
+        scale = 1.0 / (s.sigma * s.sigma_mu - s.torque_mu * s.sigma_phi)
+        miss1, miss2 = torque - s.torque, r.sigma - s.sigma
+        phi = phi + (s.sigma_mu * miss1 - s.torque_mu * miss2) * scale
+        mu = mu + (s.sigma * miss2 - s.sigma_phi * miss1) * scale
+        s = compute_spring_derivatives(mu, phi, K)
+    scale = 1.0 / (s.sigma * s.sigma_mu - s.torque_mu * s.sigma_phi)
+    dphi = (s.sigma_mu * dtorque - s.torque_mu * r.dsigma) * scale
+    dmu = (s.sigma * r.dsigma - s.sigma_phi * dtorque) * scale
+    bend1 = s.sigma_phi * dphi * dphi + 2.0 * s.sigma_mu * dphi * dmu + s.torque_mumu * dmu * dmu
+    bend2 = (
+        s.sigma_phiphi * dphi * dphi + 2.0 * s.sigma_phimu * dphi * dmu + s.sigma_mumu * dmu * dmu
+    )
+    right1, right2 = ddtorque - bend1, r.ddsigma - bend2
+    ddphi = (s.sigma_mu * right1 - s.torque_mu * right2) * scale
+    ddmu = (s.sigma * right2 - s.sigma_phi * right1) * scale
+    slope = compute_lever_ratio_slope(nominal.gamma)
+    reaction = compute_reaction_torque(mu, phi, K, nominal.gamma)
+    dtheta1, dtheta2 = r.dq - dphi, dmu / slope
+    return Flat(
+        theta1=r.q - phi,
+        dtheta1=dtheta1,
+        theta2=(mu - nominal.mu0) / slope,
+        dtheta2=dtheta2,
+        u1=nominal.B1 * (r.ddq - ddphi) + nominal.D1 * dtheta1 - torque,
+        u2=nominal.B2 * ddmu / slope + nominal.D2 * dtheta2 + reaction,
+        mu=mu,
+    )

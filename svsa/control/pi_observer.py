@@ -1,0 +1,92 @@
+"""NDOBC on a proportional-integral observer: x̂ and ŵ from positions alone, in one observer.
+
+Each body is predicted by the nominal model under ŵ and the torque that acted, then position,
+velocity and ŵ are corrected with three poles at ω; the law is Eq 24 on that x̂ and ŵ. It needs no
+velocity, and does without the lag of an estimator before an observer.
+"""
+
+from typing import NamedTuple
+
+from svsa.checked import Number, quantity
+from svsa.compilation import compiled
+from svsa.control.feedback_linearization import GainConstants
+from svsa.control.law import Law, Setting
+from svsa.control.ndobc import compute_ndobc
+from svsa.control.parameters import LawParameters
+from svsa.lanes.choice import choose
+from svsa.observer.extended import TriplePole, build_triple_pole
+from svsa.observer.own import Observed, get_observed, remember_state
+from svsa.observer.state import predict_state
+from svsa.signals import State
+
+
+class PolesAndObserver(LawParameters):
+    """Poles on the real axis, and the observer's."""
+
+    position_pole_rad_per_s: Number = quantity(
+        "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=61.6
+    )
+    stiffness_pole_rad_per_s: Number = quantity(
+        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=49.5
+    )
+    observer_rad_per_s: Number = quantity(
+        "rad/s", "ω: three poles of the observer of each body", symbol="ω", ge=5, le=500,
+        default=151.0,
+    )  # fmt: skip
+
+
+class Constants(NamedTuple):
+    """gains: of Eq 25. observer: of the corrector."""
+
+    gains: GainConstants
+    observer: TriplePole
+
+
+def build(parameters: PolesAndObserver, setting: Setting) -> Constants:
+    """The coefficients of (s + a)⁴ and (s + p)², and the observer's gains for this period."""
+    a, p = parameters.position_pole_rad_per_s, parameters.stiffness_pole_rad_per_s
+    gains = GainConstants(a**4, 4.0 * a**3, 6.0 * a**2, 4.0 * a, p**2, 2.0 * p)
+    return Constants(gains, build_triple_pole(parameters.observer_rad_per_s, setting.period))
+
+
+@compiled
+def correct_body(gains, position, velocity, disturbance, inertia, measured):
+    """Position, velocity and ŵ of one body moved towards its measured position, rad."""
+    r = measured - position
+    return (
+        position + gains.position * r,
+        velocity + gains.velocity * r,
+        disturbance + inertia * gains.acceleration * r,
+    )
+
+
+@compiled
+def control(nominal, constants, memory, x, reference, estimate, applied, period):
+    """NDOBC on x̂ and ŵ of its own. constants: `Constants`. memory: `Observed`."""
+    k = constants.observer
+    y = predict_state(nominal, memory.x, get_observed(memory), applied, period)
+    q, dq, w2 = correct_body(k, y.q, y.dq, memory.w2, nominal.M, x.q)
+    theta1, dtheta1, w4 = correct_body(k, y.theta1, y.dtheta1, memory.w4, nominal.B1, x.theta1)
+    theta2, dtheta2, w6 = correct_body(k, y.theta2, y.dtheta2, memory.w6, nominal.B2, x.theta2)
+    is_started = memory.is_started > 0.0
+    given = State(x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2)
+    known = choose(is_started, State(q, dq, theta1, dtheta1, theta2, dtheta2), given)
+    memory.w2 = choose(is_started, w2, memory.w2)
+    memory.w4 = choose(is_started, w4, memory.w4)
+    memory.w6 = choose(is_started, w6, memory.w6)
+    remember_state(memory, known)
+    return compute_ndobc(nominal, constants.gains, known, reference, get_observed(memory))
+
+
+PI_OBSERVER = Law(
+    name="pi_observer",
+    title="PI observer",
+    summary="NDOBC on one observer of state and load, which needs positions only.",
+    equation=r"u=A^{-1}(b-v-\Gamma\hat w),\quad\dot{\hat w}=\omega^3 J\,(y-\hat y)",
+    source="",
+    parameters=PolesAndObserver,
+    build=build,
+    control=control,
+    memory=Observed,
+    estimate="own",
+)
