@@ -36,6 +36,10 @@ from svsa_server.stream_schemas import (
 BATCH_PERIOD_S = 1.0 / 30.0
 PROGRESS_PERIOD_S = 1.0
 SLOW_AFTER_S = 0.5
+# Faster than so many times, samples do not lie further apart: of each batch only the newest are
+# sent, and between them is a gap. A line from sample to sample over seconds would be a guess.
+MAX_THINNING = 5
+MAX_FAST_ROWS = 400
 
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
@@ -88,7 +92,10 @@ class SampleCursor:
             self._run, self._next = session.journal.run_number, 0
         pace = session.pace
         speed = pace.speed if math.isfinite(pace.speed) else pace.real_time_factor
-        stride = self._stride * max(1, round(speed))
+        stride = self._stride * min(MAX_THINNING, max(1, round(speed)))
+        if speed > MAX_THINNING:
+            newest = self._align(history.end_tick - MAX_FAST_ROWS * stride)
+            self._next = max(self._next, newest)
         oldest = history.first_tick
         if slow:
             oldest = max(oldest, history.end_tick - round(stride * self.rate_hz * BATCH_PERIOD_S))

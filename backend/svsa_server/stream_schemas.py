@@ -108,7 +108,9 @@ def describe_stream(batch_period_s: float) -> str:
             "",
             f"Then `float32[count][lanes][channels]` from byte {HEADER.size} + 4 · lanes on, in the"
             " order of these ids and of `hello.channels`; NaN is a value that is not known. A slow"
-            " client gets the newest samples, with what it lost in `missed`.",
+            " client gets the newest samples, with what it lost in `missed`. Of a session that runs"
+            " many times faster than time each batch has the newest samples only, close together:"
+            " where the first tick is not the one that would follow, samples are missing.",
             "",
             f"Left out, `channels` is `{','.join(PLOTTED)}`.",
             "",

@@ -133,6 +133,23 @@ def test_a_list_of_plots_shows_whole_ones_where_legends_have_two_rows(
     expect(visited.get_by_role("button", name=re.compile("more plots? below"))).to_be_visible()
 
 
+@pytest.mark.parametrize("visited", ["running bench", "bench to be homed"], indirect=True)
+def test_opened_details_of_a_bench_leave_room_for_the_actuator_and_two_plots(
+    visited: Page, least_plot_px: int
+) -> None:
+    visited.set_viewport_size({"width": 1280, "height": 720})
+    details = visited.locator(".details-button")
+    if details.get_attribute("aria-expanded") == "false":
+        details.click()
+    expect(visited.locator(".bench-details")).to_be_visible()
+    assert get_box(visited.locator(".view"))["height"] > 160
+    foot = get_box(visited.locator(".plots-foot"))["y"]
+    plots = [get_box(one) for one in visited.locator(".plots-stage > .plot").all()]
+    whole = [one for one in plots if one["y"] + one["height"] <= foot + 2]
+    assert len(whole) >= 2
+    assert get_box(visited.locator(".plot-canvas").first)["height"] >= least_plot_px
+
+
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
 def test_what_is_refused_at_the_edge_of_the_panel_is_brought_into_sight(
     visited: Page, lab: Lab

@@ -1,6 +1,7 @@
 """The stream of samples: greeting, batches, bandwidth, slow clients, new runs."""
 
 import json
+import math
 import struct
 import time
 
@@ -8,6 +9,10 @@ import numpy as np
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
+from svsa.paper import get_figure
+from svsa.session.simulated import SimulatedSession
+from svsa_server.stream import SampleCursor
+from svsa_server.stream_schemas import StreamRequest
 from tests.lab import Lab
 
 HEADER = struct.Struct("<4sIQIIII")
@@ -25,6 +30,29 @@ class Batch:
         self.rows = samples[:, 0]
         self.ticks = self.first + self.stride * np.arange(count)
         self.size = len(message)
+
+
+def test_a_run_many_times_faster_than_time_has_gaps_and_no_wide_steps() -> None:
+    """Samples seconds apart would be joined to curves that never were."""
+    session = SimulatedSession("lab", get_figure("4a").build_configuration())
+    session.set_speed(math.inf)
+    session.start()
+    cursor = SampleCursor(session, StreamRequest(rate_hz=200.0, history_s=20.0), ("position_rad",))
+    ends, batches = [], []
+    for burst in range(90):
+        session.burst(1e-3 * burst)
+        if burst % 30 == 29:
+            message = cursor.take_batch(slow=False)
+            assert message is not None
+            batches.append(Batch(message, 1))
+            ends.append(session.run.tick)
+    assert session.pace.real_time_factor > 1000
+    for batch, end in zip(batches, ends, strict=True):
+        assert batch.stride * session.run.period_s <= 0.025
+        assert batch.ticks[-1] >= end - batch.stride
+        assert batch.missed == 0, "no client was slow"
+        assert batch.size < 2000
+    assert batches[1].first > batches[0].ticks[-1] + batches[0].stride
 
 
 def open_stream(lab: Lab, query: str = "", **options: object) -> tuple[ClientConnection, dict]:

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { mayShow } from "../src/plots/spans";
 import type { Batch } from "../src/stream/decoder";
 import { sourcesOf } from "../src/stream/derived";
 import { SampleRing } from "../src/stream/ring";
@@ -25,6 +26,15 @@ function contents(ring: SampleRing, first = 0, factor = 1) {
 }
 
 describe("SampleRing", () => {
+  it("may show a span while samples come, and not where it was over without one", () => {
+    const ring = new SampleRing(20, ["a", "b"], [1]);
+    ring.append(batch(0, 2), 0.001);
+    expect(mayShow(ring, { from: 1, to: 2 })).toBe(true);
+    ring.append(batch(3000, 2), 0.001);
+    expect(mayShow(ring, { from: 1, to: 2 })).toBe(false);
+    expect(mayShow(ring, { from: 2.5, to: 3.002 })).toBe(true);
+  });
+
   it("gives back what was put in, with time from the ticks", () => {
     const ring = new SampleRing(10, ["a", "b"], [1]);
     ring.append(batch(1000, 3), 0.5);

@@ -367,7 +367,7 @@ export interface paths {
          *
          *     then `uint32[lanes]` from byte 32 on: of every lane the `id` that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come and go beside it; its place among them, which `hello.lanes` tells of the first batch, may change.
          *
-         *     Then `float32[count][lanes][channels]` from byte 32 + 4 · lanes on, in the order of these ids and of `hello.channels`; NaN is a value that is not known. A slow client gets the newest samples, with what it lost in `missed`.
+         *     Then `float32[count][lanes][channels]` from byte 32 + 4 · lanes on, in the order of these ids and of `hello.channels`; NaN is a value that is not known. A slow client gets the newest samples, with what it lost in `missed`. Of a session that runs many times faster than time each batch has the newest samples only, close together: where the first tick is not the one that would follow, samples are missing.
          *
          *     Left out, `channels` is `position_reference_rad,position_rad,position_error_rad,stiffness_reference_nm_per_rad,stiffness_nm_per_rad,torque1_nm,torque2_nm,disturbance_link_nm,disturbance_motor1_nm,disturbance_motor2_nm,estimate_link_nm,estimate_motor1_nm,estimate_motor2_nm`.
          *

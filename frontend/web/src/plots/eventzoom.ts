@@ -5,7 +5,7 @@ import { samples, selectionCount, session } from "../state/session";
 import { remember, remembered } from "../state/storage";
 import type { SampleRing } from "../stream/ring";
 import { type ChartView, held, shownRing } from "./span";
-import type { Span } from "./spans";
+import { mayShow, type Span } from "./spans";
 
 const STORE = "svsa.event_zoom";
 const BEFORE_S = 0.1;
@@ -54,8 +54,8 @@ export function zoomedSpan(): Span {
   return event === null ? { from: 0, to: LENGTH_S } : spanAround(event);
 }
 
-/** Whether any sample of it is held. */
-export const hasZoomed = (): boolean => !(zoomedRing().oldestTime > zoomedSpan().to);
+/** Whether any sample of it is held, or may still come. */
+export const hasZoomed = (): boolean => mayShow(zoomedRing(), zoomedSpan());
 
 export const EVENT_VIEW: ChartView = { ring: zoomedRing, span: zoomedSpan, hasCursors: false };
 

@@ -29,3 +29,12 @@ export function liveSpan(ring: SampleRing, lengthS: number): Span {
   const to = Math.max(Number.isNaN(ring.newestTime) ? 0 : ring.newestTime, lengthS);
   return { from: to - lengthS, to };
 }
+
+/** Whether any sample of a span is held, or may still come. */
+export function mayShow(ring: SampleRing, { from, to }: Span): boolean {
+  if (!(ring.newestTime >= to)) return true;
+  for (let index = ring.firstAt(from); ring.timeAt(index) < to; index++) {
+    if (ring.channels.some((name) => !Number.isNaN(ring.valueAt(name, index)))) return true;
+  }
+  return false;
+}
