@@ -1,17 +1,24 @@
 """Tuples and records of lanes: constants read by their layout, a memory by name."""
 
+import operator
 from dataclasses import dataclass
 from typing import Any
 
 from llvmlite import ir
 from numba.core import types
 from numba.core.imputils import lower_setattr_generic
-from numba.core.typing.templates import AttributeTemplate, infer_getattr
-from numba.extending import intrinsic, lower_getattr_generic, models, register_model
+from numba.core.typing.templates import AttributeTemplate, infer_getattr, signature
+from numba.extending import (
+    intrinsic,
+    lower_builtin,
+    lower_getattr_generic,
+    models,
+    register_model,
+)
 
 from svsa.lanes.bits import BITS, WORDS
 from svsa.lanes.memory import ALIGNMENT, are_rows, point
-from svsa.lanes.number import LANES, VECTOR
+from svsa.lanes.number import LANES, VECTOR, Lanes, learn
 
 _INDEX = ir.IntType(64)
 
@@ -88,25 +95,67 @@ def _find_kind(part: Any) -> Any:
     return types.float64
 
 
+Layout = tuple[tuple[str, Any], ...] | int | None
+"""Of what is held in rows: None is a number, a whole number so many, pairs of names and layouts a
+record."""
+
+
+def lay_out_record(values: Any) -> Any:
+    """The `Layout` of a named tuple of numbers, named tuples, and tuples of numbers."""
+    if not isinstance(values, tuple):
+        return None
+    if not hasattr(values, "_fields"):
+        return len(values)
+    names: tuple[str, ...] = values._fields  # pyright: ignore[reportAttributeAccessIssue]
+    return tuple(zip(names, map(lay_out_record, values), strict=True))
+
+
+def _count_rows(layout: Any) -> int:
+    if layout is None:
+        return 1
+    return layout if isinstance(layout, int) else sum(_count_rows(part) for _, part in layout)
+
+
 class LaneRecord(types.Type):
     """Rows of an array (rows, 8) that compiled functions read and write by name."""
 
-    def __init__(self, names: tuple[str, ...]) -> None:
-        self.names = names
-        super().__init__(name=f"LaneRecord{names}")
+    def __init__(self, layout: Any) -> None:
+        self.parts: dict[str, tuple[int, Any]] = {}
+        row = 0
+        for name, part in layout:
+            self.parts[name] = row, part
+            row += _count_rows(part)
+        super().__init__(name=f"LaneRecord{layout}")
+
+
+class LaneSeries(types.Type):
+    """Rows of an array (rows, 8) that compiled functions read and write by number."""
+
+    def __init__(self) -> None:
+        super().__init__(name="LaneSeries")
+
+
+SERIES = LaneSeries()
 
 
 @register_model(LaneRecord)
+@register_model(LaneSeries)
 class _LaneRecordModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
         super().__init__(manager, kind, VECTOR.as_pointer())
+
+
+def _find_part_kind(part: Any) -> Any:
+    if part is None:
+        return LANES
+    return SERIES if isinstance(part, int) else LaneRecord(part)
 
 
 class _LaneRecordAttributes(AttributeTemplate):
     key = LaneRecord
 
     def generic_resolve(self, value: Any, attr: str) -> Any:
-        return LANES if attr in value.names else None
+        return _find_part_kind(value.parts[attr][1]) if attr in value.parts else None
 
 
 _register_attributes: Any = infer_getattr
@@ -115,23 +164,50 @@ _register_attributes(_LaneRecordAttributes)
 
 @lower_getattr_generic(LaneRecord)
 def _lower_read(context: Any, builder: Any, kind: Any, value: Any, name: str) -> Any:
-    place = builder.gep(value, [_INDEX(kind.names.index(name))])
-    return builder.load(place, align=ALIGNMENT)
+    row, part = kind.parts[name]
+    place = builder.gep(value, [_INDEX(row)])
+    return builder.load(place, align=ALIGNMENT) if part is None else place
 
 
 @lower_setattr_generic(LaneRecord)
 def _lower_write(context: Any, builder: Any, signature: Any, arguments: Any, name: str) -> Any:
     record, value = arguments
     kind, given = signature.args
-    place = builder.gep(record, [_INDEX(kind.names.index(name))])
+    place = builder.gep(record, [_INDEX(kind.parts[name][0])])
     builder.store(context.cast(builder, value, given, LANES), place, align=ALIGNMENT)
 
 
-def build_record(names: tuple[str, ...]) -> Any:
-    """A function of compiled code that has an array (rows, 8) read and written by these names."""
+def _choose_signature_of_read(context: Any, *kinds: Any) -> Any:
+    fits = len(kinds) == 2 and kinds[0] == SERIES and isinstance(kinds[1], types.Integer)
+    return signature(LANES, SERIES, types.intp) if fits else None
+
+
+def _choose_signature_of_write(context: Any, *kinds: Any) -> Any:
+    fits = len(kinds) == 3 and kinds[0] == SERIES and isinstance(kinds[1], types.Integer)
+    return signature(types.void, SERIES, types.intp, LANES) if fits else None
+
+
+learn(operator.getitem, _choose_signature_of_read)
+learn(operator.setitem, _choose_signature_of_write)
+
+
+@lower_builtin(operator.getitem, LaneSeries, types.intp)
+def _lower_read_number(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    return builder.load(builder.gep(arguments[0], [arguments[1]]), align=ALIGNMENT)
+
+
+@lower_builtin(operator.setitem, LaneSeries, types.intp, Lanes)
+def _lower_write_number(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    place = builder.gep(arguments[0], [arguments[1]])
+    builder.store(arguments[2], place, align=ALIGNMENT)
+    return context.get_dummy_value()
+
+
+def build_record(layout: Any) -> Any:
+    """A function of compiled code that has an array (rows, 8) read and written as this `Layout`."""
 
     def view(typing: Any, rows: Any) -> Any:
-        kind = LaneRecord(names)
+        kind = LaneRecord(layout)
 
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
             return point(context, builder, rows, arguments[0], _INDEX(0))

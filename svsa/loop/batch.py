@@ -53,13 +53,13 @@ class Beginning(NamedTuple):
 class Batch(NamedTuple):
     """Runs of one law under the same inputs, eight to a group; the last group repeats its last.
 
-    control, memory_names: of the law. layout: a `Beginning` of `svsa.lanes.record`, see
-    `build_reader`. rows: (groups, rows, 8), what it stands for. memories: (groups, fields, 8),
-    where the law begins. lanes: how many runs there are.
+    control: of the law. memory: its layout, see `lay_out_record`. layout: a `Beginning` of
+    `svsa.lanes.record`, see `build_reader`. rows: (groups, rows, 8), what it stands for. memories:
+    (groups, numbers, 8), where the law begins. lanes: how many runs there are.
     """
 
     control: Any
-    memory_names: tuple[str, ...]
+    memory: Any
     layout: Beginning
     rows: np.ndarray
     memories: np.ndarray
@@ -95,7 +95,7 @@ def build_batch(
     blocks: Sequence[Blocks],
     constants: Sequence[tuple[Any, ...]],
     lanes: Sequence[LaneState],
-    memory_names: tuple[str, ...],
+    memory: Any,
     inputs: Inputs,
 ) -> Batch:
     """Runs with these blocks, constants of the law `control` and states, one of each a run.
@@ -108,9 +108,7 @@ def build_batch(
     numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
     layout = _lay_out(runs[0], "", iter(numbers.view(np.int64).T), count())
     memories = np.array([lane.memory for lane in lanes])
-    return Batch(
-        control, memory_names, layout, _group(numbers), _group(memories), inputs, len(runs)
-    )
+    return Batch(control, memory, layout, _group(numbers), _group(memories), inputs, len(runs))
 
 
 def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:
@@ -149,7 +147,7 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
     """
     names = SUMMARY.names or ()
     results = np.zeros((len(batch.rows), len(names), WIDTH))
-    advance = _specialize(batch.control, batch.memory_names, batch.layout)
+    advance = _specialize(batch.control, batch.memory, batch.layout)
     advance(batch.rows, batch.memories.copy(), batch.inputs, ticks, begin, results)
     columns = results.transpose(1, 0, 2).reshape(len(names), -1)
     summaries = np.empty(batch.lanes, dtype=SUMMARY)
@@ -159,12 +157,12 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
 
 
 @cache
-def _specialize(control: Any, memory_names: tuple[str, ...], layout: Beginning) -> Any:
+def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     """`advance_groups` with this law and this layout."""
     law = control.py_func
-    text = repr((law.__module__, law.__qualname__, find_fingerprint(law), memory_names, layout))
+    text = repr((law.__module__, law.__qualname__, find_fingerprint(law), memory, layout))
     name = f"advance_groups_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    reader, record = build_reader(layout), build_record(memory_names)
+    reader, record = build_reader(layout), build_record(memory)
     return specialize(advance_groups, name, control=control, read=reader, remember=record)
 
 

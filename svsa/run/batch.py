@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from svsa.control.installed import get_law
+from svsa.lanes.record import lay_out_record
 from svsa.loop.batch import SUMMARY, Batch, build_batch, run_batch
 from svsa.loop.lane import Inputs, build_lane_state
 from svsa.plant.disturbances import build_load_table, follow_loads
@@ -58,6 +59,6 @@ def build_run_batch(configurations: Sequence[Configuration], steps: int = 1) -> 
         blocks,
         constants,
         [build_lane_state(law.start_memory())] * len(blocks),
-        law.memory._fields,  # pyright: ignore[reportAttributeAccessIssue]
+        lay_out_record(law.memory()),
         Inputs(build_stack(c.position), build_stack(c.stiffness), loads),
     )

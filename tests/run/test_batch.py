@@ -144,3 +144,14 @@ def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -
     mixed = [build("ndobc", effects=rig.changed(delay_samples=delay)) for delay in (1, 2)]
     with pytest.raises(svsa.ParameterError, match=r"blocks\.bench\.delay.*every run of a batch"):
         build_run_batch(mixed)
+
+
+@pytest.mark.parametrize("law", ["ndobc_w", "lqi"])
+def test_laws_with_tuples_and_records_within_their_memory_go_side_by_side(law: str) -> None:
+    """Each lane as the run alone, on the rig, where a motor reaches its limit."""
+    design = svsa.load_prototype()
+    plants = [
+        design.actuator.changed(link_inertia_kg_m2=share * design.actuator.link_inertia_kg_m2)
+        for share in (0.8, 1.0, 1.2)
+    ]
+    compare([build(law, actuator=plant, effects=svsa.RIG, loads=LOADS) for plant in plants])
