@@ -32,9 +32,9 @@ test: .venv/installed $(PAGE)  ## every test
 	$(BIN)/pytest -m wall_clock
 	$(WEB) test
 
-quick: .venv/installed  ## the tests that need no server, bench or browser
+quick: .venv/installed  ## the tests that are soon done and need no server, bench or browser
 	@$(BIN)/python -m tests.compile_all
-	$(BIN)/pytest $(SIDE_BY_SIDE) -q $(SERVED:%=--ignore=tests/%)
+	$(BIN)/pytest $(SIDE_BY_SIDE) -q -m "not long" $(SERVED:%=--ignore=tests/%)
 	$(WEB) test
 
 check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated files

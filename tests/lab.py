@@ -16,11 +16,11 @@ START_TIMEOUT_S = 300.0
 
 
 class Lab(NamedTuple):
-    """A running lab: its address and a client for it."""
+    """A running lab: its address and a client for it; `process` is None inside this one."""
 
     url: str
     client: httpx.Client
-    process: subprocess.Popen[str]
+    process: subprocess.Popen[str] | None
 
     @property
     def session(self) -> str:

@@ -1,7 +1,8 @@
 """Exports, replays and comparisons of recorded runs: in processes of their own, a few at a time.
 
-They take seconds of computing, which would make every live session late. A worker has the
-lowest priority, and who finds the queue full is told to come again.
+They take seconds of computing, which would make every live session late. A worker has a low
+priority: a tenth of a core that something else is always busy on, where with the lowest of all it
+would not get on for minutes. Who finds the queue full is told to come again.
 """
 
 import asyncio
@@ -24,7 +25,7 @@ from svsa.records.resimulation import Comparison, compare_with_simulation
 MOST_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
 RETRY_AFTER_S = 5
 _JOBS_A_WORKER = 100
-_LOWEST_PRIORITY = 19
+_NICENESS = 10
 
 T = TypeVar("T")
 
@@ -91,7 +92,7 @@ def _give_way() -> None:
     """A worker leaves the processor to whoever wants it, and Ctrl-C to the server."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform != "win32":
-        os.nice(_LOWEST_PRIORITY)
+        os.nice(_NICENESS)
 
 
 def write_export(kind: str, folder: Path, target: Path) -> None:

@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.test_page import come_back
+from tests.browser.test_page import come_back, open_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -15,7 +15,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 def panel(page: Page, lab: Lab) -> Locator:
     lab.load_figure()
     come_back(page, lab)
-    page.goto(lab.url)
+    open_page(page, lab)
     page.get_by_role("button", name="Place poles").click()
     panel = page.get_by_role("dialog", name="Design")
     expect(panel.get_by_role("status", name="Verdict: Usable")).to_be_visible(timeout=20_000)

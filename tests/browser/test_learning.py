@@ -5,6 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.test_page import open_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -17,7 +18,7 @@ def list_sessions(lab: Lab) -> list[str]:
 
 
 def test_the_tour_is_offered_once_and_goes_by_keyboard(page: Page, lab: Lab) -> None:
-    page.goto(lab.url)
+    open_page(page, lab)
     tour = page.get_by_role("region", name="Tour of the lab")
     expect(tour.get_by_role("heading")).to_have_text("Welcome to the lab")
     tour.get_by_role("button", name="Take the tour").press("Enter")
@@ -32,7 +33,7 @@ def test_the_tour_is_offered_once_and_goes_by_keyboard(page: Page, lab: Lab) -> 
 
 
 def test_the_tour_is_skipped_and_taken_again(page: Page, lab: Lab) -> None:
-    page.goto(lab.url)
+    open_page(page, lab)
     tour = page.get_by_role("region", name="Tour of the lab")
     tour.get_by_role("button", name="Skip").click()
     expect(tour).to_be_hidden()
@@ -46,7 +47,7 @@ def test_the_tour_is_skipped_and_taken_again(page: Page, lab: Lab) -> None:
 
 
 def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, lab: Lab) -> None:
-    page.goto(lab.url)
+    open_page(page, lab)
     name = "Equation of the control laws"
     page.get_by_role("button", name=name).click()
     card = page.get_by_role("dialog", name=name)
@@ -67,7 +68,7 @@ def test_a_figure_is_run_apart_and_laid_beside_the_papers_claim(
 ) -> None:
     before = lab.read()["run_number"]
     sessions = list_sessions(lab)
-    page.goto(lab.url)
+    open_page(page, lab)
     page.get_by_role("button", name="Learn").click()
     panel = page.get_by_role("dialog", name="Learn")
     panel.get_by_role("button", name=f"Check Fig. {figure}").click()

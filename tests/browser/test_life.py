@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.test_page import LAST_TIME, open_page, wait_for_samples
+from tests.browser.test_page import LAST_TIME, choose, open_page, wait_for_samples
 from tests.lab import Lab, run_lab
 
 pytestmark = pytest.mark.browser
@@ -27,7 +27,8 @@ def test_two_pages_show_one_session_and_keep_their_own_look(
     expect(second.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
     second.get_by_role("switch", name=re.compile("^Compare with")).click()
     expect(first.get_by_role("switch", name=re.compile("^Compare with"))).to_be_checked()
-    second.get_by_role("radio", name="5 s").check(force=True)
+    expect(second.get_by_role("table", name=re.compile("controller does better"))).to_be_visible()
+    choose(second.get_by_role("radio", name="5 s"))
     expect(first.get_by_role("radio", name="20 s")).to_be_checked()
     second.get_by_role("button", name="Pause", exact=True).click()
     expect(first.get_by_role("button", name="Run", exact=True)).to_be_visible()
@@ -44,7 +45,7 @@ def test_a_reload_in_the_middle_of_a_run_loses_nothing(page: Page, lab: Lab) -> 
     open_page(page, lab)
     lab.jump(6)
     lab.client.post(lab.session + "/start").raise_for_status()
-    page.get_by_role("radio", name="60 s").check(force=True)
+    choose(page.get_by_role("radio", name="60 s"))
     page.get_by_role("button", name="Record", exact=True).click()
     expect(page.get_by_role("button", name=re.compile("^Recording"))).to_be_visible()
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()

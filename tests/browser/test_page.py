@@ -12,6 +12,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
 
 PATIENCE_MS = 60_000
 ONE_DEGREE = 0.01745
+KNOWN_LAW = re.compile("^Control law: [A-Z]")
 
 # The newest position errors that the page's plots hold, since a session time, in rad.
 LARGEST_ERROR = """([since]) => {
@@ -27,13 +28,15 @@ LAST_TIME = """() => {
 
 
 def open_page(page: Page, lab: Lab) -> None:
+    """And wait until what it asks for as it opens has come: nothing moves after that by itself."""
     page.goto(lab.url)
     wait_for_samples(page)
+    expect(page.get_by_role("button", name=KNOWN_LAW)).to_be_attached()
 
 
 def choose_law(page: Page, title: str) -> None:
     """Have another law control, as a hand does it."""
-    page.get_by_role("button", name=re.compile("^Control law: ")).click()
+    page.get_by_role("button", name=KNOWN_LAW).press("Enter")
     laws = page.get_by_role("dialog", name=re.compile("^Control law: "))
     laws.get_by_role("button").filter(has=page.get_by_text(title, exact=True)).click()
     expect(page.get_by_role("button", name=f"Control law: {title}", exact=True)).to_be_visible()
@@ -44,6 +47,12 @@ def unfold(part: Locator) -> None:
     for more in part.locator("summary").all():
         more.press("Enter")
     expect(part.locator("details:not([open])")).to_have_count(0)
+
+
+def choose(one: Locator) -> None:
+    """Check a radio or a box by key, for the same reason; it shows so once the server says so."""
+    one.press("Space")
+    expect(one).to_be_checked()
 
 
 def come_back(page: Page, lab: Lab) -> None:

@@ -8,13 +8,16 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from svsa.signals import CHANNEL_NAMES
-from tests.browser.test_page import ONE_DEGREE, open_page, wait_for_samples
+from tests.browser.test_page import ONE_DEGREE, choose, open_page, wait_for_samples
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 VELOCITIES = ("velocity_reference_rad_per_s", "velocity_rad_per_s")
 NEWEST = "() => window.svsa.series('position_error_rad').time.at(-1)"
+SOME_FRAMES = """async () => {
+    for (let i = 0; i < 10; i++) await new Promise(requestAnimationFrame);
+}"""
 STREAMED = "channel => window.svsa.channels().includes(channel)"
 
 
@@ -31,7 +34,7 @@ def read_span(page: Page) -> tuple[float, float]:
     """From and to of the time axis, s, as it tells them to a screen reader."""
     axis = find_axis(page)
     axis.focus()
-    page.wait_for_timeout(300)
+    page.evaluate(SOME_FRAMES)
     words = axis.get_attribute("aria-valuetext") or ""
     found = re.fullmatch(r"([\d.-]+) s to ([\d.-]+) s", words)
     assert found, words
@@ -137,7 +140,7 @@ def test_wheel_drag_and_double_click_move_all_plots_in_step(page: Page, lab: Lab
 def test_the_keyboard_moves_zooms_and_goes_live(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     wait_for_samples(page, 3.0)
-    page.get_by_role("radio", name="10 s").check(force=True)
+    choose(page.get_by_role("radio", name="10 s"))
     find_axis(page).focus()
     page.keyboard.press("+")
     start, end = read_span(page)

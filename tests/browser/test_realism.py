@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from svsa.plant.effects import RIG, Effects
-from tests.browser.test_page import open_page, unfold
+from tests.browser.test_page import choose, open_page, unfold
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -29,7 +29,7 @@ def read(lab: Lab) -> dict[str, Any]:
 def test_the_rig_is_one_choice_and_a_figure_keeps_it(
     page: Page, lab: Lab, realism: Locator
 ) -> None:
-    realism.get_by_role("radio", name="Rig").check()
+    choose(realism.get_by_role("radio", name="Rig"))
     expect(realism.get_by_text("torque one sample late")).to_be_visible()
     assert Effects.model_validate(read(lab)["effects"]) == RIG
     page.get_by_role("switch", name=re.compile("^Compare")).click()
@@ -44,7 +44,7 @@ def test_the_rig_is_one_choice_and_a_figure_keeps_it(
 
 def test_an_effect_by_itself_with_its_value(page: Page, lab: Lab, realism: Locator) -> None:
     noise = realism.get_by_role("checkbox", name="Sensor noise")
-    noise.check()
+    choose(noise)
     deviation = realism.get_by_label("Deflection, std. dev.")
     expect(deviation).to_have_value("0.2")
     expect(realism.get_by_text("A mixture of your own.")).to_be_visible()
@@ -59,10 +59,10 @@ def test_an_effect_by_itself_with_its_value(page: Page, lab: Lab, realism: Locat
         "at most 100 mrad"
     )
     expect(deviation).to_have_value("0.5")
-    noise.uncheck()
+    noise.press("Space")
     expect(deviation).to_have_count(0)
     assert read(lab)["effects"]["noise"] is None
-    noise.check()
+    choose(noise)
     expect(deviation).to_have_value("0.5")
 
 

@@ -3,6 +3,7 @@
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.test_page import choose, open_page
 from tests.lab import Lab
 
 pytestmark = pytest.mark.browser
@@ -12,10 +13,10 @@ GOOD = "time_s,stiffness_nm_per_rad\n0,15\n1,25\n2,15\n"
 @pytest.mark.usefixtures("kept_page", "without_3d")
 def test_a_csv_of_stiffness_is_seen_then_applied(page: Page, lab: Lab) -> None:
     lab.load_figure()
-    page.goto(lab.url)
+    open_page(page, lab)
     stiffness = page.get_by_role("region", name="Stiffness", exact=True)
-    stiffness.get_by_role("radio", name="Other").check(force=True)
-    stiffness.get_by_role("radio", name="CSV").check(force=True)
+    choose(stiffness.get_by_role("radio", name="Other"))
+    choose(stiffness.get_by_role("radio", name="CSV"))
     text = stiffness.get_by_role("textbox", name="Time series as CSV")
     text.fill(GOOD + "1.5,20\n")
     expect(stiffness.get_by_role("alert")).to_contain_text("time_s in row 5 is 1.5 s")

@@ -2,11 +2,13 @@
 
 import math
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
-from playwright.sync_api import BrowserContext, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from svsa.run.events import Event
 from tests.scene.replay_page import CHANNELS, make_run, write_page
@@ -55,6 +57,35 @@ def open_file(page: Page, path: Path) -> Watch:
     return watch
 
 
+class Opened(NamedTuple):
+    """An exported run in a page, and what was heard from that page since it was opened."""
+
+    page: Page
+    watch: Watch
+
+
+@pytest.fixture(scope="module")
+def opened_once(browser: Browser, exported: Path) -> Iterator[Opened]:
+    context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme="light")
+    page = context.new_page()
+    yield Opened(page, open_file(page, exported))
+    context.close()
+
+
+@pytest.fixture
+def opened(opened_once: Opened) -> Opened:
+    """The one page of the tests that change nothing but what it shows, as it was at first."""
+    page = opened_once.page
+    page.keyboard.press("Escape")
+    playing, whole = (page.get_by_role("button", name=name) for name in ("Pause", "Whole run"))
+    if playing.is_visible():
+        playing.press("Enter")
+    if whole.is_enabled():
+        whole.press("Enter")
+    page.get_by_role("slider", name="Time").fill("0")
+    return opened_once
+
+
 def wait_for_link(page: Page, angle_rad: float) -> None:
     page.wait_for_function(
         f"Math.abs(({LINK_IN_3D})() - {math.sin(angle_rad / 2)}) < 5e-4", timeout=PATIENCE_MS
@@ -62,8 +93,10 @@ def wait_for_link(page: Page, angle_rad: float) -> None:
 
 
 @pytest.mark.browser
-def test_one_scrubber_moves_the_3d_view_and_the_plots_together(page: Page, exported: Path) -> None:
-    watch = open_file(page, exported)
+def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
+    opened: Opened, exported: Path
+) -> None:
+    page, watch = opened
     scrubber = page.get_by_role("slider", name="Time")
     position = page.get_by_role("region", name="Position", exact=True)
     for time_s, lag in ((1.0, 0.0), (3.0, 0.2), (0.5, 0.0)):
@@ -86,8 +119,8 @@ def test_one_scrubber_moves_the_3d_view_and_the_plots_together(page: Page, expor
 
 
 @pytest.mark.browser
-def test_the_picture_in_3d_changes_with_the_time(page: Page, exported: Path) -> None:
-    watch = open_file(page, exported)
+def test_the_picture_in_3d_changes_with_the_time(opened: Opened, exported: Path) -> None:
+    page, watch = opened
     view = page.locator("iframe")
     page.wait_for_timeout(1500)
     before = view.screenshot()
@@ -100,9 +133,9 @@ def test_the_picture_in_3d_changes_with_the_time(page: Page, exported: Path) -> 
 
 @pytest.mark.browser
 def test_it_plays_pauses_and_obeys_keys_also_from_inside_the_3d_view(
-    page: Page, exported: Path
+    opened: Opened, exported: Path
 ) -> None:
-    watch = open_file(page, exported)
+    page, watch = opened
     read = "svsaReplay.time()"
     page.get_by_role("button", name="Play").click()
     page.wait_for_function(f"{read} > 0.3", timeout=PATIENCE_MS)
@@ -125,8 +158,8 @@ def test_it_plays_pauses_and_obeys_keys_also_from_inside_the_3d_view(
 
 
 @pytest.mark.browser
-def test_a_click_goes_there_and_a_drag_zooms(page: Page, exported: Path) -> None:
-    open_file(page, exported)
+def test_a_click_goes_there_and_a_drag_zooms(opened: Opened) -> None:
+    page, _ = opened
     over = page.locator(".u-over").first
     box = over.bounding_box()
     assert box is not None
@@ -180,8 +213,8 @@ def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
 
 
 @pytest.mark.browser
-def test_the_run_tells_about_itself(page: Page, exported: Path) -> None:
-    watch = open_file(page, exported)
+def test_the_run_tells_about_itself(opened: Opened, exported: Path) -> None:
+    page, watch = opened
     expect(page).to_have_title("A test run")
     expect(page.get_by_text("9.9.9").first).to_be_visible()
     page.get_by_role("button", name="Go to 2.00 s 3 kg load on").click()

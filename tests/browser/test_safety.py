@@ -43,7 +43,7 @@ def test_the_quick_stop_pauses_a_simulation_and_tells_how_to_go_on(page: Page, l
     assert lab.read()["status"] == "paused"
     page.reload()
     expect(page.get_by_role("alert").get_by_text("press Run")).to_be_visible()
-    page.get_by_role("button", name="Run", exact=True).click()
+    page.get_by_role("button", name="Run", exact=True).press("Enter")
     expect(page.get_by_role("alert").get_by_text("Quick stop.")).to_have_count(0)
 
 

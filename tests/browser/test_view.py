@@ -139,10 +139,9 @@ def test_low_graphics_are_remembered(page: Page, lab: Lab) -> None:
     full = page.frame_locator("iframe").locator("canvas").first.bounding_box()
     switch.click()
     expect(switch).to_have_attribute("aria-pressed", "true")
-    page.wait_for_timeout(500)
-    pixels = "() => document.querySelector('iframe').contentWindow.innerWidth"
+    pixels = "document.querySelector('iframe').contentWindow.innerWidth"
     assert full is not None
-    assert page.evaluate(pixels) < 0.7 * full["width"]
+    page.wait_for_function(f"() => {pixels} < {0.7 * full['width']}")
     page.reload()
     expect(switch).to_have_attribute("aria-pressed", "true")
 

@@ -12,6 +12,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.experiment.golden import compute_hashes
 
 GOLDEN = {
@@ -29,6 +31,7 @@ def test_every_sample_of_the_figures_is_what_it_was() -> None:
     assert compute_hashes() == GOLDEN
 
 
+@pytest.mark.long
 def test_a_processor_without_any_extension_computes_the_same(tmp_path: Path) -> None:
     """Compiled anew for the oldest of this machine's family: on x86-64 without AVX and FMA."""
     machine = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "SVSA_CACHE": str(tmp_path)}

@@ -88,6 +88,7 @@ def test_friction_and_the_delay_of_the_torque_are_found_with_it(found):
     assert abs(found.estimates["link_gravity_moment_nm"].value) < 1e-3
 
 
+@pytest.mark.long
 def test_intervals_hold_the_truth_as_often_as_they_say():
     # other plants, other friction, sensor noise of other seeds: 2 x 7 intervals of 95 %
     # (in 92 runs of this kind 624 of 644 held; of the dampings, the hardest, 260 of 276)
@@ -120,6 +121,7 @@ def test_a_motor_that_did_not_move_is_not_determined():
         result.build_design()
 
 
+@pytest.mark.long
 def test_a_load_that_nobody_announced_is_refused(excited):
     configuration, _ = excited
     loaded, _ = play(configuration.changed(loads=(PUSH.changed(start_s=4.0),)), None, 7.0)

@@ -23,10 +23,14 @@ SAID = "bench: "
 
 
 class Outcome(NamedTuple):
-    """before_ma: what both drives were told. zero_s: from the signal to zero, the rig's time."""
+    """before_ma: what both drives were told. zero_s: from the signal to zero, the rig's time.
+
+    modes: what the drives are in at the end, None after a reset.
+    """
 
     before_ma: list[int]
     zero_s: float
+    modes: list[int | None]
 
 
 class StandingBench:
@@ -60,9 +64,21 @@ class StandingBench:
             assert said[-1], f"it said {said} and no {code}"
         guard.cancel()
 
+    def wait_for_end(self) -> None:
+        """Until neither loop nor supervisor goes on."""
+        end = time.monotonic() + PATIENCE_S
+        while left := [one for one in ("loop", "supervisor") if find(self.ids[one]).exists()]:
+            assert time.monotonic() < end, f"{left} goes on without its server"
+            time.sleep(0.02)
+
     def signal(self, victims: tuple[str, ...], number: signal.Signals) -> None:
         for victim in victims:
             os.kill(self.ids[victim], number)
+
+
+def find(process: int) -> Path:
+    """What the system knows of a process while there is one."""
+    return Path(f"/proc/{process}")
 
 
 @contextlib.contextmanager
@@ -117,7 +133,8 @@ def measure(
 ) -> Outcome:
     """Bring it to hold a load, send the signal, and wait for zero; again where it stopped before.
 
-    codes: the faults that it then says; before the second of two the victims go on.
+    codes: the faults that it then says; before the second of two the victims go on. Without the
+    server the others end.
     """
     for _ in range(ATTEMPTS):
         with run_standing_bench(path, rig) as bench:
@@ -136,5 +153,8 @@ def measure(
                 bench.wait_for(code)
                 if len(codes) > 1:
                     bench.signal(victims, signal.SIGCONT)
-            return Outcome(before, zero_s)
+            if "server" in victims and number == signal.SIGKILL:
+                bench.wait_for_end()
+            modes = [drive["mode"] for drive in rig.control.read_state()["drives"].values()]
+            return Outcome(before, zero_s, modes)
     raise AssertionError(f"The bench did not hold the load in {ATTEMPTS} attempts.")

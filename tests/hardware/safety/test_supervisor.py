@@ -24,8 +24,6 @@ from svsa.rig.frame import Frame
 from svsa.rig.socketcand import SocketcandServer
 from tests.hardware.wired_bench import RIG_BENCH
 
-pytestmark = pytest.mark.wall_clock
-
 ZERO, RESET = encode(Current(5000, 0)), b"\x55" * 8
 STOPPED = {(0x013, ZERO), (0x023, ZERO), (0x000, RESET)}
 LONG_S = 60.0

@@ -63,3 +63,5 @@ def test_whoever_is_left_stops_the_drives(
     sys.stdout.write(f"{what}: {1e3 * outcome.zero_s:.1f} ms to zero current")
     assert all(outcome.before_ma), "both drives held a current"
     assert 0.0 < outcome.zero_s < PATIENCE_S
+    if (number, victims) == (KILL, ("server",)):
+        assert outcome.modes == [None, None], "reset, where nobody is left"

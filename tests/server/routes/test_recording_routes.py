@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.lab import Lab, run_lab
+from tests.lab_in_process import run_lab_in_process
 from tests.records.test_recorder import mount_small_disk
 
 
@@ -112,7 +113,7 @@ def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None
 def test_a_full_disk_is_told_in_the_state_while_control_goes_on(tmp_path: Path) -> None:
     with (
         mount_small_disk(tmp_path / "disk", "600k") as disk,
-        run_lab(data=str(disk)) as lab,
+        run_lab_in_process(data=str(disk)) as lab,
     ):
         lab.client.put(lab.session + "/speed", json={"factor": 20}).raise_for_status()
         lab.client.post(lab.session + "/recording", json={}).raise_for_status()
@@ -131,7 +132,7 @@ def test_a_full_disk_is_told_in_the_state_while_control_goes_on(tmp_path: Path) 
 def test_a_folder_that_cannot_be_written_stops_no_control(tmp_path: Path) -> None:
     blocked = tmp_path / "file"
     blocked.write_text("not a folder")
-    with run_lab(data=str(blocked)) as lab:
+    with run_lab_in_process(data=str(blocked)) as lab:
         refused = lab.client.post(lab.session + "/recording", json={})
         assert refused.status_code == 507
         assert "cannot be kept" in refused.json()["message"]

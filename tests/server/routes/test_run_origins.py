@@ -7,7 +7,8 @@ import pytest
 
 from svsa.records.reader import open_record
 from svsa.run.metrics import compute_metrics
-from tests.lab import Lab, run_lab
+from tests.lab import Lab
+from tests.lab_in_process import run_lab_in_process
 
 ONSET_S = 2.0
 
@@ -46,7 +47,7 @@ def test_the_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
 
 
 def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> None:
-    with run_lab(data=str(tmp_path)) as lab:
+    with run_lab_in_process(data=str(tmp_path)) as lab:
         run, _ = record(lab)
         query = {"start_s": ONSET_S, "end_s": 3.5}
         answer = lab.client.get(f"/api/v1/runs/{run}/metrics", params=query).raise_for_status()
