@@ -6,8 +6,8 @@ from svsa.plant.disturbances import get_hung_mass
 from svsa.records.measured_window import find_measured_window, trace_record
 from svsa.records.reader import Record
 from svsa.records.resimulation import read_origin
-from svsa.run.command import list_loads
 from svsa.run.events import list_events
+from svsa.run.replay import list_loads
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay import build_replay_html
 from svsa_server.lane_schemas import StretchState

@@ -18,7 +18,7 @@ from svsa.control.law import NAME
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.channels import Channels
 from svsa.extras import list_missing, require_extra
-from svsa.run.command import Command
+from svsa.run.command import Command, SetLaw, SetLaws
 from svsa.run.configuration import Configuration
 from svsa.run.metrics import Metrics, compute_metrics
 from svsa.signals import CHANNEL_NAMES, CHANNELS
@@ -80,9 +80,12 @@ class Result(Channels):
         period, rows = self.configuration.sampling.period_s, len(self.samples)
         first = round(float(self.time_s[0]) / period) if rows else 0
         begins = [(0, self.law)]
-        for tick, kind, argument in self.commands:
-            if kind == "law" and 0 < tick - first < rows and argument != begins[-1][1]:
-                begins.append((tick - first, argument))
+        for command in self.commands:
+            match command:
+                case SetLaw(argument=law) | SetLaws(argument=(law, *_)):
+                    row = command.tick - first
+                    if 0 < row < rows and law != begins[-1][1]:
+                        begins.append((row, law))
         ends = [begin for begin, _ in begins[1:]] + [rows]
         return [(law, slice(at, end)) for (at, law), end in zip(begins, ends, strict=True)]
 

@@ -12,8 +12,8 @@ from svsa.experiment.result import Result, build_results
 from svsa.loop.stepwise import Controller
 from svsa.paper import DURATION_S, get_figure
 from svsa.run.change import Change, build_commands
-from svsa.run.command import play
 from svsa.run.configuration import Configuration, Design, read_design
+from svsa.run.replay import play
 from svsa.run.run import Run
 from svsa.signals import CHANNELS
 

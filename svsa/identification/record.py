@@ -15,12 +15,12 @@ from svsa.identification.kernel import UNLOADED, Setting, Torques, measure
 from svsa.model.dynamics import build_actuator
 from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio
-from svsa.plant.disturbances import follow_loads
 from svsa.plant.effects import build_bench
 from svsa.records.reader import Record
 from svsa.records.resimulation import read_origin
-from svsa.run.command import Command
+from svsa.run.command import Command, SetActuator, SetEffects
 from svsa.run.configuration import Configuration
+from svsa.run.replay import list_loads
 
 SEGMENT_S = 0.25
 LEAST_SEGMENTS = 24
@@ -71,8 +71,8 @@ def read_evidence(record: Record) -> Evidence:
     length = round(SEGMENT_S / period)
     ticks = record.first_tick + np.arange(len(rows))
     free = np.ones(len(rows), bool)
-    for start, end in find_loads(configuration, commands, period):
-        free[(ticks >= start) & (ticks < end)] = False
+    for load in list_loads(configuration, commands):
+        free[(ticks >= load.start_tick) & (ticks < load.end_tick)] = False
     segments = _find_segments(free, length)
     if len(segments) < LEAST_SEGMENTS:
         raise IdentificationError(
@@ -111,21 +111,12 @@ def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: f
     return Torques(recorded, np.ascontiguousarray(asked))
 
 
-def find_loads(
-    configuration: Configuration, commands: Sequence[Command], period: float
-) -> list[tuple[int, float]]:
-    """First tick and end of every load that was on, of the configuration or by command."""
-    changes = [(c.tick, c.argument) for c in commands if c.kind in ("load", "unload")]
-    loads = follow_loads(configuration.loads, changes, period)
-    return [(load.start_tick, load.end_tick) for load in loads]
-
-
 def _find_plant(
     record: Record, configuration: Configuration, commands: Sequence[Command]
 ) -> Configuration:
     """The configuration with the actuator and effects of the record's samples."""
     for command in commands:
-        if command.kind not in _CHANGES:
+        if not isinstance(command, SetActuator | SetEffects):
             continue
         if command.tick > record.first_tick:
             time = command.tick * record.header.period_s
@@ -133,7 +124,7 @@ def _find_plant(
                 f"Run {record.header.run_id} is not of one plant: {_CHANGES[command.kind]} were"
                 f" changed at {time:g} s. Record a run in which they stay."
             )
-        configuration = configuration.changed(**{command.kind: command.argument})
+        configuration = command.configure(configuration)
     return configuration
 
 

@@ -196,29 +196,6 @@ def continue_push(
     return None
 
 
-def follow_loads(
-    planned: Iterable[Load], changes: Iterable[tuple[int, Load | int]], period: float
-) -> list[ScheduledLoad]:
-    """Every load of a run, with the ticks at which it came and went.
-
-    planned: those of its configuration. changes: tick, and the load applied or the number of
-    the one taken off. A push that was told again is one load, as it was told last.
-    """
-    loads: dict[int, ScheduledLoad] = {}
-    number = 0
-    for tick, change in [*((0, load) for load in planned), *changes]:
-        if isinstance(change, int):
-            if change in loads:
-                taken = loads[change]
-                loads[change] = taken._replace(end_tick=min(taken.end_tick, tick))
-            continue
-        number += 1
-        held = continue_push(loads.values(), change, tick, period)
-        load = held or schedule_load(number, change, tick, period)
-        loads[load.number] = load
-    return list(loads.values())
-
-
 def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
     """The arrays of `LoadTable` for these loads; they add up where they overlap."""
     rows = np.zeros((len(loads), 12))

@@ -7,13 +7,14 @@ from pydantic import TypeAdapter, ValidationError
 
 from svsa.errors import ParameterError
 from svsa.parameters import Limits
-from svsa.plant.disturbances import Load, ScheduledLoad, follow_loads
+from svsa.plant.disturbances import Load
 from svsa.records.header import RecordHeader
 from svsa.records.parquet import Commands
-from svsa.run.command import KINDS
+from svsa.run.command import build_command
 from svsa.run.configuration import Sampling
+from svsa.run.loads import Loads, follow_loads
 
-_BY_COMMAND = (
+_COMMANDED = (
     "position",
     "stiffness",
     "law",
@@ -25,13 +26,12 @@ _BY_COMMAND = (
     "actuator",
     "nominal",
 )
-_ADAPTERS: dict[str, TypeAdapter[Any]] = {
-    **{name: KINDS[name].argument for name in _BY_COMMAND},
+_FIXED: dict[str, TypeAdapter[Any]] = {
     "limits": TypeAdapter(Limits),
     "sampling": TypeAdapter(Sampling),
 }
 _LOADS: TypeAdapter[tuple[Load, ...]] = TypeAdapter(tuple[Load, ...])
-SETTINGS = tuple(_ADAPTERS)
+SETTINGS = (*_COMMANDED, *_FIXED)
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Acting:
     """
 
     settings: dict[str, tuple[tuple[int, Any], ...]]
-    loads: tuple[ScheduledLoad, ...] | None
+    loads: Loads | None
 
     def get_values(self, setting: str) -> list[Any]:
         """What the setting was, one value after another."""
@@ -71,9 +71,9 @@ def _tell_by_lanes(rivals: Any, commands: Commands) -> Commands:
         kind, argument = command.get("kind"), command.get("argument")
         if kind == "rivals":
             rivals = argument
-        laws = _read(KINDS["laws"].argument, argument) if kind == "laws" else None
-        one = _read(KINDS["lane"].argument, argument) if kind == "lane" else None
-        lanes = _read(KINDS["rivals"].argument, rivals) if laws or one else None
+        laws = _read_setting("laws", argument) if kind == "laws" else None
+        one = _read_setting("lane", argument) if kind == "lane" else None
+        lanes = _read_setting("rivals", rivals) if laws or one else None
         if laws and lanes is not None:
             given = [lane.controlled_by(law) for lane, law in zip(lanes, laws[1:], strict=False)]
             rivals = (*given, *lanes[len(given) :])
@@ -90,16 +90,24 @@ def _tell_by_lanes(rivals: Any, commands: Commands) -> Commands:
 def _follow(
     name: str, configuration: dict[str, Any], commands: Commands, first: int, end: int
 ) -> tuple[tuple[int, Any], ...]:
-    adapter = _ADAPTERS[name]
-    values = {first: _read(adapter, configuration.get(name))}
+    values = {first: _read_setting(name, configuration.get(name))}
     for tick, command in commands:
         if command.get("kind") == name and tick < end:
-            values[max(first, tick)] = _read(adapter, command.get("argument"))
+            values[max(first, tick)] = _read_setting(name, command.get("argument"))
     ordered = list(values.items())
     changes = [
         ordered[at] for at in range(len(ordered)) if at == 0 or ordered[at][1] != ordered[at - 1][1]
     ]
     return tuple(changes)
+
+
+def _read_setting(name: str, written: Any) -> Any:
+    if name in _FIXED:
+        return _read(_FIXED[name], written)
+    try:
+        return build_command(0, name, written).argument
+    except ParameterError:
+        return None
 
 
 def _read(adapter: TypeAdapter[Any], written: Any) -> Any:
@@ -109,16 +117,14 @@ def _read(adapter: TypeAdapter[Any], written: Any) -> Any:
         return None
 
 
-def _find_loads(
-    header: RecordHeader, commands: Commands, first: int, end: int
-) -> tuple[ScheduledLoad, ...] | None:
+def _find_loads(header: RecordHeader, commands: Commands, first: int, end: int) -> Loads | None:
     planned = _read(_LOADS, header.configuration.get("loads") or ())
     if planned is None:
         return None
     changes: list[tuple[int, Load | int]] = []
     for tick, command in commands:
         if command.get("kind") == "load":
-            load = _read(KINDS["load"].argument, command.get("argument"))
+            load = _read_setting("load", command.get("argument"))
             if load is None:
                 return None
             changes.append((tick, load))

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from svsa.errors import SvsaError
 from svsa.records.reader import Record
 from svsa.records.resimulation import read_origin
-from svsa.run.command import list_loads
 from svsa.run.metrics import Metrics, RunningMetrics
+from svsa.run.replay import list_loads
 from svsa.run.timeline import Timeline, Window, WindowKind, name_stretches, read_timeline
 
 

@@ -7,8 +7,9 @@ import numpy as np
 
 from svsa.records.header import RecordError
 from svsa.records.reader import Record
-from svsa.run.command import Command, read_command, simulate_again
+from svsa.run.command import Command, read_command
 from svsa.run.configuration import Configuration
+from svsa.run.replay import simulate_again
 
 
 @dataclass(frozen=True)

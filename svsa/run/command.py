@@ -1,165 +1,261 @@
-"""Commands: what may change a run, as values that can be written down and given again."""
+"""Commands: what may change a run, as values that can be written down and given again.
 
-from collections.abc import Callable, Iterable, Iterator
+A command is an object of `tick`, `kind` and `argument` in a record, over REST, and on its way to a
+bench alike.
+"""
+
 from dataclasses import replace
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, ClassVar, Literal, get_args
 
-import numpy as np
-from pydantic import Field, TypeAdapter, ValidationError
+from pydantic import Field
 
-from svsa.checked import Whole
+from svsa.checked import BY_KIND, Checked, Whole, quantity
 from svsa.control.gains import Gains
 from svsa.control.installed import LawName, ParametersByLaw
-from svsa.errors import ParameterError, StateError, Violation
-from svsa.explanation import explain
+from svsa.errors import ParameterError, Violation
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
-from svsa.plant.disturbances import Load, ScheduledLoad, follow_loads
+from svsa.plant.disturbances import Load, ScheduledLoad
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.run.configuration import Configuration, Lane, LaneSetting
 from svsa.run.run import Run
-from svsa.signals import CHANNELS
-
-STRETCH_TICKS = 10_000
 
 
-class CommandKind(NamedTuple):
-    """How a command acts on a run, what its argument is, and how an event reads."""
+class _Command(Checked):
+    """A change of a run at the beginning of a tick.
 
-    apply: Callable[[Run, Any], object]
-    argument: TypeAdapter[Any]
-    label: str
+    label: how its event reads. `apply` does it to a run that has reached the tick, and raises
+    `ParameterError` or `StateError` where the run refuses it; `configure` says what becomes of a
+    configuration.
+    """
 
-
-KINDS: dict[str, CommandKind] = {
-    "position": CommandKind(Run.set_position, TypeAdapter(PositionReference), "Motion changed"),
-    "stiffness": CommandKind(
-        Run.set_stiffness, TypeAdapter(StiffnessReference), "Stiffness changed"
-    ),
-    "law": CommandKind(Run.set_law, TypeAdapter(LawName), "Law changed"),
-    "laws": CommandKind(
-        Run.set_laws,
-        TypeAdapter(Annotated[tuple[LawName, ...], Field(min_length=1)]),
-        "Laws changed",
-    ),
-    "gains": CommandKind(Run.set_gains, TypeAdapter(Gains), "Gains changed"),
-    "parameters": CommandKind(
-        Run.set_parameters, TypeAdapter(ParametersByLaw), "Parameters changed"
-    ),
-    "observer": CommandKind(Run.set_observer, TypeAdapter(ObserverBandwidth), "Observer changed"),
-    "actuator": CommandKind(Run.set_actuator, TypeAdapter(ActuatorParameters), "Plant changed"),
-    "nominal": CommandKind(
-        Run.set_nominal, TypeAdapter(ActuatorParameters), "Nominal model changed"
-    ),
-    "effects": CommandKind(Run.set_effects, TypeAdapter(Effects), "Effects changed"),
-    "rivals": CommandKind(Run.set_rivals, TypeAdapter(tuple[Lane, ...]), "Lanes changed"),
-    "lane": CommandKind(Run.set_lane, TypeAdapter(LaneSetting), "A lane changed"),
-    "load": CommandKind(Run.add_load, TypeAdapter(Load), "Load applied"),
-    "unload": CommandKind(Run.remove_load, TypeAdapter(Whole), "Load taken off"),
-}
-
-
-class Command(NamedTuple):
-    """A change of a run at the beginning of a tick. argument: of the type of its kind."""
-
-    tick: int
-    kind: str
+    tick: Whole = quantity("", "Tick at whose beginning it holds", ge=0)
+    kind: Any
     argument: Any
-
-    def apply(self, run: Run) -> object:
-        """Do it to a run that has reached the tick; returns what the run's method returns."""
-        return KINDS[self.kind].apply(run, self.argument)
+    label: ClassVar[str]
 
     def to_json(self) -> dict[str, Any]:
-        """As a dict that JSON can hold."""
-        argument = KINDS[self.kind].argument.dump_python(self.argument, mode="json")
-        return {"tick": self.tick, "kind": self.kind, "argument": argument}
+        """As a dict that JSON can hold; see `read_command`."""
+        return self.model_dump(mode="json")
+
+    def configure(self, configuration: Configuration) -> Configuration:
+        """The configuration with the field that the command is called after."""
+        return configuration.changed(**{self.kind: self.argument})
+
+
+class SetPosition(_Command):
+    """Another position reference, faded over."""
+
+    kind: Literal["position"] = "position"
+    argument: PositionReference
+    label: ClassVar[str] = "Motion changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_position(self.argument)
+
+
+class SetStiffness(_Command):
+    """Another stiffness reference, faded over."""
+
+    kind: Literal["stiffness"] = "stiffness"
+    argument: StiffnessReference
+    label: ClassVar[str] = "Stiffness changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_stiffness(self.argument)
+
+
+class SetLaw(_Command):
+    """Another law for the first lane."""
+
+    kind: Literal["law"] = "law"
+    argument: LawName
+    label: ClassVar[str] = "Law changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_law(self.argument)
+
+
+class SetLaws(_Command):
+    """Other laws for the first lanes, in their order."""
+
+    kind: Literal["laws"] = "laws"
+    argument: Annotated[tuple[LawName, ...], Field(min_length=1)]
+    label: ClassVar[str] = "Laws changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_laws(self.argument)
+
+    def configure(self, configuration: Configuration) -> Configuration:
+        """The configuration with these laws; raises `ParameterError` where lanes are fewer."""
+        return configuration.controlled_by(self.argument)
+
+
+class SetGains(_Command):
+    """Other gains."""
+
+    kind: Literal["gains"] = "gains"
+    argument: Gains
+    label: ClassVar[str] = "Gains changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_gains(self.argument)
+
+
+class SetParameters(_Command):
+    """Other parameters of laws that have their own, by the law's name."""
+
+    kind: Literal["parameters"] = "parameters"
+    argument: ParametersByLaw
+    label: ClassVar[str] = "Parameters changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_parameters(self.argument)
+
+
+class SetObserver(_Command):
+    """Other bandwidths of the observer."""
+
+    kind: Literal["observer"] = "observer"
+    argument: ObserverBandwidth
+    label: ClassVar[str] = "Observer changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_observer(self.argument)
+
+
+class SetActuator(_Command):
+    """Another true plant."""
+
+    kind: Literal["actuator"] = "actuator"
+    argument: ActuatorParameters
+    label: ClassVar[str] = "Plant changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_actuator(self.argument)
+
+
+class SetNominal(_Command):
+    """Another model that controller and observer believe in."""
+
+    kind: Literal["nominal"] = "nominal"
+    argument: ActuatorParameters
+    label: ClassVar[str] = "Nominal model changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_nominal(self.argument)
+
+
+class SetEffects(_Command):
+    """Other effects."""
+
+    kind: Literal["effects"] = "effects"
+    argument: Effects
+    label: ClassVar[str] = "Effects changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_effects(self.argument)
+
+
+class SetRivals(_Command):
+    """Other controllers beside the first, in their order."""
+
+    kind: Literal["rivals"] = "rivals"
+    argument: tuple[Lane, ...]
+    label: ClassVar[str] = "Lanes changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_rivals(self.argument)
+
+
+class SetLane(_Command):
+    """Another controller of one lane beside the first."""
+
+    kind: Literal["lane"] = "lane"
+    argument: LaneSetting
+    label: ClassVar[str] = "A lane changed"
+
+    def apply(self, run: Run) -> None:  # noqa: D102
+        run.set_lane(self.argument)
+
+    def configure(self, configuration: Configuration) -> Configuration:
+        """The configuration with it; raises `ParameterError` where there is no such lane."""
+        return configuration.with_lane(self.argument)
+
+
+class _LoadCommand(_Command):
+    """A load is no part of the configuration but for those planned in it."""
+
+    def configure(self, configuration: Configuration) -> Configuration:
+        """The configuration as it is."""
+        return configuration
+
+
+class ApplyLoad(_LoadCommand):
+    """A load now, or at its `start_s`; its number in the run is that of its command."""
+
+    kind: Literal["load"] = "load"
+    argument: Load
+    label: ClassVar[str] = "Load applied"
+
+    def apply(self, run: Run) -> ScheduledLoad:  # noqa: D102
+        return run.add_load(self.argument)
+
+
+class RemoveLoad(_LoadCommand):
+    """The load of this number off."""
+
+    kind: Literal["unload"] = "unload"
+    argument: Whole
+    label: ClassVar[str] = "Load taken off"
+
+    def apply(self, run: Run) -> ScheduledLoad:  # noqa: D102
+        return run.remove_load(self.argument)
+
+
+Command = Annotated[
+    SetPosition
+    | SetStiffness
+    | SetLaw
+    | SetLaws
+    | SetGains
+    | SetParameters
+    | SetObserver
+    | SetActuator
+    | SetNominal
+    | SetEffects
+    | SetRivals
+    | SetLane
+    | ApplyLoad
+    | RemoveLoad,
+    BY_KIND,
+]
+COMMANDS: dict[str, type[_Command]] = {
+    one.model_fields["kind"].default: one for one in get_args(get_args(Command)[0])
+}
+"""Every kind of command, by its `kind`."""
 
 
 def build_command(tick: int, kind: str, argument: Any) -> Command:
     """A checked command; raises `ParameterError` for an unknown kind or a wrong argument."""
-    if kind not in KINDS:
-        raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(KINDS)))
+    if not isinstance(kind, str) or kind not in COMMANDS:
+        raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(COMMANDS)))
     try:
-        return Command(tick, kind, KINDS[kind].argument.validate_python(argument))
-    except ValidationError as error:
-        violations = [
-            replace(violation, name=kind) if violation.value is argument else violation
-            for violation in explain(error)
-        ]
-        raise ParameterError(*violations) from None
+        return COMMANDS[kind](tick=tick, kind=kind, argument=argument)  # pyright: ignore[reportReturnType]
+    except ParameterError as error:
+        raise ParameterError(*(_rename(one, kind) for one in error.violations)) from None
+
+
+def _rename(violation: Violation, kind: str) -> Violation:
+    """What is wrong with a part of the argument has its own name, the whole is called `kind`."""
+    name = violation.name.removeprefix("argument.")
+    return replace(violation, name=kind if name == "argument" else name)
 
 
 def read_command(written: Any) -> Command:
-    """A command from `Command.to_json`; raises `ParameterError` for anything else."""
+    """A command from its `to_json`; raises `ParameterError` for anything else."""
     if not isinstance(written, dict):
         raise ParameterError(Violation("command", written, "", "an object with named fields"))
-    kind, tick = written.get("kind"), written.get("tick")
-    if not isinstance(kind, str):
-        raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(KINDS)))
-    if not isinstance(tick, int) or isinstance(tick, bool) or tick < 0:
-        raise ParameterError(Violation("tick", tick, "", "a whole number from 0 on"))
-    return build_command(tick, kind, written.get("argument"))
-
-
-def replay(
-    configuration: Configuration, commands: Iterable[Command], end_tick: int
-) -> Iterator[tuple[Run, np.ndarray]]:
-    """Simulate a run again from its start; see `play`."""
-    return play(Run(configuration), commands, end_tick)
-
-
-def play(
-    run: Run, commands: Iterable[Command], end_tick: int, room: np.ndarray | None = None
-) -> Iterator[tuple[Run, np.ndarray]]:
-    """Go on with a run, each command given at its tick.
-
-    Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
-    until `end_tick` or the run's fault. Same configuration and commands: same bits. room:
-    (lanes, ticks, channels), where the samples are to stand one after the other.
-    """
-    later, first = list(commands), run.tick
-    while True:
-        while later and later[0].tick <= run.tick:
-            later.pop(0).apply(run)
-        end = min([end_tick, run.tick + STRETCH_TICKS, *(command.tick for command in later[:1])])
-        if run.fault is not None or run.tick >= end:
-            return
-        if room is None:
-            samples = np.empty((len(run.lanes), end - run.tick, len(CHANNELS)))
-        else:
-            samples = room[:, run.tick - first : end - first]
-        yield run, samples[:, : run.advance(samples)]
-
-
-def list_loads(configuration: Configuration, commands: Iterable[Command]) -> list[ScheduledLoad]:
-    """Every load of a run, with the ticks at which it came and went."""
-    changes = [(one.tick, one.argument) for one in commands if one.kind in ("load", "unload")]
-    return follow_loads(configuration.loads, changes, configuration.sampling.period_s)
-
-
-def build_run_at(configuration: Configuration, commands: Iterable[Command], tick: int) -> Run:
-    """The run as it stood at the beginning of `tick`, commands of that tick not yet given.
-
-    Raises `StateError` where the run ended before.
-    """
-    run = Run(configuration)
-    for reached, _ in replay(configuration, [c for c in commands if c.tick < tick], tick):
-        run = reached
-    if run.tick < tick:
-        raise StateError(f"The run ended before tick {tick}, at tick {run.tick}.")
-    return run
-
-
-def simulate_again(
-    configuration: Configuration, commands: Iterable[Command], first_tick: int, ticks: int
-) -> Iterator[np.ndarray]:
-    """The samples of a recorded run once more, bit for bit: stretches (lanes, ticks, channels).
-
-    first_tick: where the record begins. ticks: how many it holds.
-    """
-    for run, samples in replay(configuration, commands, first_tick + ticks):
-        skipped = max(0, first_tick - (run.tick - samples.shape[1]))
-        if skipped < samples.shape[1]:
-            yield samples[:, skipped:]
+    given: dict[str, Any] = {"tick": None, "kind": None, "argument": None} | written
+    return build_command(given["tick"], given["kind"], given["argument"])

@@ -7,8 +7,9 @@ from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
 from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
-from svsa.run.command import KINDS, Command, list_loads
+from svsa.run.command import ApplyLoad, Command, RemoveLoad, SetLane, SetLaw, SetLaws
 from svsa.run.configuration import Configuration
+from svsa.run.replay import list_loads
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ def list_events(
     commands, law = list(commands), configuration.law
     found: list[tuple[float, str, str]] = []
     for command in commands:
-        if command.kind not in ("load", "unload"):
+        if not isinstance(command, ApplyLoad | RemoveLoad):
             found.append((command.tick, command.kind, describe_change(command, law)))
             law = find_law(command) or law
     for _, load, start, end in list_loads(configuration, commands):
@@ -51,11 +52,9 @@ def list_events(
 
 def find_law(command: Command) -> LawName | None:
     """The law that a command gives to the first lane, or None."""
-    match command.kind:
-        case "law":
-            return command.argument
-        case "laws":
-            return command.argument[0]
+    match command:
+        case SetLaw(argument=law) | SetLaws(argument=(law, *_)):
+            return law
     return None
 
 
@@ -64,9 +63,9 @@ def describe_change(command: Command, law: LawName) -> str:
     given = find_law(command)
     if given is not None and given != law:
         return f"{get_title(law)} → {get_title(given)}"
-    if command.kind == "lane":
+    if isinstance(command, SetLane):
         return f"{get_title(command.argument.controller.law)} set beside"
-    return KINDS[command.kind].label
+    return command.label
 
 
 def describe_onset(load: Load) -> str:

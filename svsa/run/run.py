@@ -17,13 +17,7 @@ from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
-from svsa.plant.disturbances import (
-    Load,
-    ScheduledLoad,
-    build_load_table,
-    continue_push,
-    schedule_load,
-)
+from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table
 from svsa.plant.effects import Effects
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.reference.trajectories import (
@@ -35,6 +29,7 @@ from svsa.reference.transition import Stack, build_stack, push_trajectory
 from svsa.run.blocks import bind_law, build_blocks, compute_start_ratio
 from svsa.run.configuration import MOST_LOADS, Configuration, Lane, LaneSetting
 from svsa.run.fault import build_fault
+from svsa.run.loads import Loads, give_load
 from svsa.signals import State
 
 
@@ -72,7 +67,7 @@ class Run:
         self.tick = 0
         self.fault: Fault | None = None
         self._load_count = 0
-        self.loads: tuple[ScheduledLoad, ...] = ()
+        self.loads: Loads = ()
         if start is None:
             self.mu0 = compute_start_ratio(configuration)
             x = AT_REST
@@ -225,18 +220,13 @@ class Run:
         A push told while one is on changes that one, which is returned. Each command counts,
         so that a load's number is that of its command.
         """
-        held = continue_push(self.loads, load, self.tick, self.period_s)
-        if held is not None:
-            self._load_count += 1
-            self._set_loads(tuple(held if one.number == held.number else one for one in self.loads))
-            return held
         lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
-        if len(lasting) >= MOST_LOADS:
+        given, loads = give_load(lasting, self._load_count + 1, load, self.tick, self.period_s)
+        if len(loads) > MOST_LOADS:
             raise StateError(f"{MOST_LOADS} loads are applied or planned: clear one first.")
         self._load_count += 1
-        scheduled = schedule_load(self._load_count, load, self.tick, self.period_s)
-        self._set_loads((*lasting, scheduled))
-        return scheduled
+        self._set_loads(loads)
+        return given
 
     def remove_load(self, number: int) -> ScheduledLoad:
         """Take a load off; raises `StateError` when there is none of that number."""
@@ -247,7 +237,7 @@ class Run:
         numbers = ", ".join(str(load.number) for load in self.loads) or "none"
         raise StateError(f"There is no load {number}; loads here: {numbers}.")
 
-    def _set_loads(self, loads: tuple[ScheduledLoad, ...]) -> None:
+    def _set_loads(self, loads: Loads) -> None:
         self.loads = loads
         self._connect(self.configuration)
 

@@ -10,9 +10,21 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from svsa.control.installed import PAPERS_LAW, list_law_names
+from svsa.control.installed import list_law_names
+from svsa.errors import StateError
 from svsa.plant.disturbances import Load
-from svsa.run.command import Command
+from svsa.run.command import (
+    ApplyLoad,
+    Command,
+    RemoveLoad,
+    SetGains,
+    SetLane,
+    SetLaw,
+    SetLaws,
+    SetObserver,
+    SetParameters,
+    SetRivals,
+)
 from svsa.run.configuration import Configuration
 from svsa.run.controllers import (
     Controller,
@@ -21,7 +33,8 @@ from svsa.run.controllers import (
     name_controllers,
 )
 from svsa.run.events import describe_change, describe_end, describe_load
-from svsa.run.run import Run, find_origins
+from svsa.run.replay import list_loads
+from svsa.run.run import find_origins
 
 MOST_WINDOWS = 1000
 MOST_STRETCHES = 1000
@@ -90,7 +103,7 @@ class Timeline:
         """A command was given; for one that changed lanes, what each continues (None: new)."""
         before, origins = self._configuration, None
         self._configuration = _configure(before, command, self._is_bench)
-        if command.kind == "rivals":
+        if isinstance(command, SetRivals):
             origins = find_origins(before.rivals, self._configuration.rivals)
             self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
             self.lane_ids = [
@@ -101,7 +114,7 @@ class Timeline:
                 kept = self.load_numbers
                 self.load_numbers = [None if lane is None else kept[lane] for lane in origins]
         self._follow_controllers(command.tick)
-        if command.kind not in ("load", "unload") and (origins is None or None in origins):
+        if not isinstance(command, ApplyLoad | RemoveLoad) and (origins is None or None in origins):
             self._begin("change", describe_change(command, before.law), command.tick)
         return origins
 
@@ -201,20 +214,28 @@ def read_timeline(
     """
     first_tick, end_tick = ticks
     timeline = Timeline(configuration, is_bench, kept_ticks=0)
-    run = Run(configuration.changed(law=PAPERS_LAW, rivals=()))  # for its loads only
+    commands = list(commands)
+    loads = {load.number: load for load in list_loads(configuration, commands)}
+    coming = sorted(
+        (load for load in loads.values() if load.start_tick < load.end_tick),
+        key=lambda load: load.start_tick,
+    )
     for command in commands:
         if command.tick > first_tick:
             timeline.kept_ticks = math.inf
-        _pass_loads(timeline, run, command.tick)
-        acting = {load.number: load for load in run.loads}
+        while coming and coming[0].start_tick < command.tick:
+            begun = coming.pop(0)
+            timeline.begin_load(begun.load, begun.start_tick)
         timeline.take(command)
-        if command.kind in ("load", "unload"):
-            command.apply(run)
-        if command.kind == "unload":
-            taken = acting[command.argument]
-            if taken.start_tick < command.tick <= taken.end_tick:
+        if isinstance(command, RemoveLoad):
+            taken = loads.get(command.argument)
+            if taken is None:
+                raise StateError(f"There is no load {command.argument} in this run.")
+            if taken.start_tick < command.tick == taken.end_tick:
                 timeline.take_off(taken.load, command.tick)
-    _pass_loads(timeline, run, end_tick)
+    for load in coming:
+        if load.start_tick < end_tick:
+            timeline.begin_load(load.load, load.start_tick)
     return timeline
 
 
@@ -233,24 +254,13 @@ def _end(lane: list[Stretch], tick: int) -> None:
         lane[-1] = lane[-1]._replace(end_tick=tick)
 
 
-def _pass_loads(timeline: Timeline, run: Run, end_tick: int) -> None:
-    """Bring the run to a tick, past the onsets of its loads before it."""
-    for _, load, start, _ in sorted(run.loads, key=lambda scheduled: scheduled.start_tick):
-        if run.tick <= start < end_tick:
-            timeline.begin_load(load, int(start))
-    run.tick = end_tick
-
-
 def _configure(configuration: Configuration, command: Command, is_bench: bool) -> Configuration:
     """What a command changes of who controls the lanes."""
-    match command.kind:
-        case "law":
+    match command:
+        case SetLaw():
             return configuration.controlled_by(complete_laws((command.argument,), is_bench))
-        case "laws":
+        case SetLaws():
             return configuration.controlled_by(complete_laws(command.argument, is_bench))
-        case "gains" | "parameters" | "observer" | "rivals":
-            return configuration.changed(**{command.kind: command.argument})
-        case "lane":
-            return configuration.with_lane(command.argument)
-        case _:
-            return configuration
+        case SetGains() | SetParameters() | SetObserver() | SetRivals() | SetLane():
+            return command.configure(configuration)
+    return configuration

@@ -16,7 +16,7 @@ from svsa.extras import require_extra
 from svsa.loop.lane import AT_REST
 from svsa.records.header import PlantKind
 from svsa.records.recorder import Recorder
-from svsa.run.command import Command, build_command
+from svsa.run.command import Command, SetLane, SetPosition, SetRivals, SetStiffness
 from svsa.run.configuration import Configuration, Lane
 from svsa.run.run import Start
 from svsa.session.bench_run import TWIN, BenchRun
@@ -282,7 +282,7 @@ class BenchSession:
         return answer
 
     def change(self, kind: str, argument: Any) -> None:
-        """Give the run a command of `KINDS`, at the tick at which the loop has taken it."""
+        """Give the run a command of `COMMANDS`, at the tick at which the loop has taken it."""
         self.journal.enter(self._give(self.journal.build_command(kind, argument)))
 
     def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
@@ -296,25 +296,25 @@ class BenchSession:
 
     def _give(self, command: Command) -> Command:
         """The command at the tick at which the loop has taken it."""
-        if command.kind in ("position", "stiffness") and self.status == "running":
+        if isinstance(command, SetPosition | SetStiffness) and self.status == "running":
             check_takes_no_time(command.argument)
-        if command.kind == "lane" and command.argument.lane == TWIN + 1:
+        if isinstance(command, SetLane) and command.argument.lane == TWIN + 1:
             raise StateError(
                 f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
                 " of the bench: set those, or a lane after it."
             )
-        if command.kind == "rivals":
+        if isinstance(command, SetRivals):
             self._wait_for_changes()
             twin = Lane(law=self.run.configuration.law)
             others = tuple(lane for lane in command.argument if lane != twin)
-            command = build_command(command.tick, "rivals", (twin, *others))
+            command = command.changed(argument=(twin, *others))
         self._changing += 1  # what comes after this tick is not taken in before it is known
         try:
             tick = self._ask("change", command.to_json())["tick"]
         finally:
             self._changing -= 1
         self.journal.advance(tick - self.run.tick)
-        return command._replace(tick=tick)
+        return command.changed(tick=tick)
 
     def close(self) -> None:
         """Ramp to zero, and end the bench's processes."""

@@ -10,7 +10,7 @@ from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load, ScheduledLoad
 from svsa.records.header import BranchPoint
 from svsa.records.recorder import Recorder
-from svsa.run.command import Command, build_command
+from svsa.run.command import ApplyLoad, Command, RemoveLoad, build_command
 from svsa.run.configuration import MOST_LANES, Configuration
 from svsa.run.events import Event, describe_change, describe_end, describe_onset
 from svsa.run.run import Run
@@ -100,20 +100,20 @@ class Journal:
         if self.recorder is not None:
             self.recorder.write_command(command.tick, command.to_json())
         self._follow(command)
-        match command.kind:
-            case "load":
+        match command:
+            case ApplyLoad():
                 if isinstance(answer, ScheduledLoad) and answer.start_tick < self.run.tick:
                     self._hang_loads()
                 self.version += 1
-            case "unload":
+            case RemoveLoad():
                 taken = loads[command.argument]
                 if taken.start_tick < self.run.tick <= taken.end_tick:
                     self._end_load(taken.load)
                     self.timeline.take_off(taken.load, self.run.tick)
                     self.metrics.begin_window()
                 self.version += 1
-            case kind:
-                self.log(kind, describe_change(command, before.law))
+            case _:
+                self.log(command.kind, describe_change(command, before.law))
 
     def _follow(self, command: Command) -> None:
         """Lanes have the past of those that they continue; in a new window metrics begin anew."""

@@ -105,7 +105,7 @@ class Session(Protocol):
         ...
 
     def change(self, kind: str, argument: Any) -> None:
-        """Give the run a command of `KINDS` now; refused, it changes nothing.
+        """Give the run a command of `COMMANDS` now; refused, it changes nothing.
 
         Raises `ParameterError` or `StateError` as the run does.
         """

@@ -153,7 +153,7 @@ class SimulatedSession:
             self.clock.stop()
 
     def change(self, kind: str, argument: Any) -> None:
-        """Give the run a command of `KINDS` at its present tick."""
+        """Give the run a command of `COMMANDS` at its present tick."""
         self.journal.enter(self.journal.build_command(kind, argument))
 
     def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:

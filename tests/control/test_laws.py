@@ -17,8 +17,9 @@ from svsa.control.law import Law
 from svsa.design.sampled_loop import linearize_tick
 from svsa.loop.loop import advance as advance_lane
 from svsa.records.wording import tell_law
-from svsa.run.command import build_command, replay
+from svsa.run.command import build_command
 from svsa.run.controllers import list_controllers, name_controllers
+from svsa.run.replay import replay
 from svsa.run.run import Run
 from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_INDEX, CHANNELS, Torque

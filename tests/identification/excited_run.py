@@ -6,8 +6,8 @@ import svsa
 from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.plant.effects import CurrentLag, Encoders, Friction, StateEstimation
 from svsa.records.reader import build_record
-from svsa.run.command import replay
 from svsa.run.configuration import Configuration
+from svsa.run.replay import replay
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 from tests.records.records import build_header
 

@@ -14,13 +14,13 @@ from svsa.identification.kernel import compute_shifted_torque
 from svsa.identification.record import (
     IdentificationError,
     build_torques,
-    find_loads,
     read_evidence,
 )
 from svsa.plant.effects import CurrentLag, Encoders, Friction, SensorNoise
 from svsa.records.catalogue.runs import Catalogue
 from svsa.run.command import build_command
 from svsa.run.configuration import read_design
+from svsa.run.replay import list_loads
 from svsa.signals import CHANNEL_INDEX
 
 from .excited_run import BENCH, DESIGN, build_configuration, build_run, get, play
@@ -142,8 +142,8 @@ def test_stretches_under_a_load_are_left_out(excited):
 
 
 def test_a_load_that_stays_ends_what_can_be_used():
-    loads = find_loads(build_configuration(), [build_command(7, "load", PUSH)], PERIOD_S)
-    assert loads == [(7, math.inf)]
+    loads = list_loads(build_configuration(), [build_command(7, "load", PUSH)])
+    assert [(load.start_tick, load.end_tick) for load in loads] == [(7, math.inf)]
 
 
 @pytest.mark.parametrize(

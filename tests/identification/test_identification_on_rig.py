@@ -29,7 +29,7 @@ def test_table_1_is_found_within_5_percent():
                 while later and later[0].tick <= bench.sink.done:
                     command = later.pop(0)
                     tick = bench.loop.change(command.kind, command.argument)
-                    written.append((tick, command._replace(tick=tick).to_json()))
+                    written.append((tick, command.changed(tick=tick).to_json()))
                 bench.tick()
         finally:
             bench.close()

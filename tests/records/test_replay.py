@@ -10,8 +10,9 @@ import pytest
 from hypothesis import given
 
 import svsa
-from svsa.run.command import Command, read_command, replay, simulate_again
+from svsa.run.command import SetLaw, read_command
 from svsa.run.configuration import Configuration
+from svsa.run.replay import replay, simulate_again
 from tests.session.scripts import (
     collect,
     play,
@@ -59,7 +60,8 @@ def test_the_same_bits_come_out_of_a_fresh_process():
     program = (
         "import hashlib, json, sys\n"
         "import numpy as np\n"
-        "from svsa.run.command import read_command, simulate_again\n"
+        "from svsa.run.command import read_command\n"
+        "from svsa.run.replay import simulate_again\n"
         "from svsa.run.configuration import Configuration\n"
         "written = json.load(sys.stdin)\n"
         "commands = [read_command(command) for command in written['commands']]\n"
@@ -101,7 +103,7 @@ def test_a_part_of_a_record_is_simulated_from_the_start_and_cut_out():
 
 def test_a_record_without_a_sample_is_no_error():
     """A session that was changed and never run, or a run that ended at its first tick."""
-    commands = [Command(0, "law", "fl")]
+    commands = [SetLaw(tick=0, argument="fl")]
     assert list(simulate_again(build_configuration(), commands, 0, 0)) == []
     assert list(simulate_again(build_configuration(), commands, 7, 0)) == []
 

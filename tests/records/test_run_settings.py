@@ -10,7 +10,7 @@ from svsa.plant.effects import RIG, Friction
 from svsa.records.header import RecordHeader
 from svsa.records.settings import RunSettings, describe_settings, name_figure
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
-from svsa.run.command import Command
+from svsa.run.command import build_command
 from svsa.run.configuration import Configuration, Lane, LaneSetting, load_prototype
 from svsa.signals import CHANNELS
 
@@ -41,7 +41,7 @@ def describe(
     **changes: Any,
 ) -> RunSettings:
     configuration = get_figure(figure).build_configuration(load=False).changed(**changes)
-    written = [(tick, Command(tick, kind, value).to_json()) for tick, kind, value in commands]
+    written = [(tick, build_command(tick, kind, value).to_json()) for tick, kind, value in commands]
     return describe_settings(
         build_header(configuration, **(header or {})), written, first_tick, ticks
     )

@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.plant.effects import CurrentLag, Friction, LinkGravity, SensorNoise
-from svsa.run.command import KINDS, read_command, simulate_again
+from svsa.run.command import COMMANDS, read_command
 from svsa.run.configuration import Configuration, LaneSetting
+from svsa.run.replay import simulate_again
 
 from .sessions import EVERY_EFFECT, PULSE, build_session
 
@@ -98,7 +99,7 @@ REFUSED = [
     ("unload", 99),
     ("unload", 0),
 ]
-assert set(ARGUMENTS) == set(KINDS)
+assert set(ARGUMENTS) == set(COMMANDS)
 
 commands = st.sampled_from([*ARGUMENTS, "load", "unload", "unload", "refused"]).flatmap(
     lambda kind: (

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import svsa
-from svsa.run.command import Command, build_run_at
+from svsa.run.command import ApplyLoad
+from svsa.run.replay import build_run_at
 from svsa.session.simulated import SimulatedSession
 
 from .scripts import collect, play, play_busy_session, read, scripted, scripts, wake_sizes, write
@@ -25,10 +26,10 @@ def test_a_run_opened_again_at_any_tick_goes_on_as_the_original_did(script, wake
     tick, end = int(share * session.run.tick), session.run.tick
     run = build_run_at(configuration, commands, tick)
     assert run.tick == tick
-    for command in [*(c for c in commands if c.tick >= tick), Command(end, "", None)]:
+    for command in (c for c in commands if c.tick >= tick):
         advance(run, command.tick - run.tick)
-        if command.kind:
-            command.apply(run)
+        command.apply(run)
+    advance(run, end - run.tick)
     reached, again = session.run, run
     assert (again.tick, again.loads) == (reached.tick, reached.loads)
     assert list_lanes(again) == list_lanes(reached)
@@ -42,7 +43,7 @@ def test_a_branch_that_is_changed_differs_only_after_its_tick():
     session = play_busy_session()
     configuration, commands = read(write(session))
     kept = [command for command in commands if command.tick < 90]
-    branch = [*kept, Command(90, "load", svsa.ConstantLoad(torque_nm=(0.2, 0.0, 0.0)))]
+    branch = [*kept, ApplyLoad(tick=90, argument=svsa.ConstantLoad(torque_nm=(0.2, 0.0, 0.0)))]
     found = collect(configuration, branch, 0, 110)[0]
     original = read_samples(session)
     np.testing.assert_array_equal(found[:90], original[:90])

@@ -8,7 +8,8 @@ import pytest
 import svsa
 from svsa.bench.realtime.configuration import check_takes_no_time
 from svsa.reference.series import MOST_ROWS
-from svsa.run.command import read_command, simulate_again
+from svsa.run.command import read_command
+from svsa.run.replay import simulate_again
 from svsa.signals import CHANNEL_INDEX
 
 from .sessions import build_configuration, build_session, read_samples

@@ -5,7 +5,8 @@ import pytest
 
 import svsa
 from svsa.run import events
-from svsa.run.command import KINDS, Command, read_command, replay
+from svsa.run.command import COMMANDS, read_command
+from svsa.run.replay import replay
 from svsa.session.session import take_loads_off
 from svsa.signals import CHANNEL_INDEX
 
@@ -84,9 +85,7 @@ def test_a_push_is_one_mark_however_often_it_is_told():
     session.step(10)
     labels = [(event.tick, event.label) for event in session.journal.events]
     assert labels == [(0, "Push on"), (300, "Push off")]
-    assert [row["kind"] for row in map(Command.to_json, session.journal.commands)].count(
-        "load"
-    ) == 15
+    assert [command.kind for command in session.journal.commands].count("load") == 15
     (since,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
     assert since.duration_s == pytest.approx(0.3)
 
@@ -146,7 +145,7 @@ def test_every_command_is_logged_with_its_tick():
     session.change("effects", svsa.RIG)
     session.change("rivals", (svsa.Lane(law="ndobc"),))
     session.change("lane", {"lane": 2, "controller": {"law": "fl"}})
-    changed = [kind for kind in KINDS if kind not in ("load", "unload")]
+    changed = [kind for kind in COMMANDS if kind not in ("load", "unload")]
     events = [kind for _, kind in list_events(session)]
     assert sorted(events) == sorted(changed)
     assert list_events(session) == [(5, kind) for kind in events]

@@ -110,7 +110,7 @@ class BenchLoop:
         return start
 
     def change(self, kind: str, argument: Any) -> int:
-        """Give the run a command of `KINDS`; returns the tick at which it holds.
+        """Give the run a command of `COMMANDS`; returns the tick at which it holds.
 
         Raises `ParameterError` or `StateError`, and then nothing has changed.
         """
