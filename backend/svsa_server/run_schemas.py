@@ -16,6 +16,7 @@ from svsa.records.header import (
 )
 from svsa.records.measured_window import MeasuredWindow
 from svsa.records.settings import RunSettings
+from svsa.run.command import Command
 from svsa.run.metrics import Metrics
 from svsa.signals import Channel
 from svsa_server.lane_schemas import StretchState, WindowState
@@ -121,6 +122,13 @@ class RunCommand(BaseModel):
     command: dict[str, Any]
 
 
+class GivenCommand(BaseModel):
+    """A command as this version of the lab gives it again."""
+
+    tick: int
+    command: Command
+
+
 class RunDetails(RunSummary):
     """A run with everything that decided its samples."""
 
@@ -140,7 +148,7 @@ class RunOrigin(BaseModel):
     """What decides the samples of a run: simulated again, they are the same bits."""
 
     configuration: dict[str, Any] = Field(description="At tick 0")
-    commands: list[RunCommand] = Field(description="In the order in which they were given")
+    commands: list[GivenCommand] = Field(description="In the order in which they were given")
     tick: int = Field(description="How far the run is, or where its record ends")
     period_s: float
     plant: PlantKind

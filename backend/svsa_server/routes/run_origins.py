@@ -7,9 +7,10 @@ from fastapi import APIRouter, Request
 
 from svsa.records.catalogue.entry import RunEntry
 from svsa.records.header import BranchPoint, PlantKind
+from svsa.run.command import Command, read_command
 from svsa.run.configuration import Design
 from svsa_server.routes.depends import NamedSession, RunId, Runs
-from svsa_server.run_schemas import BranchOrigin, RunCommand, RunOrigin
+from svsa_server.run_schemas import BranchOrigin, GivenCommand, RunOrigin
 from svsa_server.session_schemas import SessionRequest
 
 router = APIRouter()
@@ -20,7 +21,7 @@ async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
     """The run that a session is on: how it stood at t = 0 and what was changed since."""
     return _tell(
         hosted.session.journal.initial.model_dump(mode="json"),
-        ((command.tick, command.to_json()) for command in hosted.session.journal.commands),
+        hosted.session.journal.commands,
         hosted.session.run.tick,
         hosted.session.run.period_s,
         hosted.session.plant,
@@ -35,7 +36,7 @@ def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
     header = record.header
     return _tell(
         header.configuration,
-        record.commands,
+        (read_command(written) for _, written in record.commands),
         record.first_tick + record.tick_count,
         header.period_s,
         header.plant,
@@ -59,7 +60,7 @@ def name_origin(
 
 def _tell(
     configuration: dict[str, Any],
-    commands: Iterable[tuple[int, dict[str, Any]]],
+    commands: Iterable[Command],
     tick: int,
     period_s: float,
     plant: PlantKind,
@@ -67,7 +68,7 @@ def _tell(
 ) -> RunOrigin:
     return RunOrigin(
         configuration=configuration,
-        commands=[RunCommand(tick=at, command=command) for at, command in commands],
+        commands=[GivenCommand(tick=command.tick, command=command) for command in commands],
         tick=tick,
         period_s=period_s,
         plant=plant,

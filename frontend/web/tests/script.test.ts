@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import { calls, clearCalls, noteCall, noteDownload } from "../src/api/calls";
-import type { RunOrigin } from "../src/api/types";
+import type { CommandKind, RunOrigin } from "../src/api/types";
 import { stepOf, writeExperiment } from "../src/script/experiment";
 import { callInPython, toPython } from "../src/script/python";
 import { toSnippet, toSnippets } from "../src/script/snippets";
@@ -87,10 +87,12 @@ const origin = (change: object, commands: RunOrigin["commands"] = []): RunOrigin
   plant: "simulated",
   defaults: DEFAULTS,
 });
-const given = (tick: number, kind: string, argument: unknown) => ({
-  tick,
-  command: { tick, kind, argument },
-});
+type Given = RunOrigin["commands"][number];
+const given = <Kind extends CommandKind>(
+  tick: number,
+  kind: Kind,
+  argument: Extract<Given["command"], { kind: Kind }>["argument"],
+) => ({ tick, command: { tick, kind, argument } }) as Given;
 
 describe("an experiment as a script", () => {
   it("gives every command at its time and goes on to the end", () => {

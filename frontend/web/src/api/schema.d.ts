@@ -1304,6 +1304,24 @@ export interface components {
             reaction_torque?: "energy" | "printed";
         };
         /**
+         * ApplyLoad
+         * @description A load now, or at its `start_s`; its number in the run is that of its command.
+         */
+        ApplyLoad: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "load";
+            /** Argument */
+            argument: components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
+        };
+        /**
          * BenchState
          * @description A bench at this instant.
          */
@@ -2013,6 +2031,16 @@ export interface components {
             stiffness_roots_rad_per_s: components["schemas"]["Root"][];
         };
         /**
+         * GivenCommand
+         * @description A command as this version of the lab gives it again.
+         */
+        GivenCommand: {
+            /** Tick */
+            tick: number;
+            /** Command */
+            command: components["schemas"]["SetPosition"] | components["schemas"]["SetStiffness"] | components["schemas"]["SetLaw"] | components["schemas"]["SetLaws"] | components["schemas"]["SetGains"] | components["schemas"]["SetParameters"] | components["schemas"]["SetObserver"] | components["schemas"]["SetActuator"] | components["schemas"]["SetNominal"] | components["schemas"]["SetEffects"] | components["schemas"]["SetRivals"] | components["schemas"]["SetLane"] | components["schemas"]["ApplyLoad"] | components["schemas"]["RemoveLoad"];
+        };
+        /**
          * Health
          * @description That the server lives.
          */
@@ -2117,6 +2145,18 @@ export interface components {
             in_window: components["schemas"]["Metrics"] | null;
             /** @description Of `load_window`, with which it ends: of who controls the lane now, on the lane that it had when the load came; its recovery time is the load's */
             since_load: components["schemas"]["Metrics"] | null;
+        };
+        /**
+         * LaneSetting
+         * @description What controls a lane beside the first.
+         */
+        LaneSetting: {
+            /**
+             * Lane
+             * @description Number of the lane; 1 is the run's own
+             */
+            lane: number;
+            controller: components["schemas"]["Lane"];
         };
         /**
          * LaneState
@@ -2906,6 +2946,24 @@ export interface components {
             peak_rate: number;
         };
         /**
+         * RemoveLoad
+         * @description The load of this number off.
+         */
+        RemoveLoad: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "unload";
+            /** Argument */
+            argument: number;
+        };
+        /**
          * Root
          * @description A root of Eq 25, rad/s.
          */
@@ -3147,7 +3205,7 @@ export interface components {
              * Commands
              * @description In the order in which they were given
              */
-            commands: components["schemas"]["RunCommand"][];
+            commands: components["schemas"]["GivenCommand"][];
             /**
              * Tick
              * @description How far the run is, or where its record ends
@@ -3586,6 +3644,220 @@ export interface components {
             sample: {
                 [key: string]: number | null;
             } | null;
+        };
+        /**
+         * SetActuator
+         * @description Another true plant.
+         */
+        SetActuator: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "actuator";
+            argument: components["schemas"]["ActuatorParameters"];
+        };
+        /**
+         * SetEffects
+         * @description Other effects.
+         */
+        SetEffects: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "effects";
+            argument: components["schemas"]["Effects"];
+        };
+        /**
+         * SetGains
+         * @description Other gains.
+         */
+        SetGains: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "gains";
+            argument: components["schemas"]["Gains"];
+        };
+        /**
+         * SetLane
+         * @description Another controller of one lane beside the first.
+         */
+        SetLane: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "lane";
+            argument: components["schemas"]["LaneSetting"];
+        };
+        /**
+         * SetLaw
+         * @description Another law for the first lane.
+         */
+        SetLaw: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "law";
+            /** Argument */
+            argument: string;
+        };
+        /**
+         * SetLaws
+         * @description Other laws for the first lanes, in their order.
+         */
+        SetLaws: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "laws";
+            /** Argument */
+            argument: string[];
+        };
+        /**
+         * SetNominal
+         * @description Another model that controller and observer believe in.
+         */
+        SetNominal: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "nominal";
+            argument: components["schemas"]["ActuatorParameters"];
+        };
+        /**
+         * SetObserver
+         * @description Other bandwidths of the observer.
+         */
+        SetObserver: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "observer";
+            argument: components["schemas"]["ObserverBandwidth"];
+        };
+        /**
+         * SetParameters
+         * @description Other parameters of laws that have their own, by the law's name.
+         */
+        SetParameters: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "parameters";
+            /** Argument */
+            argument: {
+                [key: string]: {
+                    [key: string]: unknown;
+                };
+            };
+        };
+        /**
+         * SetPosition
+         * @description Another position reference, faded over.
+         */
+        SetPosition: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "position";
+            /** Argument */
+            argument: components["schemas"]["SinePosition"] | components["schemas"]["ConstantPosition"] | components["schemas"]["StepsPosition"] | components["schemas"]["MinimumJerkPosition"] | components["schemas"]["ChirpPosition"] | components["schemas"]["SeriesPosition"];
+        };
+        /**
+         * SetRivals
+         * @description Other controllers beside the first, in their order.
+         */
+        SetRivals: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "rivals";
+            /** Argument */
+            argument: components["schemas"]["Lane"][];
+        };
+        /**
+         * SetStiffness
+         * @description Another stiffness reference, faded over.
+         */
+        SetStiffness: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "stiffness";
+            /** Argument */
+            argument: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
         };
         /**
          * SettingDifference

@@ -64,5 +64,6 @@ export type RunList = Schemas["RunList"];
 export type RunPatch = Schemas["RunPatch"];
 export type RunSamples = Schemas["RunSamples"];
 export type RunOrigin = Schemas["RunOrigin"];
+export type CommandKind = RunOrigin["commands"][number]["command"]["kind"];
 export type ExportName =
   paths["/api/v1/runs/{run_id}/export"]["get"]["parameters"]["query"]["kind"];

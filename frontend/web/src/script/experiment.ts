@@ -1,5 +1,5 @@
 /** A run as a Python file that does it again in a private session, every change at its own tick. */
-import type { RunOrigin } from "../api/types";
+import type { CommandKind, RunOrigin } from "../api/types";
 import { callInPython, inDocstring, toPython } from "./python";
 
 type Values = Record<string, unknown>;
@@ -26,7 +26,7 @@ function differences(wanted: Values, known: Values): Values {
 }
 
 /** The public call that gives a command again. */
-export function stepOf(kind: string, argument: unknown): Step {
+export function stepOf(kind: CommandKind, argument: unknown): Step {
   switch (kind) {
     case "law":
       return { method: "PUT", path: "/law", body: { law: argument } };
@@ -87,7 +87,7 @@ function writeChanges({ configuration, commands, period_s: periodS }: RunOrigin)
   for (const { tick, command } of commands) {
     if (tick > reached) lines.push(writeRun(tick, periodS));
     reached = Math.max(reached, tick);
-    lines.push(writeStep(stepOf(String(command.kind), command.argument)));
+    lines.push(writeStep(stepOf(command.kind, command.argument)));
   }
   return lines;
 }
