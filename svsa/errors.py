@@ -4,7 +4,9 @@ One root, `SvsaError`. Bad input is a `ParameterError`; a run that leaves the do
 the model ends in a `Fault`, which is data, and a `FaultError` where nobody looks at it.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Self
 
 from svsa.written_number import write_number
@@ -49,15 +51,16 @@ class Violation:
 
 
 class ParameterError(SvsaError, ValueError):
-    """Values that were refused; nothing was changed."""
+    """Values that were refused; nothing was changed. file: where they stand, or ""."""
 
-    def __init__(self, *violations: Violation) -> None:
-        self.violations = violations
-        super().__init__(" ".join(violation.message for violation in violations))
+    def __init__(self, *violations: Violation, file: str = "") -> None:
+        self.violations, self.file = violations, file
+        told = " ".join(violation.message for violation in violations)
+        super().__init__(f"{file}: {told}" if file else told)
 
-    def __reduce__(self) -> tuple[type[Self], tuple[Violation, ...]]:
+    def __reduce__(self) -> tuple[Callable[..., Self], tuple[Violation, ...]]:
         """To another process and back with every violation."""
-        return type(self), self.violations
+        return partial(type(self), file=self.file), self.violations
 
     def within(self, path: str) -> "ParameterError":
         """The same refusal, its fields called from the value that holds them at `path`."""

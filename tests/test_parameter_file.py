@@ -72,6 +72,66 @@ def test_a_value_may_stand_bare_or_with_its_source(written):
     assert svsa.read_design(written) == svsa.load_prototype()
 
 
+INTEGRAL = """
+[parameters.fl_integral]
+position_pole_rad_per_s = { value = 40.0, source = "tuned by hand" }
+stiffness_pole_rad_per_s = 25
+"""
+
+
+def test_a_law_has_a_table_of_its_own(written):
+    """Bare or with its source; what is written is read back, and a run is controlled with it."""
+    written.write_text(written.read_text(encoding="utf-8") + INTEGRAL, encoding="utf-8")
+    design = svsa.read_design(written)
+    (parameters,) = design.parameters.values()
+    poles = {"position_pole_rad_per_s": 40.0, "stiffness_pole_rad_per_s": 25.0}
+    assert parameters.model_dump() == poles
+    svsa.write_design(written, design, "again")
+    assert svsa.read_design(written) == design
+    table = tomllib.loads(written.read_text(encoding="utf-8"))["parameters"]["fl_integral"]
+    assert table["position_pole_rad_per_s"] == {"value": 40.0, "source": "again"}
+    run = svsa.simulate("4a", "fl_integral", parameters=written, duration_s=0.01)
+    assert run.configuration.parameters["fl_integral"] == parameters
+
+
+def test_a_file_that_names_no_law_leaves_the_parameters_of_laws_as_they_are(written):
+    own = {"fl_integral": {"position_pole_rad_per_s": 40.0}}
+    configuration = svsa.paper.get_figure("4a").build_configuration().changed(parameters=own)
+    run = svsa.simulate(configuration, parameters=written, duration_s=0.01)
+    assert run.configuration.parameters == configuration.parameters
+
+
+BROKEN_LAWS = {
+    "a value beyond its bound": (
+        INTEGRAL.replace("40.0", "400.0"),
+        "parameters.fl_integral.position_pole_rad_per_s is 400.0 rad/s: it must be at most 150",
+    ),
+    "a misspelt name": (
+        INTEGRAL.replace("position_pole", "position_poles"),
+        "parameters.fl_integral.position_poles_rad_per_s",
+    ),
+    "a law that is not installed": (
+        INTEGRAL.replace("fl_integral", "fl_integrall"),
+        "parameters is 'fl_integrall': it must be a law that is installed here: ndobc",
+    ),
+    "a law that takes gains": (
+        INTEGRAL.replace("fl_integral", "ndobc"),
+        "left out: ndobc takes the run's gains",
+    ),
+    "no table": ("[parameters]\nfl_integral = 3\n", "parameters.fl_integral is 3"),
+}
+
+
+@pytest.mark.parametrize("kind", BROKEN_LAWS)
+def test_a_law_s_broken_table_is_refused_with_file_and_name(written, kind):
+    text, words = BROKEN_LAWS[kind]
+    written.write_text(written.read_text(encoding="utf-8") + text, encoding="utf-8")
+    with pytest.raises(svsa.ParameterError) as refused:
+        svsa.read_design(written)
+    assert str(refused.value).startswith(f"{written}: ")
+    assert words in str(refused.value)
+
+
 BROKEN = {
     "no TOML": ("[actuator\n", "readable TOML"),
     "an empty file": ("", "actuator is missing"),

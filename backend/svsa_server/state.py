@@ -2,16 +2,13 @@
 
 import math
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 
 from svsa.control.gains import Gains
-from svsa.control.installed import has_own_parameters
 from svsa.plant.disturbances import ScheduledLoad
 from svsa.records.header import BranchPoint
 from svsa.records.recorder import Recorder
-from svsa.run.configuration import Configuration, Lane
 from svsa.run.metrics import Metrics
 from svsa.session.bench import BenchSession
 from svsa.session.session import Session
@@ -134,7 +131,10 @@ def _build_configuration(session: Session) -> ConfigurationState:
         position=configuration.position,
         stiffness=configuration.stiffness,
         gains=_build_gains(configuration.gains),
-        parameters=_list_parameters(configuration),
+        parameters={
+            law: parameters.model_dump(mode="json")
+            for law, parameters in configuration.list_parameters().items()
+        },
         observer=configuration.observer,
         limits=configuration.limits,
         actuator=configuration.actuator,
@@ -143,15 +143,6 @@ def _build_configuration(session: Session) -> ConfigurationState:
         effects=configuration.effects,
         seed=configuration.seed,
     )
-
-
-def _list_parameters(configuration: Configuration) -> dict[str, dict[str, Any]]:
-    laws = dict.fromkeys((*(lane.law for lane in configuration.lanes), *configuration.parameters))
-    return {
-        law: configuration.get_parameters(Lane(law=law)).model_dump(mode="json")
-        for law in laws
-        if has_own_parameters(law)
-    }
 
 
 def _build_gains(gains: Gains) -> GainsState:

@@ -51,7 +51,7 @@ def simulate(
         configuration = get_figure(experiment).build_configuration()
     if parameters is not None:
         design = parameters if isinstance(parameters, Design) else read_design(parameters)
-        configuration = configuration.changed(**dict(design))
+        configuration = configuration.with_design(design)
     own = law if callable(law) else None
     if law is not None and own is None:
         changes["law"] = law

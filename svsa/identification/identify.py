@@ -94,6 +94,7 @@ class Identification(NamedTuple):
             actuator=actuator,
             nominal=actuator,
             gains=run.gains,
+            parameters=run.list_parameters(),
             observer=run.observer,
             limits=run.limits,
             sampling=run.sampling,

@@ -15,8 +15,10 @@ from svsa.control.installed import (
     LaneParameters,
     LawName,
     ParametersByLaw,
+    check_installed,
     get_law,
     has_own_parameters,
+    is_usable,
     read_parameters,
 )
 from svsa.control.parameters import LawParameters
@@ -40,11 +42,18 @@ class Sampling(Checked):
 
 
 class Design(Checked):
-    """What a parameter file holds: plant, nominal model, gains, observer, limits, sampling."""
+    """What a parameter file holds: plant, nominal model, gains, parameters of laws, observer,
+    limits, sampling.
+    """
 
     actuator: ActuatorParameters
     nominal: ActuatorParameters
     gains: Gains
+    parameters: ParametersByLaw = quantity(
+        "",
+        "Parameters of laws that have their own, by the law's name; else its defaults",
+        default={},
+    )
     observer: ObserverBandwidth
     limits: Limits
     sampling: Sampling
@@ -86,11 +95,6 @@ class Configuration(Design):
     """Everything that decides a run, besides the commands given while it runs."""
 
     law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
-    parameters: ParametersByLaw = quantity(
-        "",
-        "Parameters of laws that have their own, by the law's name; else its defaults",
-        default={},
-    )
     rivals: tuple[Lane, ...] = quantity(
         "",
         "Controllers that run beside the first, each on a plant of its own",
@@ -125,6 +129,17 @@ class Configuration(Design):
         given = lane.parameters or self.parameters.get(lane.law)
         return get_law(lane.law).parameters() if given is None else given
 
+    def list_parameters(self) -> dict[str, LawParameters]:
+        """Of laws that have their own: what was set, and what those of the lanes are set to."""
+        laws = dict.fromkeys((*(lane.law for lane in self.lanes), *self.parameters))
+        own = (law for law in laws if is_usable(law) and has_own_parameters(law))
+        return {law: self.get_parameters(Lane(law=law)) for law in own}
+
+    def with_design(self, design: Design) -> Self:
+        """With another design; parameters of laws that it does not name stay."""
+        parameters = {**self.parameters, **design.parameters}
+        return self.changed(**(dict(design) | {"parameters": parameters}))
+
     def controlled_by(self, laws: Sequence[str]) -> Self:
         """The first lanes with these laws, in this order; gains and observers stay theirs.
 
@@ -152,33 +167,55 @@ class Configuration(Design):
 def read_design(path: Path | str) -> Design:
     """Read a parameter file written as `prototype.toml` is; a value may stand bare.
 
-    Raises `ParameterError` for a file that cannot be read and for every wrong value.
+    The parameters of a law stand in a table of its own, `[parameters.fl_integral]`. Raises
+    `ParameterError` for a file that cannot be read and for every wrong value, with the file's name.
     """
-    return _build_design(read_toml(path, PARAMETER_FILE))
+    return _build_design(read_toml(path, PARAMETER_FILE), str(path))
 
 
 def parse_design(text: str, name: str = "") -> Design:
     """The design in the text of a parameter file called `name`; raises `ParameterError`."""
-    return _build_design(parse_toml(text, PARAMETER_FILE, name))
+    return _build_design(parse_toml(text, PARAMETER_FILE, name), name)
 
 
-def _build_design(sections: dict[str, Any]) -> Design:
-    return Design(**{name: _strip_sources(section) for name, section in sections.items()})
+def _build_design(sections: dict[str, Any], file: str) -> Design:
+    plain = {name: _strip_sources(section) for name, section in sections.items()}
+    laws = plain.get("parameters", {})
+    if isinstance(laws, dict):
+        plain["parameters"] = {law: _strip_sources(table) for law, table in laws.items()}
+    try:
+        design = Design(**plain)
+        for law in design.parameters:
+            _check_law(law)
+    except ParameterError as error:
+        raise ParameterError(*error.violations, file=file) from None
+    return design
+
+
+def _check_law(law: str) -> None:
+    try:
+        check_installed(law)
+    except ParameterError as error:
+        raise error.within("parameters") from None
 
 
 def write_design(path: Path | str, design: Design, source: str) -> None:
     """Write a parameter file in which every value has `source` as its source."""
-    sections = {
-        name: {key: {"value": value, "source": source} for key, value in section.items()}
-        for name, section in design.model_dump(mode="json").items()
-    }
-    Path(path).write_text(tomli_w.dumps(sections), encoding="utf-8")
+    sections = design.model_dump(mode="json")
+    laws = {law: _add_source(table, source) for law, table in sections.pop("parameters").items()}
+    written = {name: _add_source(section, source) for name, section in sections.items()}
+    written |= {"parameters": laws} if laws else {}
+    Path(path).write_text(tomli_w.dumps(written), encoding="utf-8")
 
 
 @cache
 def load_prototype() -> Design:
     """The paper's prototype with the declared assumptions: `svsa/prototype.toml`."""
     return read_design(Path(__file__).parent.parent / "prototype.toml")
+
+
+def _add_source(section: dict[str, Any], source: str) -> dict[str, Any]:
+    return {key: {"value": value, "source": source} for key, value in section.items()}
 
 
 def _strip_sources(section: Any) -> Any:

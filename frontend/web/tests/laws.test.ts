@@ -48,3 +48,20 @@ it("a law that controls stands among the equations in its own words, the paper's
   expect(found[0]?.tex).toBe(String.raw`\text{PD:}\quad u=0`);
   expect(equationsOf("torque", [law("motor_pd")])).toEqual(equationsOf("torque", []));
 });
+
+it("runs are filtered by laws as the server calls them, and by the name of one that is not here", async () => {
+  const { laws } = await import("../src/state/laws");
+  const { nameValue } = await import("../src/runs/words");
+  expect(nameValue("law", "motor_pd")).toBe("motor_pd");
+  laws.value = [law("fl_integral", { title: "FL + I" }), law("bad", { problem: "no" })];
+  expect(["fl_integral", "motor_pd", "bad"].map((name) => nameValue("law", name))).toEqual([
+    "FL + I",
+    "motor_pd (not installed)",
+    "bad (does not load)",
+  ]);
+  expect([nameValue("figure", "4a"), nameValue("tag", "fl"), nameValue("plant", "bench")]).toEqual([
+    "Fig. 4A",
+    "fl",
+    "Bench",
+  ]);
+});

@@ -41,10 +41,10 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
         delay_samples=1,
         current_lag=CurrentLag(time_constant_s=lag) if lag else None,
     )
+    own = dict(design) | {"parameters": {**design.parameters, **wanted.parameters}}
     return Configuration(
-        **dict(design),
+        **own,
         law=wanted.law,
-        parameters=wanted.parameters,
         rivals=(Lane(law=wanted.law),),
         effects=effects,
         position=wanted.position,

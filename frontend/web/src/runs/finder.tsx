@@ -1,14 +1,9 @@
 import { text } from "../text/en";
 import { COLUMNS, NAME_SORT } from "./columns";
 import { ask, FILTERS, type Filter, filters, found, isTrash, search, sort } from "./list";
+import { nameValue } from "./words";
 
 const words = text.runs;
-
-const nameValue = (filter: Filter, value: string): string => {
-  if (filter === "tag") return value;
-  const names: Record<string, string> = words.values[filter];
-  return names[value] ?? (filter === "figure" ? words.figureName(value.toUpperCase()) : value);
-};
 
 /** A choice among what the runs have; nothing where there is nothing to choose. */
 function FilterChoice({ filter }: { filter: Filter }) {

@@ -1,5 +1,7 @@
 /** A run in words. */
+import { describeLaw } from "../state/laws";
 import { text } from "../text/en";
+import type { Filter } from "./list";
 
 const DAY = new Intl.DateTimeFormat("en-GB", {
   day: "numeric",
@@ -34,4 +36,20 @@ export function formatDuration(seconds: number): string {
   if (rounded < 60) return text.runs.seconds(rounded);
   const whole = Math.round(seconds);
   return text.runs.minutes(Math.floor(whole / 60), whole % 60);
+}
+
+/** A value by which runs are filtered, as it is read. */
+export function nameValue(filter: Filter, value: string): string {
+  switch (filter) {
+    case "law":
+      return describeLaw(value);
+    case "figure":
+      return text.runs.figureName(value.toUpperCase());
+    case "tag":
+      return value;
+    default: {
+      const names: Record<string, string> = text.runs.values[filter];
+      return names[value] ?? value;
+    }
+  }
 }

@@ -2,6 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import { readLaws } from "../api/client";
 import type { Law, LawRow } from "../api/types";
+import { text } from "../text/en";
 
 const RETRY_MS = 2000;
 
@@ -16,6 +17,13 @@ export const lawOf = (name: Law): LawRow | undefined => laws.value.find((law) =>
 
 /** How a law is called; its name where nothing else is known. */
 export const titleOf = (name: Law): string => lawOf(name)?.title ?? name;
+
+/** A law of a record, which need not be here: its title, or its name and why it cannot be used. */
+export function describeLaw(name: Law): string {
+  const law = lawOf(name);
+  if (law?.problem) return text.laws.broken(name);
+  return law?.title ?? (laws.value.length > 0 ? text.laws.notInstalled(name) : name);
+}
 
 /** The law to set beside this one where nobody has chosen: the first other one. */
 export const otherLaw = (law: Law): Law | undefined =>

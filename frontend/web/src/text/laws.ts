@@ -6,6 +6,8 @@ export const lawsText = {
     presentSign: "✓",
     found: (count: number) => (count === 1 ? "1 law" : `${count} laws`),
     none: "No law has these words.",
+    notInstalled: (name: string) => `${name} (not installed)`,
+    broken: (name: string) => `${name} (does not load)`,
     groups: {
       none: "Without an estimate of the load",
       observer: "With the observer's estimate ŵ",

@@ -20,7 +20,6 @@ export const runsText = {
       tag: { name: "Tag", any: "Any tag" },
     },
     values: {
-      law: { ndobc: "NDOBC", fl: "FL" },
       load: {
         none: "No load",
         paper: "3 kg (paper)",
@@ -30,7 +29,6 @@ export const runsText = {
         sine: "Sine torque",
         series: "Torque series",
       },
-      figure: {},
       plant: { simulated: "Simulation", emulated: "Emulated bench", bench: "Bench" },
     },
     figureName: (figure: string) => `Fig. ${figure}`,
