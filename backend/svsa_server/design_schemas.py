@@ -27,7 +27,7 @@ class ReasonState(BaseModel):
 
 
 class SteadyErrorState(BaseModel):
-    """What the 3 kg (2 N·m on link and motors) leave of FL's errors, at rest."""
+    """What the 3 kg (2 N·m on link and motors) leave of the errors, at rest."""
 
     position_error_rad: float
     stiffness_error_nm_per_rad: float
@@ -62,6 +62,15 @@ class Prediction(BaseModel):
     stiffness_nm_per_rad: float = Field(description="The σ at which all this holds")
     position_roots_rad_per_s: list[Root]
     stiffness_roots_rad_per_s: list[Root]
+    law: str = Field(description="Of which law all this is, by its title")
+    steady: SteadyErrorState | None = Field(
+        description="What the law leaves, simulated without counts, noise and friction until"
+        " nothing moves; null where it finds no rest"
+    )
+    adds_estimate: bool = Field(
+        description="Whether the law takes these gains and adds an estimate to them; then `fl` is"
+        " what the gains leave by themselves"
+    )
     fl: SteadyErrorState | None = Field(description="Null where FL finds no rest")
     noise: LoopNoiseState | None
     demand: TorqueDemandState | None

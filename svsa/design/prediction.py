@@ -6,8 +6,14 @@ from typing import Literal
 
 import numpy as np
 
+from svsa.control.installed import get_law, get_title, has_own_parameters
 from svsa.design.loop_noise import LoopNoise, choose_sensing, compute_loop_noise
-from svsa.design.steady_error import SteadyError, compute_fl_steady_error
+from svsa.design.steady_error import (
+    LONGEST_S,
+    SteadyError,
+    compute_fl_steady_error,
+    find_steady_error,
+)
 from svsa.plant.disturbances import PAPER_TORQUE_NM, PaperLoad
 from svsa.plant.effects import Effects
 from svsa.reference.sine import ConstantPosition
@@ -20,7 +26,7 @@ BEFORE_S = 1.5
 AROUND_S = 1.5
 LONGEST_AT_LIMIT_S = 0.1
 MOST_NOISE_SHARE = 0.05
-MOST_FL_ERROR_RAD = math.radians(20.0)
+MOST_STEADY_ERROR_RAD = math.radians(20.0)
 
 Verdict = Literal["ok", "warn", "refuse"]
 Kind = Literal["note", "warn", "refuse"]
@@ -52,8 +58,15 @@ class TorqueDemand:
 
 @dataclass(frozen=True)
 class Prediction:
-    """A design judged. fl: None without a rest point. noise: infinite where unstable."""
+    """A design judged. noise: infinite where unstable.
 
+    steady: of the configuration's law; None where it finds no rest. adds_estimate: whether the law
+    takes the run's gains and adds an estimate to them; then fl is what the gains leave by
+    themselves, None without a rest point.
+    """
+
+    steady: SteadyError | None
+    adds_estimate: bool
     fl: SteadyError | None
     noise: LoopNoise
     demand: TorqueDemand
@@ -67,23 +80,26 @@ class Prediction:
 
 
 def predict(configuration: Configuration, sigma: float) -> Prediction:
-    """Judge the gains and the observer of `configuration` at σ = `sigma`, N·m/rad.
+    """Judge the law of `configuration` with what it is set to at σ = `sigma`, N·m/rad.
 
     The load is the paper's, 2 N·m on link and motors. Noise is that of the encoders that the
     configuration has, or else of the paper's rig.
     """
-    fl = compute_fl_steady_error(configuration, sigma, LOAD)
+    steady = find_steady_error(configuration, sigma, LOAD)
+    law = configuration.law
+    adds_estimate = not has_own_parameters(law) and get_law(law).estimate != "none"
+    fl = compute_fl_steady_error(configuration, sigma, LOAD) if adds_estimate else None
     own = configuration.effects
     sensing = configuration.changed(effects=choose_sensing(own))
     noise = compute_loop_noise(sensing, sigma)
     demand = measure_demand(configuration)
     reasons = (
-        *_judge_fl(configuration, fl),
+        *_judge_steady(configuration, steady, demand),
         *_judge_noise(configuration, noise),
         *_judge_demand(configuration, demand),
     )
     gravest_first = sorted(reasons, key=lambda reason: _KINDS.index(reason.kind))
-    return Prediction(fl, noise, demand, tuple(gravest_first))
+    return Prediction(steady, adds_estimate, fl, noise, demand, tuple(gravest_first))
 
 
 def measure_demand(configuration: Configuration) -> TorqueDemand:
@@ -126,19 +142,23 @@ def _advance(run: Run, seconds: float) -> np.ndarray:
     return samples[0, : run.advance(samples)]
 
 
-def _judge_fl(configuration: Configuration, fl: SteadyError | None) -> list[Reason]:
-    if configuration.law != "fl":
+def _judge_steady(
+    configuration: Configuration, steady: SteadyError | None, demand: TorqueDemand
+) -> list[Reason]:
+    law = get_title(configuration.law)
+    if steady is None and demand.fault:
         return []
-    if fl is None:
+    if steady is None:
         message = (
-            "With FL the load leaves no point of rest inside the domain of the model: the"
-            " error of stiffness or the deflection grows too large. Place the poles further left."
+            f"With {law} no rest was found under the load: the error of stiffness or the deflection"
+            f" leaves the domain of the model, or something still moves after {LONGEST_S:g} s."
+            " Choose faster poles."
         )
         return [Reason("warn", "no_rest", message)]
-    if abs(fl.position) > MOST_FL_ERROR_RAD:
+    if abs(steady.position) > MOST_STEADY_ERROR_RAD:
         message = (
-            f"Under the load FL stays {abs(math.degrees(fl.position)):.0f}° away: the error is"
-            " Γ₁w/c₀, and c₀ is the product of the poles. Place them further left."
+            f"Under the load {law} stays {abs(math.degrees(steady.position)):.0f}° away. Choose"
+            " faster poles."
         )
         return [Reason("warn", "large_error", message)]
     return []

@@ -1,4 +1,4 @@
-"""What a constant torque leaves of FL's errors: the rest point of its error dynamics."""
+"""What a constant torque leaves of the errors: FL's by its error dynamics, any law's by a run."""
 
 import math
 from typing import NamedTuple
@@ -15,10 +15,18 @@ from svsa.model.lever import (
     compute_lever_ratio_slope,
 )
 from svsa.model.linearization import compute_linearization
+from svsa.plant.disturbances import ConstantLoad
+from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Configuration
-from svsa.signals import Disturbance, State
+from svsa.run.run import Run
+from svsa.signals import CHANNEL_INDEX, CHANNELS, Disturbance, State
 
 _CLOSE = 1e-6
+LONGEST_S = 30.0
+_STRETCH_S = 0.5
+_STILL_RAD, _STILL_NM_PER_RAD = 1e-9, 1e-7
+_ERRORS = [CHANNEL_INDEX[n] for n in ("position_error_rad", "stiffness_error_nm_per_rad")]
+_DEFLECTION = CHANNEL_INDEX["deflection_rad"]
 
 
 class SteadyError(NamedTuple):
@@ -27,6 +35,39 @@ class SteadyError(NamedTuple):
     position: float
     stiffness: float
     deflection: float
+
+
+def find_steady_error(
+    configuration: Configuration, sigma: float, w: Disturbance
+) -> SteadyError | None:
+    """The errors of the configuration's law at rest under a constant w, whatever the law is.
+
+    Found by a run at q_d = 0 without counts, noise and friction: the law with what it remembers and
+    its estimate, until nothing moves by more than 1e-9 rad and 1e-7 N·m/rad in 0.5 s. None where
+    the run leaves the domain, or is not at rest after 30 s.
+
+    sigma: σ_d, N·m/rad. w: the torques on link, motor 1 and motor 2, N·m.
+    """
+    smooth = configuration.effects.changed(encoders=None, noise=None, friction=None)
+    run = Run(
+        configuration.changed(
+            position=ConstantPosition(),
+            stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
+            effects=smooth,
+            rivals=(),
+            loads=(ConstantLoad(torque_nm=(w.w2, w.w4, w.w6)),),
+        )
+    )
+    samples = np.empty((1, round(_STRETCH_S / run.period_s), len(CHANNELS)))
+    still = np.array([_STILL_RAD, _STILL_NM_PER_RAD])
+    while run.time_s < LONGEST_S:
+        run.advance(samples)
+        if run.fault is not None:
+            return None
+        errors = samples[0][:, _ERRORS]
+        if np.all(np.ptp(errors, axis=0) < still):
+            return SteadyError(*errors[-1].tolist(), float(samples[0, -1, _DEFLECTION]))
+    return None
 
 
 def compute_fl_steady_error(

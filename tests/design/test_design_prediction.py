@@ -9,7 +9,7 @@ import svsa
 from svsa.design.loop_noise import choose_sensing, compute_loop_noise
 from svsa.design.prediction import LOAD, measure_demand, predict
 from svsa.design.sampled_loop import linearize_tick
-from svsa.design.steady_error import compute_fl_steady_error
+from svsa.design.steady_error import compute_fl_steady_error, find_steady_error
 from svsa.plant.effects import Effects, SensorNoise, StateEstimation
 from svsa.run.configuration import Configuration
 
@@ -35,10 +35,48 @@ def test_fl_comes_to_rest_where_its_error_dynamics_say(sigma, poles):
     assert run.deflection_rad[-1] == pytest.approx(predicted.deflection, rel=1e-6)
 
 
+@pytest.mark.parametrize("law", ["fl", "ndobc", "fl_integral"])
+@pytest.mark.parametrize("sigma", [15.0, 60.0])
+def test_any_law_comes_to_rest_where_a_run_does(law, sigma):
+    """FL where its error dynamics say; a law that integrates or estimates without an error."""
+    c = build(law, sigma)
+    found = find_steady_error(c, sigma, LOAD)
+    loads = [svsa.PaperLoad(start_s=0.5)]
+    run = svsa.simulate(c, position=svsa.ConstantPosition(), loads=loads, duration_s=6.0)
+    assert found is not None
+    assert found.position == pytest.approx(run.position_error_rad[-1], rel=1e-6, abs=1e-8)
+    assert found.stiffness == pytest.approx(run.stiffness_error_nm_per_rad[-1], rel=1e-6, abs=1e-6)
+    assert found.deflection == pytest.approx(run.deflection_rad[-1], rel=1e-6)
+    if law == "fl":
+        by_dynamics = compute_fl_steady_error(c, sigma, LOAD)
+        assert by_dynamics is not None
+        assert tuple(found) == pytest.approx(tuple(by_dynamics), rel=1e-6)
+    else:
+        assert abs(found.position) < 1e-8
+
+
+def test_a_prediction_is_of_the_law_that_controls_and_fls_number_stands_under_no_other_name():
+    """FL's error belongs to the gains of a law that adds an estimate to them, and to no other."""
+    found = {law: predict(build(law, 15.0), 15.0) for law in ("fl", "ndobc", "fl_integral")}
+    assert {law: one.adds_estimate for law, one in found.items()} == {
+        "fl": False,
+        "ndobc": True,
+        "fl_integral": False,
+    }
+    assert found["fl_integral"].fl is None
+    assert found["fl"].fl is None
+    assert found["ndobc"].fl is not None
+    steady = {law: one.steady and abs(one.steady.position) for law, one in found.items()}
+    assert steady["ndobc"] == pytest.approx(0.0, abs=1e-8)
+    assert steady["fl_integral"] == pytest.approx(0.0, abs=1e-8)
+    assert steady["fl"] == pytest.approx(abs(found["ndobc"].fl.position), rel=1e-6)
+
+
 def test_where_there_is_no_rest_the_simulated_run_ends_in_a_fault():
     """Slow poles of stiffness let the load push σ out of its range."""
     c = build("fl", 140.0, gains=svsa.Gains.from_poles([-60.0] * 4, [-30.0] * 2))
     assert compute_fl_steady_error(c, 140.0, LOAD) is None
+    assert find_steady_error(c, 140.0, LOAD) is None
     loads = [svsa.PaperLoad(start_s=0.5)]
     run = svsa.simulate(c, position=svsa.ConstantPosition(), loads=loads, duration_s=5.0)
     assert run.fault is not None

@@ -7,7 +7,9 @@ from typing import Annotated
 from fastapi import APIRouter, Body
 
 from svsa.control.gains import Gains, compute_roots
+from svsa.control.installed import get_title
 from svsa.design import prediction
+from svsa.design.steady_error import SteadyError
 from svsa.errors import ParameterError
 from svsa.reference.trajectories import compute_start_value
 from svsa.run.configuration import Configuration
@@ -42,9 +44,9 @@ async def predict_design(
 ) -> Prediction:
     """What these gains and this observer would do; nothing is changed.
 
-    The roots, FL's steady error under the 3 kg, the encoders' noise in the torques, the peak
-    torque under the load, and a verdict with its reasons. Gains that PUT …/gains would refuse
-    get the verdict refuse.
+    The roots, the law's steady error under the 3 kg (and FL's, where the law adds an estimate to
+    the gains), the encoders' noise in the torques, the peak torque under the load, and a verdict
+    with its reasons. Gains that PUT …/gains would refuse get the verdict refuse.
     """
     configuration, sigma = hosted.session.run.configuration, _read_stiffness(hosted.session)
     if request.observer is not None:
@@ -54,7 +56,7 @@ async def predict_design(
         try:
             gains = Gains(position_coefficients=position, stiffness_coefficients=stiffness)
         except ParameterError as error:
-            return _refuse(_describe(error), position, stiffness, sigma)
+            return _refuse(configuration.law, _describe(error), position, stiffness, sigma)
         configuration = configuration.changed(gains=gains)
     found = await asyncio.to_thread(prediction.predict, configuration, sigma)
     return _build_prediction(configuration, found, sigma)
@@ -78,7 +80,7 @@ def _describe(error: ParameterError) -> str:
 
 
 def _refuse(
-    message: str, position: tuple[float, ...], stiffness: tuple[float, ...], sigma: float
+    law: str, message: str, position: tuple[float, ...], stiffness: tuple[float, ...], sigma: float
 ) -> Prediction:
     return Prediction(
         verdict="refuse",
@@ -86,6 +88,9 @@ def _refuse(
         stiffness_nm_per_rad=sigma,
         position_roots_rad_per_s=_build_roots(compute_roots(position)),
         stiffness_roots_rad_per_s=_build_roots(compute_roots(stiffness)),
+        law=get_title(law),
+        steady=None,
+        adds_estimate=False,
         fl=None,
         noise=None,
         demand=None,
@@ -95,7 +100,7 @@ def _refuse(
 def _build_prediction(
     configuration: Configuration, found: prediction.Prediction, sigma: float
 ) -> Prediction:
-    fl, noise, demand = found.fl, found.noise, found.demand
+    noise, demand = found.noise, found.demand
     is_own = configuration.effects.encoders is not None
     return Prediction(
         verdict=found.verdict,
@@ -106,12 +111,10 @@ def _build_prediction(
         stiffness_nm_per_rad=sigma,
         position_roots_rad_per_s=_build_roots(configuration.gains.position_roots),
         stiffness_roots_rad_per_s=_build_roots(configuration.gains.stiffness_roots),
-        fl=fl
-        and SteadyErrorState(
-            position_error_rad=fl.position,
-            stiffness_error_nm_per_rad=fl.stiffness,
-            deflection_rad=fl.deflection,
-        ),
+        law=get_title(configuration.law),
+        steady=_build_steady(found.steady),
+        adds_estimate=found.adds_estimate,
+        fl=_build_steady(found.fl),
         noise=LoopNoiseState(
             torque1_rms_nm=noise.u1 if math.isfinite(noise.u1) else None,
             torque2_rms_nm=noise.u2 if math.isfinite(noise.u2) else None,
@@ -124,6 +127,14 @@ def _build_prediction(
             limited_s=demand.limited_s,
             fault=demand.fault or None,
         ),
+    )
+
+
+def _build_steady(error: SteadyError | None) -> SteadyErrorState | None:
+    return error and SteadyErrorState(
+        position_error_rad=error.position,
+        stiffness_error_nm_per_rad=error.stiffness,
+        deflection_rad=error.deflection,
     )
 
 

@@ -732,9 +732,9 @@ export interface paths {
          * Predict Design
          * @description What these gains and this observer would do; nothing is changed.
          *
-         *     The roots, FL's steady error under the 3 kg, the encoders' noise in the torques, the peak
-         *     torque under the load, and a verdict with its reasons. Gains that PUT …/gains would refuse
-         *     get the verdict refuse.
+         *     The roots, the law's steady error under the 3 kg (and FL's, where the law adds an estimate to
+         *     the gains), the encoders' noise in the torques, the peak torque under the load, and a verdict
+         *     with its reasons. Gains that PUT …/gains would refuse get the verdict refuse.
          */
         post: operations["predict_design_api_v1_sessions__session__predict_post"];
         delete?: never;
@@ -2795,6 +2795,18 @@ export interface components {
             position_roots_rad_per_s: components["schemas"]["Root"][];
             /** Stiffness Roots Rad Per S */
             stiffness_roots_rad_per_s: components["schemas"]["Root"][];
+            /**
+             * Law
+             * @description Of which law all this is, by its title
+             */
+            law: string;
+            /** @description What the law leaves, simulated without counts, noise and friction until nothing moves; null where it finds no rest */
+            steady: components["schemas"]["SteadyErrorState"] | null;
+            /**
+             * Adds Estimate
+             * @description Whether the law takes these gains and adds an estimate to them; then `fl` is what the gains leave by themselves
+             */
+            adds_estimate: boolean;
             /** @description Null where FL finds no rest */
             fl: components["schemas"]["SteadyErrorState"] | null;
             noise: components["schemas"]["LoopNoiseState"] | null;
@@ -4031,7 +4043,7 @@ export interface components {
         };
         /**
          * SteadyErrorState
-         * @description What the 3 kg (2 N·m on link and motors) leave of FL's errors, at rest.
+         * @description What the 3 kg (2 N·m on link and motors) leave of the errors, at rest.
          */
         SteadyErrorState: {
             /** Position Error Rad */

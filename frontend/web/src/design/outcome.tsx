@@ -27,6 +27,14 @@ function linesOf(found: Prediction | null): Line[] {
     read: ({ noise }) =>
       noise && noise[key] === null ? words.unstableLoop : orDash(noise?.[key], torqueOf),
   });
+  const steady = (label: string, hint: string, key: "steady" | "fl"): Line => ({
+    label,
+    hint,
+    read: (one) =>
+      one[key] === null && one.demand
+        ? words.none
+        : orDash(one[key]?.position_error_rad, degreesOf),
+  });
   const peak = (
     name: string,
     key: "peak_torque1_nm" | "peak_torque2_nm",
@@ -38,12 +46,8 @@ function linesOf(found: Prediction | null): Line[] {
     share: ({ demand }) => (demand && limit ? demand[key] / limit : null),
   });
   return [
-    {
-      label: words.fl,
-      hint: words.flHint,
-      read: ({ fl, demand }) =>
-        fl === null && demand ? words.none : orDash(fl?.position_error_rad, degreesOf),
-    },
+    ...(found === null ? [] : [steady(words.steady(found.law), words.steadyHint, "steady")]),
+    ...(found?.adds_estimate ? [steady(words.fl, words.flHint, "fl")] : []),
     noise("u₁", "torque1_rms_nm"),
     noise("u₂", "torque2_rms_nm"),
     peak("u₁", "peak_torque1_nm", limits?.torque1_nm),

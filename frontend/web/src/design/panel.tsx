@@ -1,5 +1,6 @@
 import { useEffect } from "preact/hooks";
-import { isLive } from "../state/session";
+import { lawOf } from "../state/laws";
+import { isLive, session } from "../state/session";
 import { text } from "../text/en";
 import { Panel } from "../widgets/panel";
 import { Problem } from "../widgets/problem";
@@ -67,7 +68,8 @@ function Roots() {
 
 /** Gains without fear: place the poles, see what they would do, then apply. */
 export function DesignPanel() {
-  return isOpen.value ? <Design /> : null;
+  const law = lawOf(session.value?.configuration.law ?? "");
+  return isOpen.value && law?.takes_gains !== false ? <Design /> : null;
 }
 
 function Design() {

@@ -30,9 +30,12 @@ export const designText = {
     quantity: "Quantity",
     value: "Design",
     present: "In use",
+    steady: (law: string) => `${law} error under 3 kg`,
+    steadyHint:
+      "What it leaves at rest: simulated with 2 N·m on link and motors until nothing moves, without counts, noise and friction",
     fl: "FL error under 3 kg",
     flHint:
-      "What feedback linearization alone leaves, at rest: Γ₁w / c₀, from its error dynamics with 2 N·m on link and motors",
+      "What the gains leave without the estimate, by FL at rest: Γ₁w / c₀, from its error dynamics with 2 N·m on link and motors",
     noise: (torque: string) => `Encoder noise in ${torque}`,
     noiseHint: {
       session: "Counts of this session's encoders through the loop, tick by tick, rms",
