@@ -15,7 +15,8 @@ def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> Non
     found = predict(lab)
     assert found["verdict"] == "ok"
     assert found["stiffness_nm_per_rad"] == pytest.approx(15.0)
-    assert found["fl"]["position_error_rad"] == pytest.approx(-0.2107, abs=1e-3)
+    assert found["steady"]["position_error_rad"] == pytest.approx(-0.2107, abs=1e-3)
+    assert (found["law"], found["adds_estimate"], found["fl"]) == ("FL", False, None)
     assert found["noise"]["encoders"] == "rig"
     assert found["noise"]["largest_pole"] < 1.0
     assert found["demand"]["peak_torque1_nm"] == pytest.approx(10.45, rel=0.1)
