@@ -66,7 +66,8 @@ def find_steady_error(
             return None
         errors = samples[0][:, _ERRORS]
         if np.all(np.ptp(errors, axis=0) < still):
-            return SteadyError(*errors[-1].tolist(), float(samples[0, -1, _DEFLECTION]))
+            position, stiffness = errors[-1].tolist()
+            return SteadyError(position, stiffness, float(samples[0, -1, _DEFLECTION]))
     return None
 
 

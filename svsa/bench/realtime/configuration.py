@@ -41,9 +41,9 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
         delay_samples=1,
         current_lag=CurrentLag(time_constant_s=lag) if lag else None,
     )
-    own = dict(design) | {"parameters": {**design.parameters, **wanted.parameters}}
+    parameters = {**design.parameters, **wanted.parameters}
     return Configuration(
-        **own,
+        **dict(design.changed(parameters=parameters)),
         law=wanted.law,
         rivals=(Lane(law=wanted.law),),
         effects=effects,
