@@ -20,6 +20,7 @@ from svsa.arena.cli import arena
 from svsa.bench.cli import bench_check, bench_home
 from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_title
+from svsa.design.cli import stability
 from svsa.errors import SvsaError
 from svsa.extras import require_extra
 from svsa.identification.cli import identify
@@ -90,6 +91,7 @@ def reproduce(
 app.add_typer(arena, name="arena")
 app.command("rig")(rig)
 app.command("identify")(identify)
+app.command("stability")(stability)
 app.command("bench-check")(bench_check)
 app.command("bench-home")(bench_home)
 

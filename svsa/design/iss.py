@@ -4,7 +4,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import expm
 
 from svsa.control.feedback_linearization import build_gains
 from svsa.control.installed import get_law
@@ -40,6 +39,8 @@ def compute_rate_gain(loop: ClosedLoop) -> RateGain:
     if not loop.is_hurwitz:
         return RateGain(math.inf, math.inf)
     A, b, c = loop.A, loop.B[:, 0], loop.C[0]
+    from scipy.linalg import expm  # late: it takes a while
+
     before = np.linalg.solve(A.T, c)
     ramp = float(before @ np.linalg.solve(A, b))
     if abs(float(before @ b)) > 1e-6 * abs(ramp * loop.slowest):

@@ -1,0 +1,58 @@
+"""`svsa stability`: the figures as text and JSON, and the picture."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from svsa.cli import app
+from svsa.errors import ParameterError
+
+
+def run(*options: str) -> str:
+    result = CliRunner().invoke(app, ["stability", *options], env={"COLUMNS": "120"})
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def test_the_numbers_as_json():
+    told = json.loads(run("--json", "--starts", "3"))
+    at_15, at_60 = told["stability"]
+    assert told["law"] == "ndobc"
+    assert at_15["slowest_rad_per_s"] == pytest.approx(-20.1, abs=0.05)
+    assert at_60["slowest_rad_per_s"] == pytest.approx(-20.3, abs=0.05)
+    assert at_15["error_deg_per_nm_per_s"]["formula"] == pytest.approx(0.168, abs=5e-4)
+    assert at_15["fastest_observer_rad_per_s"]["1_samples_of_delay"] == pytest.approx(249, rel=0.01)
+    assert at_15["fastest_observer_rad_per_s"]["0_samples_of_delay"] is None
+    assert 0.0 < at_15["share_that_comes_to_rest"] < at_60["share_that_comes_to_rest"] <= 1.0
+
+
+def test_the_tables_and_the_picture(tmp_path):
+    picture = tmp_path / "stability.png"
+    text = run("--stiffness", "15", "--starts", "0", "--plot", str(picture))
+    assert "-20.07" in text
+    assert "0.23 – 3.84" in text
+    assert "up to 4.39" in text
+    assert picture.stat().st_size > 10_000
+
+
+def test_a_law_without_an_observer_has_no_fastest_one():
+    text = run("--law", "fl", "--stiffness", "15", "--starts", "0")
+    assert "none: w itself stays" in text
+    fastest = next(line for line in text.splitlines() if "fastest β on the rig" in line)
+    assert "–" in fastest
+
+
+def test_poles_and_observer_are_those_that_were_asked_for():
+    told = json.loads(
+        run("--json", "--starts", "0", "--stiffness", "15", "--observer", "120", "--pole", "45")
+    )["stability"][0]
+    assert told["share_that_comes_to_rest"] is None
+    faster = told["error_deg_per_nm_per_s"]["formula"]
+    assert faster == pytest.approx(told["error_deg_per_nm_per_s"]["simulated"][0], rel=0.01)
+
+
+def test_a_stiffness_outside_its_range_is_refused():
+    result = CliRunner().invoke(app, ["stability", "--stiffness", "500", "--starts", "0"])
+    assert isinstance(result.exception, ParameterError)
+    assert "500" in str(result.exception)
