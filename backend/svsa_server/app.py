@@ -32,6 +32,7 @@ from svsa_server.routes import (
     runs,
     sessions,
     settings,
+    stability,
 )
 from svsa_server.scenes import Scenes
 from svsa_server.turn import take_turn
@@ -75,6 +76,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         bench,
         settings,
         design,
+        stability,
         identification,
         loads,
         recordings,

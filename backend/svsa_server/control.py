@@ -16,7 +16,10 @@ from svsa_server.control_schemas import LONGEST_NAME
 CLIENT_HEADER = "SVSA-Client"
 # What is open to all whoever holds the hand: it stops, it only asks, or it is the hand itself.
 STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop"), ("POST", "/emergency-stop")})
-OPEN_TO_ALL = STOPS | {("POST", "/predict"), ("PUT", "/control"), ("DELETE", "/control")}
+ASKING = ("/predict", *map("/design/".__add__, ("response", "stability", "region", "simulation")))
+OPEN_TO_ALL = (
+    STOPS | {("POST", path) for path in ASKING} | {("PUT", "/control"), ("DELETE", "/control")}
+)
 CHANGING = frozenset({"POST", "PUT", "PATCH", "DELETE"})
 
 asking: ContextVar[str | None] = ContextVar("asking", default=None)

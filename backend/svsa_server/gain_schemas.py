@@ -41,11 +41,14 @@ class GainsRequest(Checked):
                 raise ParameterError(Violation(f"{part}_poles_rad_per_s", list(poles), "", bound))
         return self
 
-    def apply_to(self, gains: Gains) -> Gains:
-        """The gains with these changes; raises `ParameterError` with the roots if unstable."""
+    def apply_to(self, gains: Gains, kind: type[Gains] = Gains) -> Gains:
+        """The gains with these changes; raises `ParameterError` with the roots if unstable.
+
+        kind: `TriedGains` where unstable ones may be looked at.
+        """
         position, stiffness = self.choose_coefficients(gains)
         try:
-            return Gains(position_coefficients=position, stiffness_coefficients=stiffness)
+            return kind(position_coefficients=position, stiffness_coefficients=stiffness)
         except ParameterError as error:
             raise ParameterError(*map(self._call_as_given, error.violations)) from None
 

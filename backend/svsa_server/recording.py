@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from typing import Any, NoReturn
 
 import svsa
+from svsa.control.gains import Gains
 from svsa.records.catalogue.entry import CatalogueError
 from svsa.records.catalogue.runs import Catalogue, build_run_id
 from svsa.records.header import RecordHeader
@@ -95,7 +96,12 @@ class Recordings:
 
 
 def build_header(session: Session, name: str, tags: tuple[str, ...], notes: str) -> RecordHeader:
-    """What the record of this session says of itself; raises `ParameterError`."""
+    """What the record of this session says of itself; raises `ParameterError`.
+
+    Unstable gains, which may be tried in a private session, are refused as everywhere: their
+    record could not be opened again.
+    """
+    Gains(**dict(session.journal.initial.gains))
     return RecordHeader(
         version=svsa.__version__,
         run_id=build_run_id(),

@@ -12,8 +12,8 @@ from svsa.design.iss import RAMPS_NM_PER_S, RampRun, simulate_ramp
 from svsa.design.sampling import find_fastest_observer
 from svsa.design.stability import Stability, assess
 from svsa.observer.disturbance import ObserverBandwidth
-from svsa.paper import get_figure
 from svsa.plant.effects import IDEAL, RIG
+from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Configuration, load_prototype, read_design
 
 DELAYS = {0: IDEAL, 1: RIG, 2: RIG.changed(delay_samples=2)}
@@ -60,9 +60,15 @@ class Report(NamedTuple):
 def build_configuration(
     law: str, pole: float | None, beta: float | None, parameters: Path | None
 ) -> Configuration:
-    """Figure 4A's loop without its load, with what differs; raises `ParameterError`."""
+    """A design at rest, the paper's if no file is given; raises `ParameterError`."""
     design = read_design(parameters) if parameters else load_prototype()
-    c = get_figure("4a").build_configuration(get_law(law).name, load=False, design=design)
+    least = design.limits.stiffness_min_nm_per_rad
+    c = Configuration(
+        **dict(design),
+        law=get_law(law).name,
+        position=ConstantPosition(),
+        stiffness=ConstantStiffness(stiffness_nm_per_rad=least),
+    )
     if pole is not None:
         stiffness = c.gains.stiffness_roots
         c = c.changed(gains=Gains.from_poles([-pole] * 4, stiffness))

@@ -45,6 +45,7 @@ CLIENT = {"SVSA-Client": "fuzz"}
 
 HURWITZ = "gains must be Hurwitz: every root of their polynomial left of the imaginary axis"
 RANGE = "the whole course must stay in the stiffness range of the lab's own parameter file"
+PAIRS = "complex poles must come in conjugate pairs, none faster than 1000 rad/s"
 COURSE = "times must grow, tapers fit into the duration, and speeds stay below a bound"
 MAY_BE_REFUSED = {
     "POST /api/v1/sessions": HURWITZ,
@@ -53,7 +54,11 @@ MAY_BE_REFUSED = {
     "PUT /api/v1/sessions/{session}/gains": HURWITZ,
     "PUT /api/v1/sessions/{session}/parameters": "laws and parameters are those of GET /laws here",
     "PUT /api/v1/sessions/{session}/law": "no more laws than the session has lanes",
-    "POST /api/v1/sessions/{session}/predict": "complex poles must come in conjugate pairs",
+    "POST /api/v1/sessions/{session}/predict": PAIRS,
+    "POST /api/v1/sessions/{session}/design/response": f"{PAIRS}; {RANGE}",
+    "POST /api/v1/sessions/{session}/design/stability": f"{PAIRS}; {RANGE}",
+    "POST /api/v1/sessions/{session}/design/region": f"{PAIRS}; {RANGE}",
+    "POST /api/v1/sessions/{session}/design/simulation": f"{PAIRS}; {RANGE}",
     "PUT /api/v1/sessions/{session}/position": COURSE,
     "PUT /api/v1/sessions/{session}/stiffness": f"{RANGE}; {COURSE}",
     "POST /api/v1/references/position/preview": COURSE,

@@ -18,7 +18,7 @@ from svsa_server.control import (
     read_client,
 )
 from svsa_server.errors import ErrorModel
-from svsa_server.heavy_work import HeavyWork
+from svsa_server.heavy_work import RETRY_AFTER_S, HeavyWork
 from svsa_server.hosted import HostedSession
 
 
@@ -99,4 +99,11 @@ REFUSALS: dict[int | str, dict[str, Any]] = {
         "description": "Not while the session or run is as it is, or somebody else is in control",
     },
     422: {"model": ErrorModel, "description": "Refused values; nothing was changed"},
+}
+
+BUSY: dict[int | str, dict[str, Any]] = {
+    503: {
+        "model": ErrorModel,
+        "description": f"Too much is being made already: again in {RETRY_AFTER_S} s (Retry-After)",
+    }
 }

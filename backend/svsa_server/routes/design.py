@@ -11,10 +11,7 @@ from svsa.control.installed import get_title
 from svsa.design import prediction
 from svsa.design.steady_error import SteadyError
 from svsa.errors import ParameterError
-from svsa.reference.trajectories import compute_start_value
 from svsa.run.configuration import Configuration
-from svsa.session.session import Session
-from svsa.signals import CHANNEL_INDEX
 from svsa_server.design_schemas import (
     LoopNoiseState,
     Prediction,
@@ -25,6 +22,7 @@ from svsa_server.design_schemas import (
 )
 from svsa_server.gain_schemas import Root
 from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.tried_design import read_stiffness
 
 router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
 
@@ -48,7 +46,7 @@ async def predict_design(
     the gains), the encoders' noise in the torques, the peak torque under the load, and a verdict
     with its reasons. Gains that PUT …/gains would refuse get the verdict refuse.
     """
-    configuration, sigma = hosted.session.run.configuration, _read_stiffness(hosted.session)
+    configuration, sigma = hosted.session.run.configuration, read_stiffness(hosted.session)
     if request.observer is not None:
         configuration = configuration.changed(observer=request.observer)
     if request.gains is not None:
@@ -60,15 +58,6 @@ async def predict_design(
         configuration = configuration.changed(gains=gains)
     found = await asyncio.to_thread(prediction.predict, configuration, sigma)
     return _build_prediction(configuration, found, sigma)
-
-
-def _read_stiffness(session: Session) -> float:
-    """σ_d now, N·m/rad; before the first tick, where it begins."""
-    newest = session.journal.history.read_newest()
-    configuration = session.run.configuration
-    if newest is None:
-        return compute_start_value(configuration.stiffness)
-    return float(newest[CHANNEL_INDEX["stiffness_reference_nm_per_rad"]])
 
 
 def _describe(error: ParameterError) -> str:

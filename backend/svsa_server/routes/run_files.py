@@ -11,19 +11,12 @@ from fastapi.responses import StreamingResponse
 
 from svsa.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.records.resimulation import Comparison, check_simulated
-from svsa_server.errors import ErrorModel
-from svsa_server.heavy_work import RETRY_AFTER_S, compare, write_export, write_replay
-from svsa_server.routes.depends import RunId, Runs, Work
+from svsa_server.heavy_work import compare, write_export, write_replay
+from svsa_server.routes.depends import BUSY, RunId, Runs, Work
 from svsa_server.run_schemas import ExportName
 
 CHUNK_BYTES = 1 << 18
 REPLAY_AGE_S = 600
-_BUSY: dict[int | str, dict[str, Any]] = {
-    503: {
-        "model": ErrorModel,
-        "description": f"Too much is being made already: again in {RETRY_AFTER_S} s (Retry-After)",
-    }
-}
 _FILES = {
     kind.media_type.partition(";")[0]: {"schema": {"type": "string", "format": "binary"}}
     for kind in EXPORT_KINDS.values()
@@ -31,7 +24,7 @@ _FILES = {
 _PAGE: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/html": {"schema": {"type": "string"}}}, "description": "The page"}
 }
-router = APIRouter(responses=_BUSY)
+router = APIRouter(responses=BUSY)
 
 
 @router.get(

@@ -743,6 +743,93 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/design/response": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Respond
+         * @description What this design does when the 3 kg come, and to a sine on the link; nothing is changed.
+         */
+        post: operations["respond_api_v1_sessions__session__design_response_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/design/stability": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Show Stability
+         * @description Theorem 1 for this design about rest; nothing is changed.
+         *
+         *     The closed loop's poles with the true plant, for how wrong a model it stays stable, what a
+         *     disturbance that changes costs, and how fast the observer may be.
+         */
+        post: operations["show_stability_api_v1_sessions__session__design_stability_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/design/region": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Map Attraction
+         * @description From which positions and velocities this design comes to rest, a part of the map at once.
+         *
+         *     The starts come from coarse to fine, so that the first parts tell the shape.
+         */
+        post: operations["map_attraction_api_v1_sessions__session__design_region_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/design/simulation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Simulate Design
+         * @description A private simulated session with this design, stable or not; the 3 kg come after 1 s.
+         *
+         *     It is a simulation also where a bench is asked about, and the session asked stays as it is.
+         */
+        post: operations["simulate_design_api_v1_sessions__session__design_simulation_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/excitation": {
         parameters: {
             query?: never;
@@ -1716,6 +1803,26 @@ export interface components {
             time_constant_s: number;
         };
         /**
+         * DesignRequest
+         * @description A design to try, stable or not; what is left out is as it is set now.
+         */
+        DesignRequest: {
+            /** @description New gains, as for PUT …/gains */
+            gains?: components["schemas"]["GainsRequest"] | null;
+            /** @description New observer, as for PUT …/observer */
+            observer?: components["schemas"]["ObserverBandwidth"] | null;
+            /**
+             * Law
+             * @description Another law: see GET /laws
+             */
+            law?: string | null;
+            /**
+             * Stiffness Nm Per Rad
+             * @description σ_d at which to look; left out, that of now, N·m/rad
+             */
+            stiffness_nm_per_rad?: number | null;
+        };
+        /**
          * Effects
          * @description Everything that a bench has and an ideal simulation has not.
          */
@@ -1865,6 +1972,26 @@ export interface components {
             effects: components["schemas"]["Effects"];
         };
         /**
+         * FateState
+         * @description What becomes of a start.
+         */
+        FateState: {
+            /** Row */
+            row: number;
+            /** Column */
+            column: number;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "rest" | "fault" | "astray";
+            /**
+             * After S
+             * @description Close for good since then, or the fault's time
+             */
+            after_s: number;
+        };
+        /**
          * Fault
          * @description A run that left the domain of the model: when, why, and the values in it.
          *
@@ -1901,6 +2028,16 @@ export interface components {
             stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
             /** Claim */
             claim: string;
+        };
+        /**
+         * FrequencyResponseState
+         * @description Position error for a torque on the link, of the sampled loop about rest.
+         */
+        FrequencyResponseState: {
+            /** Frequency Hz */
+            frequency_hz: number[];
+            /** Magnitude Rad Per Nm */
+            magnitude_rad_per_nm: number[];
         };
         /**
          * Friction
@@ -2317,6 +2454,23 @@ export interface components {
              * @default 0.5
              */
             moment_nm: number;
+        };
+        /**
+         * LoadResponseState
+         * @description The 3 kg come at rest at t = 0, simulated as the session is set.
+         */
+        LoadResponseState: {
+            /** Time S */
+            time_s: number[];
+            /** Position Error Rad */
+            position_error_rad: number[];
+            /** Peak Error Rad */
+            peak_error_rad: number;
+            /**
+             * Fault
+             * @description Why the run ended before its time
+             */
+            fault: string | null;
         };
         /**
          * LoadState
@@ -2958,6 +3112,76 @@ export interface components {
             peak_rate: number;
         };
         /**
+         * RegionRequest
+         * @description A part of the map of starts, from coarse to fine: ask on until `next` is null.
+         */
+        RegionRequest: {
+            /** @description New gains, as for PUT …/gains */
+            gains?: components["schemas"]["GainsRequest"] | null;
+            /** @description New observer, as for PUT …/observer */
+            observer?: components["schemas"]["ObserverBandwidth"] | null;
+            /**
+             * Law
+             * @description Another law: see GET /laws
+             */
+            law?: string | null;
+            /**
+             * Stiffness Nm Per Rad
+             * @description σ_d at which to look; left out, that of now, N·m/rad
+             */
+            stiffness_nm_per_rad?: number | null;
+            /**
+             * Starts
+             * @description Starts along each side
+             * @default 31
+             */
+            starts: number;
+            /**
+             * First
+             * @description First start of this part
+             * @default 0
+             */
+            first: number;
+            /**
+             * Count
+             * @description Starts of this part
+             * @default 100
+             */
+            count: number;
+        };
+        /**
+         * RegionState
+         * @description A part of the map: the actuator starts as one body at q0, q̇0, and is to come to rest.
+         */
+        RegionState: {
+            /** Law */
+            law: string;
+            /** Stiffness Nm Per Rad */
+            stiffness_nm_per_rad: number;
+            /**
+             * Encoders
+             * @enum {string}
+             */
+            encoders: "session" | "rig";
+            /**
+             * Positions Rad
+             * @description q0 of the columns
+             */
+            positions_rad: number[];
+            /**
+             * Velocities Rad Per S
+             * @description q̇0 of the rows
+             */
+            velocities_rad_per_s: number[];
+            /** Fates */
+            fates: components["schemas"]["FateState"][];
+            /**
+             * Next
+             * @description Where the next part begins
+             */
+            next: number | null;
+        };
+        /**
          * RemoveLoad
          * @description The load of this number off.
          */
@@ -2974,6 +3198,19 @@ export interface components {
             kind: "unload";
             /** Argument */
             argument: number;
+        };
+        /**
+         * ResponseState
+         * @description What a design does, quickly told.
+         */
+        ResponseState: {
+            /** Law */
+            law: string;
+            /** Stiffness Nm Per Rad */
+            stiffness_nm_per_rad: number;
+            load: components["schemas"]["LoadResponseState"];
+            /** @description Null where it is unstable */
+            disturbance: components["schemas"]["FrequencyResponseState"] | null;
         };
         /**
          * Root
@@ -4014,6 +4251,100 @@ export interface components {
              * @description Session seconds a wall second, 0.05 to 20, or max for as fast as it goes, 1
              */
             factor: number | "max";
+        };
+        /**
+         * StabilityState
+         * @description Theorem 1 for a design about rest.
+         */
+        StabilityState: {
+            /** Law */
+            law: string;
+            /** Stiffness Nm Per Rad */
+            stiffness_nm_per_rad: number;
+            /**
+             * Poles Rad Per S
+             * @description Of the closed loop in continuous time, true plant and observer included
+             */
+            poles_rad_per_s: components["schemas"]["Root"][];
+            /**
+             * Slowest Rad Per S
+             * @description Largest real part; stable below 0
+             */
+            slowest_rad_per_s: number;
+            /** Least Damping */
+            least_damping: number;
+            /**
+             * Largest Pole
+             * @description Largest |z| of the sampled loop; stable below 1
+             */
+            largest_pole: number;
+            /**
+             * Ranges
+             * @description Empty where it is unstable as it is
+             */
+            ranges: components["schemas"]["StableRangeState"][];
+            /** Least Ratio */
+            least_ratio: number;
+            /** Greatest Ratio */
+            greatest_ratio: number;
+            /**
+             * Ramp Gain Rad S Per Nm
+             * @description |e| per ẇ2 that a ramp leaves; null where a constant torque does already
+             */
+            ramp_gain_rad_s_per_nm: number | null;
+            /**
+             * Worst Gain Rad S Per Nm
+             * @description The most that any w2 of a bounded rate can do, per rate
+             */
+            worst_gain_rad_s_per_nm: number | null;
+            /**
+             * Formula Rad S Per Nm
+             * @description The ramp's gain in closed form, NDOBC
+             */
+            formula_rad_s_per_nm: number | null;
+            /**
+             * Floor Rad S Per Nm
+             * @description What the formula tends to as β → ∞
+             */
+            floor_rad_s_per_nm: number | null;
+            /**
+             * Is Observed
+             * @description Whether the law acts on the observer
+             */
+            is_observed: boolean;
+            /**
+             * Fastest Observer Rad Per S
+             * @description Largest β of a stable sampled loop; null above 1000 or without an observer
+             */
+            fastest_observer_rad_per_s: number | null;
+            /**
+             * Encoders
+             * @description Whose sensing bounds the observer: the session's, or else the paper's rig's
+             * @enum {string}
+             */
+            encoders: "session" | "rig";
+        };
+        /**
+         * StableRangeState
+         * @description True over nominal value of a parameter for which the loop is Hurwitz, the others nominal.
+         */
+        StableRangeState: {
+            /** Parameter */
+            parameter: string;
+            /** Symbol */
+            symbol: string;
+            /**
+             * Low
+             * @description Null where it is stable down to least_ratio
+             */
+            low: number | null;
+            /**
+             * High
+             * @description Null where it is stable up to greatest_ratio
+             */
+            high: number | null;
+            /** Present */
+            present: number;
         };
         /**
          * StateEstimation
@@ -6930,6 +7261,378 @@ export interface operations {
             };
             /** @description Refused values; nothing was changed */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    respond_api_v1_sessions__session__design_response_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DesignRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ResponseState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    show_stability_api_v1_sessions__session__design_stability_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DesignRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StabilityState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    map_attraction_api_v1_sessions__session__design_region_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RegionRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RegionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    simulate_design_api_v1_sessions__session__design_simulation_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DesignRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,0 +1,108 @@
+"""Theorem 1 asked over REST for a design that is tried; the session asked stays as it is."""
+
+import math
+
+import pytest
+
+from tests.lab import Lab
+
+UNSTABLE = {"position_poles_rad_per_s": [-60, -60, [5, 30], [5, -30]]}
+
+
+def ask(lab: Lab, what: str, **request: object) -> dict:
+    answer = lab.client.post(f"{lab.session}/design/{what}", json=request)
+    return answer.raise_for_status().json()
+
+
+def test_a_design_is_shown_with_its_range_without_changing_anything(lab: Lab) -> None:
+    lab.load_figure(law="ndobc")
+    before = lab.read()["configuration"]
+    found = ask(lab, "stability")
+    assert found["slowest_rad_per_s"] == pytest.approx(-20.07, abs=0.05)
+    assert found["least_damping"] == pytest.approx(0.41, abs=0.005)
+    assert math.degrees(found["ramp_gain_rad_s_per_nm"]) == pytest.approx(0.168, abs=5e-4)
+    assert found["fastest_observer_rad_per_s"] == pytest.approx(249.0, rel=0.01)
+    inertia = next(one for one in found["ranges"] if one["symbol"] == "M")
+    assert inertia["low"] == pytest.approx(0.24, rel=0.05)
+    assert found["largest_pole"] < 1.0
+    other = ask(lab, "stability", law="fl", stiffness_nm_per_rad=60.0)
+    assert (other["law"], other["stiffness_nm_per_rad"]) == ("fl", 60.0)
+    assert other["ramp_gain_rad_s_per_nm"] is None
+    assert other["fastest_observer_rad_per_s"] is None
+    assert lab.read()["configuration"] == before
+
+
+def test_the_response_is_that_of_the_poles_that_are_tried(lab: Lab) -> None:
+    lab.load_figure(law="ndobc")
+    present = ask(lab, "response")
+    assert math.degrees(present["load"]["peak_error_rad"]) == pytest.approx(4.14, abs=0.05)
+    assert present["load"]["fault"] is None
+    slower = ask(lab, "response", gains={"position_poles_rad_per_s": [-30] * 4})
+    assert slower["load"]["peak_error_rad"] > present["load"]["peak_error_rad"]
+    magnitude = slower["disturbance"]["magnitude_rad_per_nm"]
+    assert max(magnitude) > max(present["disturbance"]["magnitude_rad_per_nm"])
+    assert len(magnitude) == len(slower["disturbance"]["frequency_hz"])
+
+
+def test_poles_right_of_the_axis_are_shown_to_fail(lab: Lab) -> None:
+    lab.load_figure(law="ndobc")
+    found = ask(lab, "response", gains=UNSTABLE)
+    assert found["load"]["fault"]
+    assert found["disturbance"] is None
+    shown = ask(lab, "stability", gains=UNSTABLE)
+    assert shown["slowest_rad_per_s"] > 0.0
+    assert shown["ranges"] == []
+    assert shown["largest_pole"] > 1.0
+
+
+def test_the_map_comes_in_parts_from_coarse_to_fine(lab: Lab) -> None:
+    lab.load_figure(law="ndobc")
+    first = ask(lab, "region", starts=5, count=9)
+    assert len(first["positions_rad"]) == 5
+    assert {(one["row"], one["column"]) for one in first["fates"]} == {
+        (row, column) for row in (0, 2, 4) for column in (0, 2, 4)
+    }
+    middle = next(one for one in first["fates"] if (one["row"], one["column"]) == (2, 2))
+    assert middle["outcome"] == "rest"
+    rest = ask(lab, "region", starts=5, first=first["next"], count=100)
+    assert rest["next"] is None
+    assert len(first["fates"]) + len(rest["fates"]) == 25
+    stiff = ask(lab, "region", starts=5, count=25, stiffness_nm_per_rad=60.0)
+    assert sum(one["outcome"] == "rest" for one in stiff["fates"]) > 20
+
+
+def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None:
+    lab.load_figure(law="ndobc")
+    before = lab.read()["configuration"]
+    private = ask(lab, "simulation", gains=UNSTABLE)
+    assert private["session"] != lab.read()["session"]
+    roots = private["configuration"]["gains"]["position_roots_rad_per_s"]
+    assert max(root["re"] for root in roots) == pytest.approx(5.0)
+    path = f"/api/v1/sessions/{private['session']}"
+    lab.client.post(f"{path}/pause").raise_for_status()
+    lab.client.post(f"{path}/step", json={"ticks": 5000}).raise_for_status()
+    failed = lab.client.get(path).json()
+    assert failed["status"] == "fault"
+    assert failed["fault"]["message"]
+    refused = lab.client.post(f"{path}/recording", json={"name": "it fails"})
+    assert refused.status_code == 422
+    assert "lies right of" in refused.json()["message"]
+    lab.client.post(f"{path}/reset").raise_for_status()
+    lab.client.delete(path).raise_for_status()
+    assert lab.read()["configuration"] == before
+    assert lab.client.put(f"{lab.session}/gains", json=UNSTABLE).status_code == 422
+
+
+@pytest.mark.parametrize(
+    ("request_", "said"),
+    [
+        ({"stiffness_nm_per_rad": 500.0}, "500"),
+        ({"gains": {"position_poles_rad_per_s": [-60, -60, -60, [5, 30]]}}, "conjugate"),
+        ({"gains": {"position_coefficients": [1.6e29, 3.2e22, 2.4e15, 8e7]}}, "faster than 1000"),
+        ({"law": "none_such"}, "none_such"),
+    ],
+)
+def test_what_is_no_design_is_refused(lab: Lab, request_: dict, said: str) -> None:
+    answer = lab.client.post(f"{lab.session}/design/response", json=request_)
+    assert answer.status_code == 422
+    assert said in answer.json()["message"]
