@@ -8,10 +8,11 @@ from svsa.control.installed import get_law
 from svsa.lanes.record import lay_out_record
 from svsa.loop.batch import SUMMARY, Batch, build_batch, run_batch
 from svsa.loop.lane import Inputs, build_lane_state
-from svsa.plant.disturbances import build_load_table, follow_loads
+from svsa.plant.disturbances import build_load_table
 from svsa.reference.transition import build_stack
 from svsa.run.blocks import build_blocks, build_constants, compute_start_ratio
 from svsa.run.configuration import Configuration
+from svsa.run.loads import follow_loads
 
 
 def run_configurations(
@@ -53,7 +54,7 @@ def build_run_batch(configurations: Sequence[Configuration], steps: int = 1) -> 
     constants = [
         build_constants(one, one.lanes[0], b) for one, b in zip(configurations, blocks, strict=True)
     ]
-    loads = build_load_table(tuple(follow_loads(c.loads, (), c.sampling.period_s)))
+    loads = build_load_table(follow_loads(c.loads, (), c.sampling.period_s))
     return build_batch(
         law.control,
         blocks,
