@@ -21,6 +21,7 @@ FAULT_LABELS = {
     "encoder_frozen": "Encoder frozen",
     "vibration": "Vibration",
     "supervisor_lost": "Supervisor lost",
+    "bench_not_opened": "Bench not opened",
     "loop_late": "Control loop late",
     "loop_silent": "Control loop silent",
     "loop_lost": "Control loop lost",

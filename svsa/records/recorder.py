@@ -72,6 +72,11 @@ class Recorder:
         message = "The file is being finished." if self._close_asked.is_set() else ""
         return RecordStatus("recording", message, self._ticks, self._bytes)
 
+    @property
+    def fault(self) -> Fault | None:
+        """The fault that the recorded run has ended in so far."""
+        return self._fault
+
     def write_command(self, tick: int, command: dict[str, Any]) -> None:
         """A command given at the beginning of `tick`, before the samples it acts on."""
         try:

@@ -268,8 +268,8 @@ class BenchSession:
         held = self.fault
         if self._latch.take_loss(Fault(loss.code, 0, run.tick, run.time_s, loss.message)):
             self._log_fault()
-        if self.fault is not held:
-            self.journal.version += 1
+        elif self.fault is not None and self.fault is not held:
+            self.journal.refine_fault(self.fault)
 
     def _log_fault(self) -> None:
         if self.fault is not None:

@@ -136,6 +136,13 @@ class Journal:
             self.recorder.write_fault(fault)
         self.log("fault", label_fault(fault.code))
 
+    def refine_fault(self, fault: Fault) -> None:
+        """More has come to be known of the fault that was told; a record that has it says so."""
+        written = self.recorder.fault if self.recorder is not None else None
+        if self.recorder is not None and written is not None and written.code == fault.code:
+            self.recorder.write_fault(fault)
+        self.version += 1
+
     def advance(self, ticks: int) -> None:
         """Run `ticks` ticks, in stretches that end where a load comes or goes."""
         end = self.run.tick + ticks

@@ -1,5 +1,6 @@
 """A recorded run knows the fault that it ended in: in its folder, in the list, in the library."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -43,6 +44,28 @@ def test_it_is_the_fault_of_the_run_wherever_one_looks(
     assert fault.message in repr(svsa.open_run("run-1"))
     assert catalogue.get("run-1").fault == fault
     assert list_ids(catalogue, search=label_fault(fault.code)) == ["run-1"]
+
+
+@pytest.mark.parametrize("ends_run", [True, False])
+def test_a_record_has_the_last_that_is_known_of_its_fault(
+    catalogue: Catalogue, ends_run: bool
+) -> None:
+    """Who stopped the drives is known later than the loss; what ended no run stays out."""
+    configuration = get_figure("4a").build_configuration(load=False)
+    session = SimulatedSession("test", configuration)
+    written = configuration.model_dump(mode="json")
+    header = build_header("run-1", lanes=("lane1",), configuration=written)
+    recorder = catalogue.record(header)
+    session.start_recording(recorder)
+    session.step(10)
+    lost = Fault("loop_lost", 0, 10, 0.01, "Nobody has stopped the drives yet.")
+    session.journal.log_fault(lost, ends_run)
+    session.journal.refine_fault(replace(lost, message="The supervisor has stopped them."))
+    session.journal.refine_fault(replace(lost, code="loop_silent", message="Another."))
+    session.stop_recording()
+    catalogue.finish("run-1", recorder.close())
+    fault = open_record(catalogue.find_folder("run-1")).fault
+    assert (fault.message if fault else "") == (ends_run * "The supervisor has stopped them.")
 
 
 def test_the_list_has_it_again_when_it_is_built_anew(catalogue: Catalogue) -> None:

@@ -2,11 +2,14 @@
 
 import asyncio
 from collections.abc import Iterator
+from types import SimpleNamespace
 
 import pytest
 
+from svsa.bench.realtime.loss import Loss
+from svsa.bench.safety.machine import BenchStatus
 from svsa.control.gains import Gains
-from svsa.errors import StateError
+from svsa.errors import Fault, StateError
 from svsa.session.bench import BenchSession
 from svsa_server.gain_schemas import GainsRequest
 from svsa_server.hosted import HostedSession
@@ -63,3 +66,22 @@ def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
     with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
         session.change("lane", setting)
     assert len(session.loop.processes.told) == told  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
+    session: BenchSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """That nobody has stopped the drives yet is not the last word on it."""
+    written: list[Fault] = []
+    recorder = SimpleNamespace(write_fault=written.append, fault=None)
+    words = ["Nobody has stopped the drives yet.", "The supervisor has.", "The supervisor has."]
+    losses = [Loss("loop_lost", message, None, None) for message in words]
+    monkeypatch.setattr(session.loop, "find_settled_loss", lambda: losses.pop(0))
+    monkeypatch.setattr(session, "_told_status", BenchStatus.RUN)
+    monkeypatch.setattr(session.journal, "recorder", recorder)
+    session.wake(0.0)
+    recorder.fault = written[-1]
+    session.wake(0.0)
+    session.wake(0.0)
+    assert [fault.message for fault in written] == words[:2]
+    monkeypatch.undo()

@@ -103,6 +103,8 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
     state = build_state(HostedSession(session))
     assert state.fault is not None and state.bench is not None
     assert "No adapter is plugged in. Start the loop anew." in state.fault.message
+    assert state.fault.code == "bench_not_opened", "nothing was lost that never was there"
+    assert [event.label for event in state.events] == ["Bench not opened"]
     assert state.bench.loop.state == "gone"
     with pytest.raises(StateError, match="No adapter"):
         session.restart()

@@ -24,6 +24,11 @@ SIGN_STEPS = (
     *("motor1: direction", "motor2: direction"),
 )
 
+_LOCKSTEP_ADVICE = (
+    "A rig in lockstep lets time go on only when its loop asks for it, and the check waits for the"
+    " clock: start the rig without --lockstep, and set lockstep = false in the bench file."
+)
+
 
 def check_bench(
     path: Path | str,
@@ -45,6 +50,9 @@ def check_bench(
         yield CheckStep("file", Result.FAIL, str(error), "Correct the bench file.")
         return
     yield _describe_file(bench)
+    if bench.emulator is not None and bench.emulator.lockstep:
+        yield CheckStep("bus", Result.FAIL, "not tried: the rig is in lockstep", _LOCKSTEP_ADVICE)
+        return
     steps: list[CheckStep] = []
     try:
         for step in _check_on_bus(probe, move):

@@ -6,7 +6,7 @@ from typing import Literal, NamedTuple
 from svsa.bench.realtime.launch import BenchProcesses
 
 Stopper = Literal["supervisor", "server"]
-LOSSES = ("loop_silent", "loop_lost", "loop_and_supervisor_lost")
+LOSSES = ("bench_not_opened", "loop_silent", "loop_lost", "loop_and_supervisor_lost")
 SUPERVISED_S = 0.5
 STOPPING_S = 0.1
 
@@ -18,7 +18,7 @@ _WHAT = {
 
 
 class Loss(NamedTuple):
-    """code: of `FAULTS`. message: what happened and what was done, in words.
+    """code: of `LOSSES`. message: what happened and what was done, in words.
 
     stopped_by: who keeps the drives at zero current; None where nobody does yet. problem: why
     the server cannot.
@@ -38,7 +38,7 @@ def is_supervised(processes: BenchProcesses) -> bool:
 def find_loss(processes: BenchProcesses) -> Loss | None:
     """What is lost, as far as the server knows; None while the loop ticks."""
     if processes.failure is not None:
-        return Loss("loop_lost", f"{processes.failure} Start the loop anew.", None, None)
+        return Loss("bench_not_opened", f"{processes.failure} Start the loop anew.", None, None)
     if processes.listens:
         return None
     intervention = processes.third_line.intervention

@@ -294,6 +294,20 @@ def test_a_reset_that_is_lost_is_repeated(path, bus):
     assert len(lost) == 1
 
 
+def test_a_rig_in_lockstep_is_not_waited_for(path, bus):
+    """Its time stands still while the check listens: nothing is opened, and the answer says why."""
+    text = path.read_text(encoding="utf-8")
+    emulator = "\n[emulator]\ncontrol_port = 9\nlockstep = true\n"
+    path.write_text(text.partition("\n[emulator]")[0] + emulator, encoding="utf-8")
+    opened = []
+    steps = list(check_bench(path, opener=opened.append, now=bus.now))
+    assert [step.name for step in steps] == ["file", "bus"]
+    assert steps[1].result is Result.FAIL
+    assert "lockstep" in steps[1].measured
+    assert "lockstep = false" in steps[1].advice
+    assert not opened
+
+
 def test_a_bus_that_cannot_be_opened_says_what_to_look_at(path, bus):
     def refuse(settings):
         raise BusError("The CAN bus cannot be opened: no such device.")

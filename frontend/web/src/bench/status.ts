@@ -20,6 +20,10 @@ export const isHomed = (bench: BenchState): boolean => bench.homing.next_step ==
 /** Whether its loop does not tick: nothing can be asked of it but to be started anew. */
 export const isLoopLost = ({ loop }: BenchState): boolean => loop.state !== "ticking";
 
+/** Whether its loop has never ticked: there is nothing that could have been lost. */
+export const isNeverOpened = ({ fault }: SessionState): boolean =>
+  fault?.code === "bench_not_opened";
+
 export const isStarting = ({ loop }: BenchState): boolean => loop.state === "starting";
 
 export interface Allowed {

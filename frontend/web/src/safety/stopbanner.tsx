@@ -1,7 +1,13 @@
 import type { ComponentChildren } from "preact";
 import { clearBench, restartBench } from "../api/client";
 import type { BenchState, SessionState } from "../api/types";
-import { allowedOn, isLoopLost, isQuickStop, isStoppedSimulation } from "../bench/status";
+import {
+  allowedOn,
+  isLoopLost,
+  isNeverOpened,
+  isQuickStop,
+  isStoppedSimulation,
+} from "../bench/status";
 import { perform } from "../state/actions";
 import { isLive, session } from "../state/session";
 import { text } from "../text/en";
@@ -34,7 +40,10 @@ function StopNotice({ title, words, isSimulation = false, children }: StopNotice
 /** Stays until somebody clears the fault: why it stopped, and how to go on. */
 function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState }) {
   const isLost = isLoopLost(bench);
-  const title = isQuickStop(state) ? text.stop.benchTitle : text.stop.faultTitle;
+  const isClosed = isLost && isNeverOpened(state);
+  const stopTitle = isQuickStop(state) ? text.stop.benchTitle : text.stop.faultTitle;
+  const lostTitle = isClosed ? text.stop.closedTitle : text.stop.lostTitle;
+  const lostSteps = isClosed ? text.stop.closedSteps : text.stop.lostSteps;
   return (
     <div class="banner is-stop">
       <span class="banner-sign" aria-hidden="true">
@@ -42,11 +51,11 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
       </span>
       <div class="stop-words">
         <p role="alert">
-          <strong>{isLost ? text.stop.lostTitle : title}</strong> {state.fault?.message}{" "}
+          <strong>{isLost ? lostTitle : stopTitle}</strong> {state.fault?.message}{" "}
           {!isLost && text.stop.latched}
         </p>
         <ol aria-label={text.stop.goOn}>
-          {(isLost ? text.stop.lostSteps : text.stop.steps).map((step) => (
+          {(isLost ? lostSteps : text.stop.steps).map((step) => (
             <li key={step}>{step}</li>
           ))}
         </ol>

@@ -23,6 +23,11 @@ export const benchText = {
     simulationText: "The simulation stands still and nothing is lost. To go on, press Run.",
     benchTitle: "Quick stop.",
     faultTitle: "The bench has stopped on a fault.",
+    closedTitle: "The bench is not open.",
+    closedSteps: [
+      "See what stood in the way, and mend it.",
+      "Start the loop anew, arm, confirm the marks, and run.",
+    ],
     lostTitle: "The bench has lost its control loop.",
     lostSteps: [
       "If anything still moves, pull the motors' supply.",
