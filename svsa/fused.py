@@ -52,13 +52,13 @@ def multiply_add(a: Any, b: Any, c: Any) -> Any:
 
 
 @overload(multiply_add, jit_options={"forceinline": True, "error_model": "numpy"})
-def choose_multiply_add(a, b, c):
+def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
     """`fma` for numbers of which one is a float64 or lanes."""
 
-    def fused(a, b, c):  # noqa: ANN202
+    def fused(a: Any, b: Any, c: Any) -> Any:
         return fma(a, b, c)
 
-    def plain(a, b, c):  # noqa: ANN202
+    def plain(a: Any, b: Any, c: Any) -> Any:
         return a * b + c
 
     numbers = (a, b, c)

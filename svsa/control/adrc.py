@@ -7,12 +7,14 @@ fifth order for the whole chain needs four derivatives of a measured position: o
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.linear_dob import compute_stiffness_slope
 from svsa.control.parameters import LawParameters
-from svsa.model.dynamics import compute_deflection
+from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import (
     compute_lever_ratio,
     compute_lever_ratio_for_stiffness,
@@ -20,7 +22,7 @@ from svsa.model.lever import (
 )
 from svsa.model.spring import compute_stiffness
 from svsa.observer.extended import Extended, TriplePole, build_triple_pole, observe_extended
-from svsa.signals import Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class Cascade(LawParameters):
@@ -79,7 +81,16 @@ def build(parameters: Cascade, setting: Setting) -> Constants:
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """θ1* = q + (M/σ_d)(q̈_d + 2a ė + a² e − z3), u1 = B1 (θ̈1* + 2m ė1 + m² e1 − z3'), N·m.
 
     u2 = (B2/g)(σ̈_d + 2p ė_σ + p² e_σ − z3"). All errors are of what the observers hold.

@@ -6,17 +6,19 @@ out by hand, gives the rate of it. Without ŵ a load leaves an error, as with FL
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
-from svsa.model.dynamics import compute_deflection, compute_internal_torque
+from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
 from svsa.model.exponential import exp, expm1
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import compute_spring_derivatives
 from svsa.observer.own import Observed, observe_disturbance
-from svsa.signals import Disturbance, Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class Steps(LawParameters):
@@ -97,7 +99,9 @@ def build(parameters: Steps, setting: Setting) -> Constants:
 
 
 @compiled
-def follow_command(constants, memory, is_started, wanted, period):
+def follow_command(
+    constants: Constants, memory: np.record, is_started: bool, wanted: float, period: float
+) -> None:
     """A critically damped filter, exact for a command that is held over the period.
 
     memory: `Filter`, written; it starts at the command. wanted: the command.
@@ -110,7 +114,16 @@ def follow_command(constants, memory, is_started, wanted, period):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """τ* = −D q̇ + ŵ2 − M(α̇1 − e1 − k2 e2), then θ̇*, then u = B(θ̈* − k z) − F − ŵ, N·m.
 
     e1 = q − q_d, α1 = q̇_d − k1 e1, e2 = q̇ − α1; θ̇* solves τ̇_e = τ̇* − k3 (τ_e − τ*) and

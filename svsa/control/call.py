@@ -67,13 +67,22 @@ def _compile(control: Any, *records: np.dtype) -> int:
     return compilation.library.get_pointer_to_function(name)
 
 
-def _build_call(  # noqa: ANN202  what numba's `intrinsic` takes
-    typing, function, nominal, constants, memory, x, reference, estimate, applied, period
-):
+def _build_call(
+    typing: Any,
+    function: Any,
+    nominal: Any,
+    constants: Any,
+    memory: Any,
+    x: Any,
+    reference: Any,
+    estimate: Any,
+    applied: Any,
+    period: Any,
+) -> Any:
     """Call the function at an address as C would."""
     signature = _TORQUE(*[types.int64] * 4, *_SIGNALS)
 
-    def generate(context, builder, signature, arguments):  # noqa: ANN202
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         address, *records = arguments[:4]
         record = ir.IntType(8).as_pointer()
         values = [context.get_value_type(kind) for kind in _SIGNALS]
@@ -85,10 +94,10 @@ def _build_call(  # noqa: ANN202  what numba's `intrinsic` takes
     return signature, generate
 
 
-def _build_read(typing, address, index):  # noqa: ANN202
+def _build_read(typing: Any, address: Any, index: Any) -> Any:
     """The float64 with this index behind an address."""
 
-    def generate(context, builder, signature, arguments):  # noqa: ANN202
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         begin = builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
         return builder.load(cgutils.gep_inbounds(builder, begin, arguments[1]))
 
@@ -100,7 +109,7 @@ _read_word: Any = intrinsic(_build_read)
 
 
 @compiled
-def build_call(law, memory):
+def build_call(law: BoundLaw, memory: np.ndarray) -> Call:
     """`Call` of a `BoundLaw` with a memory, words of 64 bits."""
     return Call(
         law.function,
@@ -112,7 +121,14 @@ def build_call(law, memory):
 
 
 @compiled
-def compute_law(call, x, reference, estimate, applied, period):
+def compute_law(
+    call: Call,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """What the law asks for, `Torque`, N·m, before limits; its memory goes on by a period.
 
     call: `Call`. x: x̂, `State`. reference: `Reference`. estimate: ŵ of the observer,
@@ -132,7 +148,7 @@ def compute_law(call, x, reference, estimate, applied, period):
 
 
 @compiled
-def read_estimate(call, estimate):
+def read_estimate(call: Call, estimate: Disturbance) -> Disturbance:
     """The ŵ that the law acts on, `Disturbance`, N·m: its own, or the observer's."""
     if call.is_own:
         return Disturbance(

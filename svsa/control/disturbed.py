@@ -3,6 +3,9 @@
 from typing import NamedTuple
 
 from svsa.compilation import compiled
+from svsa.model.dynamics import Actuator
+from svsa.model.linearization import Linearization
+from svsa.signals import Disturbance
 
 
 class Disturbed(NamedTuple):
@@ -18,7 +21,7 @@ class Disturbed(NamedTuple):
 
 
 @compiled
-def compute_disturbed(nominal, linearization, w):
+def compute_disturbed(nominal: Actuator, linearization: Linearization, w: Disturbance) -> Disturbed:
     """q̈ = a + ŵ2/M, q⃛ = j − D ŵ2/M², q⁗ and σ̈ with the columns of p(x) (Eq 17–24).
 
     NDOBC's Γ ŵ is what these differ by from L_f^k h, weighted with the gains. linearization:

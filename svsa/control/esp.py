@@ -7,18 +7,20 @@ yields to a load by design, as a spring does; with ŵ it compensates.
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import greatest, least
 from svsa.model.domain import Domain, compute_deflection_limit
-from svsa.model.dynamics import compute_deflection, compute_internal_torque
+from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
 from svsa.model.exponential import expm1
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
-from svsa.model.spring import compute_spring_derivatives
+from svsa.model.spring import SpringDerivatives, compute_spring_derivatives
 from svsa.observer.own import Observed, observe_disturbance
-from svsa.signals import Disturbance, Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 NEWTON_STEPS = 4
 SPRING_SHARE = 0.95
@@ -73,7 +75,7 @@ def build(parameters: Structure, setting: Setting) -> Constants:
 
 
 @compiled
-def compute_quadratic(spring, dphi, dmu):
+def compute_quadratic(spring: SpringDerivatives, dphi: float, dmu: float) -> float:
     """What of τ̈_e comes from velocities, N·m/s²: τ_φφ φ̇² + 2 τ_φμ φ̇ μ̇ + τ_μμ μ̇²."""
     return (
         spring.sigma_phi * dphi * dphi
@@ -83,7 +85,16 @@ def compute_quadratic(spring, dphi, dmu):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """τ_η = τ_e + M q̈_d + D q̇_d − D_d ė' − ŵ2, η = e' − φ(τ_η), solved for φ̈ and μ̈, then u, N·m.
 
     constants: `Constants`. memory: `Observed`.

@@ -2,10 +2,14 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.compilation import compiled
 from svsa.control.gains import Gains
 from svsa.control.law import Law
-from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.model.dynamics import Actuator
+from svsa.model.linearization import Linearization, compute_linearization, solve_decoupling
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class GainConstants(NamedTuple):
@@ -25,8 +29,10 @@ def build_gains(gains: Gains) -> GainConstants:
 
 
 @compiled
-def compute_linearized_demand(linearization, gains, reference):
-    """B − v of Eq 24 and 36: what A(x) u has to be when nothing disturbs.
+def compute_linearized_demand(
+    linearization: Linearization, gains: GainConstants, reference: Reference
+) -> tuple[float, float]:
+    """b − v of Eq 24 and 36: what A(x) u has to be when nothing disturbs.
 
     b = (q_d⁗ − L_f⁴h1, σ̈_d − L_f²h2), v1 = −Σ c¹_k e¹_k, v2 = −Σ c²_k e²_k with
     e¹ = (q_d − q, q̇_d − q̇, q̈_d − a, q⃛_d − j), e² = (σ_d − σ, σ̇_d − σ̇).
@@ -50,8 +56,10 @@ def compute_linearized_demand(linearization, gains, reference):
 
 
 @compiled
-def compute_feedback_linearization(nominal, gains, x, reference):
-    """U = A⁻¹(b − v), N·m, before limits: Eq 36 (printed with the opposite sign).
+def compute_feedback_linearization(
+    nominal: Actuator, gains: GainConstants, x: State, reference: Reference
+) -> Torque:
+    """u = A⁻¹(b − v), N·m, before limits: Eq 36 (printed with the opposite sign).
 
     nominal: `Actuator` of the nominal model. gains: `GainConstants`. x: `State`.
     reference: `Reference`. Returns `Torque`.
@@ -62,7 +70,16 @@ def compute_feedback_linearization(nominal, gains, x, reference):
 
 
 @compiled
-def control(nominal, gains, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    gains: GainConstants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """FL as the loop calls it: see `Law`."""
     return compute_feedback_linearization(nominal, gains, x, reference)
 

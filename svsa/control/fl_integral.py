@@ -2,13 +2,17 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.feedback_linearization import compute_linearized_demand
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
+from svsa.model.dynamics import Actuator
 from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class IntegralPoles(LawParameters):
@@ -62,8 +66,17 @@ def build(poles: IntegralPoles, setting: Setting) -> Constants:
 
 
 @compiled
-def control(nominal, gains, memory, x, reference, estimate, applied, period):
-    """U = A⁻¹(b − v + (a⁵ ∫e¹ dt, p³ ∫e² dt)), N·m, before limits.
+def control(
+    nominal: Actuator,
+    gains: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u = A⁻¹(b − v + (a⁵ ∫e¹ dt, p³ ∫e² dt)), N·m, before limits.
 
     The integrals stand still while a torque is asked for that is beyond its limit, so that they
     do not wind up. gains: `Constants`. memory: `Integrals`. Else as `Law` says.

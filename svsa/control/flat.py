@@ -3,8 +3,10 @@
 from typing import NamedTuple
 
 from svsa.compilation import compiled
+from svsa.model.dynamics import Actuator
 from svsa.model.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
 from svsa.model.spring import compute_reaction_torque, compute_spring_derivatives
+from svsa.signals import Reference
 
 NEWTON_STEPS = 4
 
@@ -25,7 +27,7 @@ class Flat(NamedTuple):
 
 
 @compiled
-def compute_flat(nominal, reference):
+def compute_flat(nominal: Actuator, reference: Reference) -> Flat:
     """The motion and the torques of an undisturbed nominal actuator that follows the reference.
 
     τ_e = −M q̈_d − D q̇_d; Newton for (φ, μ) with τ_e(φ, μ) = τ_e and σ(φ, μ) = σ_d; their rates

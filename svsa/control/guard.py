@@ -5,12 +5,22 @@ A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, 
 
 from svsa.compilation import compiled
 from svsa.lanes.choice import greatest, least
-from svsa.model.dynamics import compute_deflection
+from svsa.model.dynamics import Actuator, InternalTorque, compute_deflection
 from svsa.model.lever import compute_lever_ratio_slope
+from svsa.signals import Disturbance, State
 
 
 @compiled
-def guard_deflection(nominal, x, F, w, ddq, bound, rate, u1):
+def guard_deflection(
+    nominal: Actuator,
+    x: State,
+    F: InternalTorque,
+    w: Disturbance,
+    ddq: float,
+    bound: float,
+    rate: float,
+    u1: float,
+) -> float:
     """The u1 next to the one asked for that keeps |φ| below its bound, N·m.
 
     −2l φ̇ − l²(b + φ) ≤ φ̈ ≤ −2l φ̇ + l²(b − φ) with φ̈ = q̈ − (F4 + ŵ4 + u1)/B1. F: F_n(x̂),
@@ -24,7 +34,17 @@ def guard_deflection(nominal, x, F, w, ddq, bound, rate, u1):
 
 
 @compiled
-def guard_lever(nominal, x, F, w, mu, mu_min, mu_max, rate, u2):
+def guard_lever(
+    nominal: Actuator,
+    x: State,
+    F: InternalTorque,
+    w: Disturbance,
+    mu: float,
+    mu_min: float,
+    mu_max: float,
+    rate: float,
+    u2: float,
+) -> float:
     """The u2 next to the one asked for that keeps μ between two bounds, N·m.
 
     −2l μ̇ − l²(μ − μ_min) ≤ μ̈ ≤ −2l μ̇ + l²(μ_max − μ) with μ̈ = μ'(F6 + ŵ6 + u2)/B2. mu: μ.

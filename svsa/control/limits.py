@@ -6,7 +6,7 @@ from svsa.signals import Torque
 
 
 @compiled
-def limit_torque(torque, torque1_max, torque2_max):
+def limit_torque(torque: Torque, torque1_max: float, torque2_max: float) -> Torque:
     """Both torques clipped to ±their limit, N·m; a torque that is not a number stays so."""
     return Torque(
         least(greatest(torque.u1, -torque1_max), torque1_max),

@@ -7,11 +7,13 @@ like any other.
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.model.dynamics import InternalTorque, compute_deflection
+from svsa.model.dynamics import Actuator, InternalTorque, compute_deflection
 from svsa.model.exponential import expm1
 from svsa.model.lever import (
     compute_lever_ratio,
@@ -20,7 +22,7 @@ from svsa.model.lever import (
 )
 from svsa.model.spring import compute_stiffness
 from svsa.observer.own import Observed, observe_unexplained
-from svsa.signals import Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class PolesAndFilter(LawParameters):
@@ -55,14 +57,14 @@ def build(parameters: PolesAndFilter, setting: Setting) -> Constants:
 
 
 @compiled
-def compute_stiffness_slope(mu, K, slope):
+def compute_stiffness_slope(mu: float, K: float, slope: float) -> float:
     """G = ∂σ/∂θ2 at φ = 0: 2 K μ μ'/(1 − μ)³, N·m/rad². slope: μ', 1/rad."""
     m = 1.0 - mu
     return 2.0 * K * mu * slope / (m * m * m)
 
 
 @compiled
-def compute_linear_torque(nominal, sigma, x):
+def compute_linear_torque(nominal: Actuator, sigma: float, x: State) -> InternalTorque:
     """F of the linear chain with the stiffness σ_d, `InternalTorque`, N·m."""
     torque = sigma * compute_deflection(x)
     return InternalTorque(
@@ -71,8 +73,17 @@ def compute_linear_torque(nominal, sigma, x):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
-    """U1 = B1 (q̈ + (M y1 + D q⃛)/σ_d) − F4 − ŵ4, u2 = B2 y2/g − F6 − ŵ6, N·m, before limits.
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u1 = B1 (q̈ + (M y1 + D q⃛)/σ_d) − F4 − ŵ4, u2 = B2 y2/g − F6 − ŵ6, N·m, before limits.
 
     y1 = q_d⁗ + 4a e⃛ + 6a² ë + 4a³ ė + a⁴ e, y2 = σ̈_d + 2p (σ̇_d − g θ̇2) + p² (σ_d − σ), with q̈
     and q⃛ of the linear chain under ŵ. constants: `Constants`. memory: `Observed`.

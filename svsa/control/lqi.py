@@ -18,7 +18,7 @@ from svsa.control.law import Law, Setting
 from svsa.control.linear_dob import compute_stiffness_slope
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose, greatest, least
-from svsa.model.dynamics import compute_deflection
+from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.exponential import log
 from svsa.model.lever import (
     compute_lever_ratio,
@@ -26,7 +26,7 @@ from svsa.model.lever import (
     compute_lever_ratio_slope,
 )
 from svsa.model.spring import compute_stiffness
-from svsa.signals import Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 STIFFNESSES = tuple(float(sigma) for sigma in np.geomspace(3.0, 150.0, 10))
 LOG_FIRST = math.log(STIFFNESSES[0])
@@ -158,7 +158,7 @@ def _solve_at(sigma: float, weights: tuple[float, ...], chain: Chain) -> list[fl
 
 
 @compiled
-def interpolate(table, place):
+def interpolate(table: tuple[float, ...], place: float) -> float:
     """A gain at a place among `STIFFNESSES`, 0 … 9, on straight lines; at the ends as there."""
     found = table[0]
     for i in range(9):
@@ -168,8 +168,17 @@ def interpolate(table, place):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
-    """U = u_ff − k(σ_d)(x − x_d) with the integrals of e and e_σ, N·m, before limits.
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u = u_ff − k(σ_d)(x − x_d) with the integrals of e and e_σ, N·m, before limits.
 
     The integrals stand still while a torque is beyond its limit. constants: `Constants`.
     """

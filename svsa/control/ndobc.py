@@ -2,11 +2,19 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.compilation import compiled
-from svsa.control.feedback_linearization import build_gains, compute_linearized_demand
+from svsa.control.feedback_linearization import (
+    GainConstants,
+    build_gains,
+    compute_linearized_demand,
+)
 from svsa.control.gains import Gains
 from svsa.control.law import Law
-from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.model.dynamics import Actuator
+from svsa.model.linearization import Linearization, compute_linearization, solve_decoupling
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class DisturbanceGain(NamedTuple):
@@ -21,7 +29,9 @@ class DisturbanceGain(NamedTuple):
 
 
 @compiled
-def compute_disturbance_gain(nominal, gains, linearization):
+def compute_disturbance_gain(
+    nominal: Actuator, gains: GainConstants, linearization: Linearization
+) -> DisturbanceGain:
     """Γ(x) of Eq 24: γ_ij = Σ_{k=0}^{r_i−2} c^i_{k+1} L_pj L_f^k h_i + L_pj L_f^{r_i−1} h_i.
 
     Row 1 = c2/M − c3 D/M² + (D²/M − σ)/M², σ/(M B1), −τ_e,μ μ'/(M B2);
@@ -39,8 +49,10 @@ def compute_disturbance_gain(nominal, gains, linearization):
 
 
 @compiled
-def compute_ndobc(nominal, gains, x, reference, estimate):
-    """U = A⁻¹(b − v − Γ ŵ), N·m, before limits: Eq 24 (printed with the opposite sign).
+def compute_ndobc(
+    nominal: Actuator, gains: GainConstants, x: State, reference: Reference, estimate: Disturbance
+) -> Torque:
+    """u = A⁻¹(b − v − Γ ŵ), N·m, before limits: Eq 24 (printed with the opposite sign).
 
     nominal: `Actuator` of the nominal model. gains: `GainConstants`. x: `State`.
     reference: `Reference`. estimate: ŵ, `Disturbance`, N·m. Returns `Torque`.
@@ -57,7 +69,16 @@ def compute_ndobc(nominal, gains, x, reference, estimate):
 
 
 @compiled
-def control(nominal, gains, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    gains: GainConstants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """NDOBC as the loop calls it: see `Law`."""
     return compute_ndobc(nominal, gains, x, reference, estimate)
 

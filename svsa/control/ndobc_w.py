@@ -20,6 +20,8 @@ noise of the encoders its poles at 70 rad/s shake the motors more than NDOBC's.
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.disturbed import Disturbed, compute_disturbed
@@ -28,13 +30,13 @@ from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose, greatest, least, some
 from svsa.model.domain import Domain, compute_deflection_limit
-from svsa.model.dynamics import compute_internal_torque
+from svsa.model.dynamics import Actuator, compute_internal_torque
 from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
-from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.model.linearization import Linearization, compute_linearization, solve_decoupling
 from svsa.model.spring import compute_elastic_torque
 from svsa.observer.own import Observed, observe_disturbance
-from svsa.signals import Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 GIVE = 0.96
 MOST_STEPS = 24
@@ -131,7 +133,14 @@ def build(parameters: YieldingPoles, setting: Setting) -> Constants:
 
 
 @compiled
-def govern_stiffness(nominal, constants, memory, reference, w, period):
+def govern_stiffness(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    reference: Reference,
+    w: Disturbance,
+    period: float,
+) -> tuple[float, float, float]:
     """What is added to σ_d, σ̇_d and σ̈_d so that the spring bears the load that is there.
 
     Wanted is σ_d (n/c)^1.25, n = |ŵ2 − M q̈_d − D q̇_d| the torque that it has to give and c what
@@ -152,7 +161,15 @@ def govern_stiffness(nominal, constants, memory, reference, w, period):
 
 
 @compiled
-def compute_demand(nominal, reference, x, q, w, most, a):
+def compute_demand(
+    nominal: Actuator,
+    reference: Reference,
+    x: State,
+    q: Disturbed,
+    w: Disturbance,
+    most: float,
+    a: float,
+) -> float:
     """y1 of all four poles at −a, rad/s⁴, with the elastic torque it wants clipped at `most`.
 
     q: `Disturbed`, with the rate of ŵ in q⃛. Without clipping it is q_d⁗ + 4a e⃛ + 6a² ë + 4a³ ė +
@@ -172,8 +189,21 @@ def compute_demand(nominal, reference, x, q, w, most, a):
 
 
 @compiled
-def place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a):
-    """U = A⁻¹(y − drift under ŵ) with the poles at −a and −p, before limits. c: `Constants`."""
+def place_poles(
+    nominal: Actuator,
+    c: Constants,
+    ξ: Linearization,
+    reference: Reference,
+    x: State,
+    q: Disturbed,
+    e_sigma: float,
+    de_sigma: float,
+    ddsigma: float,
+    w: Disturbance,
+    most: float,
+    a: float,
+) -> Torque:
+    """u = A⁻¹(y − drift under ŵ) with the poles at −a and −p, before limits. c: `Constants`."""
     p = c.p_over_a * a
     y1 = compute_demand(nominal, reference, x, q, w, most, a)
     y2 = reference.ddsigma + ddsigma + p * (2.0 * de_sigma + p * e_sigma)
@@ -181,8 +211,17 @@ def place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, 
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
-    """U = A⁻¹(y − drift under ŵ), N·m, of poles that give way; constants: `Constants`.
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u = A⁻¹(y − drift under ŵ), N·m, of poles that give way; constants: `Constants`.
 
     memory: `Memory`. Else as `Law` says.
     """

@@ -7,6 +7,8 @@ velocity, and does without the lag of an estimator before an observer.
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.feedback_linearization import GainConstants
@@ -14,10 +16,11 @@ from svsa.control.law import Law, Setting
 from svsa.control.ndobc import compute_ndobc
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
+from svsa.model.dynamics import Actuator
 from svsa.observer.extended import TriplePole, build_triple_pole
 from svsa.observer.own import Observed, get_observed, remember_state
 from svsa.observer.state import predict_state
-from svsa.signals import State
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class PolesAndObserver(LawParameters):
@@ -50,7 +53,14 @@ def build(parameters: PolesAndObserver, setting: Setting) -> Constants:
 
 
 @compiled
-def correct_body(gains, position, velocity, disturbance, inertia, measured):
+def correct_body(
+    gains: TriplePole,
+    position: float,
+    velocity: float,
+    disturbance: float,
+    inertia: float,
+    measured: float,
+) -> tuple[float, float, float]:
     """Position, velocity and ŵ of one body moved towards its measured position, rad."""
     r = measured - position
     return (
@@ -61,7 +71,16 @@ def correct_body(gains, position, velocity, disturbance, inertia, measured):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """NDOBC on x̂ and ŵ of its own. constants: `Constants`. memory: `Observed`."""
     k = constants.observer
     y = predict_state(nominal, memory.x, get_observed(memory), applied, period)

@@ -7,6 +7,8 @@ motors, and the link hangs on its spring: the integral brings it back, slowly.
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.flat import compute_flat
@@ -14,10 +16,10 @@ from svsa.control.law import Law, Setting
 from svsa.control.linear_dob import compute_stiffness_slope
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
-from svsa.model.dynamics import compute_deflection
+from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import compute_stiffness
-from svsa.signals import Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class MotorGains(LawParameters):
@@ -84,7 +86,16 @@ def build(parameters: MotorGains, setting: Setting) -> Constants:
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """See above, N·m, before limits; each integral stands still while its motor is at its limit."""
     c, d = constants, compute_flat(nominal, reference)
     e, de = reference.q - x.q, reference.dq - x.dq

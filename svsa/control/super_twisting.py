@@ -8,13 +8,17 @@ leaves an error that an observer would not.
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
+from svsa.model.dynamics import Actuator
 from svsa.model.exponential import tanh
 from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class Sliding(LawParameters):
@@ -86,8 +90,17 @@ def build(parameters: Sliding, setting: Setting) -> Constants:
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
-    """U = A⁻¹ (y − L_f), N·m, before limits. constants: `Constants`. memory: `Memory`."""
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u = A⁻¹ (y − L_f), N·m, before limits. constants: `Constants`. memory: `Memory`."""
     c = constants
     ξ = compute_linearization(nominal, x)
     is_started = memory.is_started > 0.0

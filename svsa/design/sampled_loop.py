@@ -6,7 +6,7 @@ import numpy as np
 
 from svsa.control.call import build_call, read_estimate
 from svsa.design.differences import differentiate
-from svsa.loop.lane import LaneState
+from svsa.loop.lane import Inputs, LaneState
 from svsa.loop.loop import apply_torque, decide, observe
 from svsa.model.dynamics import compute_internal_torque
 from svsa.plant.disturbances import ConstantLoad, build_load_table, schedule_load
@@ -59,7 +59,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
     blocks, law = run.blocks[0], run.laws[0]
     rest, sample = run.lanes[0], np.empty(len(CHANNELS))
 
-    def tick(z: np.ndarray, inputs=run.inputs) -> np.ndarray:
+    def tick(z: np.ndarray, inputs: Inputs = run.inputs) -> np.ndarray:
         lane = _unpack(z)
         call = build_call(law, lane.memory)
         reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, 0)

@@ -70,7 +70,7 @@ class Parameters(NamedTuple):
 
 
 @compiled
-def build_parameters(p):
+def build_parameters(p: np.ndarray) -> Parameters:
     """The vector of unknowns (16,) as `Parameters`."""
     return Parameters(
         p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], p[13],
@@ -79,7 +79,7 @@ def build_parameters(p):
 
 
 @compiled
-def compute_late_value(torques, row, motor, shift):
+def compute_late_value(torques: np.ndarray, row: int, motor: int, shift: float) -> float:
     """A motor's torque at the sample `row` of a recorded one that is late, N·m.
 
     torques: (rows, 2), N·m. motor: 0 or 1. shift: by how many periods; between two samples on
@@ -94,7 +94,7 @@ def compute_late_value(torques, row, motor, shift):
 
 
 @compiled
-def compute_shifted_torque(torques, row, shift1, shift2):
+def compute_shifted_torque(torques: np.ndarray, row: int, shift1: float, shift2: float) -> Torque:
     """Both motors' `Torque` at the sample `row`, each late by its own shift, periods."""
     return Torque(
         compute_late_value(torques, row, 0, shift1), compute_late_value(torques, row, 1, shift2)
@@ -102,7 +102,14 @@ def compute_shifted_torque(torques, row, shift1, shift2):
 
 
 @compiled
-def simulate(setting, p, start, torques, first, outputs):
+def simulate(
+    setting: Setting,
+    p: np.ndarray,
+    start: np.ndarray,
+    torques: Torques,
+    first: int,
+    outputs: np.ndarray,
+) -> None:
     """θ1, θ2, φ of the plant from the sample `first` on: outputs (samples, 3), rad, written.
 
     p: (16,) see `Parameters`. start: (6,) the state at the first sample. torques: of the
@@ -131,7 +138,16 @@ def simulate(setting, p, start, torques, first, outputs):
 
 
 @compiled
-def differentiate(setting, p, start, steps, torques, first, outputs, slopes):
+def differentiate(
+    setting: Setting,
+    p: np.ndarray,
+    start: np.ndarray,
+    steps: np.ndarray,
+    torques: Torques,
+    first: int,
+    outputs: np.ndarray,
+    slopes: np.ndarray,
+) -> None:
     """`simulate`, and the difference quotients by every unknown and by the start.
 
     steps: (16 + 6,) of the quotients. outputs: (samples, 3), slopes: (16 + 6, samples, 3),
@@ -153,7 +169,7 @@ def differentiate(setting, p, start, steps, torques, first, outputs, slopes):
 
 
 @compiled
-def compute_unit_torques(setting, angles, torques):
+def compute_unit_torques(setting: Setting, angles: np.ndarray, torques: np.ndarray) -> None:
     """What the spring would do with K = 1 N·m/rad: torques (rows, 3) written, as `InternalTorque`.
 
     angles: (rows, 3) θ1, θ2, φ, rad.
@@ -166,7 +182,7 @@ def compute_unit_torques(setting, angles, torques):
 
 
 @compiled
-def measure(bench, first_tick, states, measured):
+def measure(bench: Bench, first_tick: int, states: np.ndarray, measured: np.ndarray) -> None:
     """What the sensors say of the true angles.
 
     bench: `Bench`. states: (rows, 3) θ1, θ2, φ. measured: (rows, 3), the same as measured,

@@ -45,12 +45,12 @@ for _operation, _name in (
     define(_operation, getattr(ir.IRBuilder, _name), BITS, BITS, BITS)
 
 
-def as_bits(number):
+def as_bits(number: Any) -> Any:
     """A whole number as an unsigned one of 64 bits."""
     return np.uint64(number)
 
 
-def as_float(bits):
+def as_float(bits: Any) -> Any:
     """An unsigned whole number as the nearest float."""
     return np.float64(bits)
 

@@ -16,22 +16,22 @@ from numba.extending import lower_builtin
 from svsa.lanes.number import LANES, WIDTH, Lanes, Truths, learn
 
 
-def choose(condition, a, b):
-    """A where the condition holds, else b: numbers, or tuples of them, number by number."""
+def choose(condition: Any, a: Any, b: Any) -> Any:
+    """a where the condition holds, else b: numbers, or tuples of them, number by number."""
     return a if condition else b
 
 
-def least(a, b):
-    """B where b < a, else a: with NaN in either it is a, as `min(a, b)` has it."""
+def least(a: Any, b: Any) -> Any:
+    """b where b < a, else a: with NaN in either it is a, as `min(a, b)` has it."""
     return b if b < a else a
 
 
-def greatest(a, b):
-    """B where b > a, else a: with NaN in either it is a, as `max(a, b)` has it."""
+def greatest(a: Any, b: Any) -> Any:
+    """b where b > a, else a: with NaN in either it is a, as `max(a, b)` has it."""
     return b if b > a else a
 
 
-def some(condition):
+def some(condition: Any) -> bool:
     """Whether it holds in any lane."""
     return condition
 

@@ -24,11 +24,11 @@ from svsa.lanes.record import Column, Shared, Word, build_reader, build_record
 from svsa.loop.lane import Blocks, Inputs, LaneState, borrow_inputs
 from svsa.loop.loop import act, move, read_reference
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
-from svsa.model.dynamics import compute_deflection, compute_internal_torque
+from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.packed import pack_all
-from svsa.signals import Disturbance, State, Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class Start(NamedTuple):
@@ -172,7 +172,14 @@ remember: Any = None
 """Of `advance_groups`: the law, and what reads a group's numbers and its memory."""
 
 
-def advance_groups(rows, memories, inputs, ticks, begin, results):
+def advance_groups(
+    rows: np.ndarray,
+    memories: np.ndarray,
+    inputs: Inputs,
+    ticks: int,
+    begin: int,
+    results: np.ndarray,
+) -> None:
     """Run every group. rows, memories: see `Batch`. results: (groups, fields, 8), written."""
     inputs = borrow_inputs(inputs)
     for group in range(rows.shape[0]):
@@ -219,7 +226,7 @@ def advance_groups(rows, memories, inputs, ticks, begin, results):
 
 
 @compiled
-def hold(runs, reached, lane):
+def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
     """`LaneState` of lanes that run, and of those that have ended as they were."""
     return LaneState(
         choose(runs, reached.x, lane.x),
@@ -233,14 +240,16 @@ def hold(runs, reached, lane):
 
 
 @compiled
-def start_tally(nothing):
+def start_tally(nothing: float) -> Tally:
     """`Tally` before the first tick. nothing: 0."""
     n = nothing
     return Tally(n, n, n, n, n, n, n, n, n, n, n)
 
 
 @compiled
-def measure(tally, counts, plant, reference, x, torque):
+def measure(
+    tally: Tally, counts: bool, plant: Actuator, reference: Reference, x: State, torque: Torque
+) -> Tally:
     """`Tally` with the tick that begins at x. counts: whether it does, of each lane."""
     t = tally
     mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
@@ -264,7 +273,7 @@ def measure(tally, counts, plant, reference, x, torque):
 
 
 @compiled
-def write(rows, first, values):
+def write(rows: np.ndarray, first: int, values: tuple[float, ...]) -> None:
     """Write a tuple of lanes into rows (n, 8) from `first` on."""
     for i in range(len(values)):
         store(rows, first + i, values[i])

@@ -86,7 +86,7 @@ def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
 
 
 @compiled
-def borrow_inputs(inputs):
+def borrow_inputs(inputs: Inputs) -> Inputs:
     """The same `Inputs` without owning their arrays, see `svsa.borrowed`."""
     p, s, loads = inputs.position, inputs.stiffness, inputs.loads
     return Inputs(
@@ -97,13 +97,13 @@ def borrow_inputs(inputs):
 
 
 @compiled
-def borrow_law(law):
+def borrow_law(law: BoundLaw) -> BoundLaw:
     """The same `BoundLaw` without owning its arrays."""
     return BoundLaw(law.function, borrow(law.nominal), borrow(law.constants), law.is_own)
 
 
 @compiled
-def remember(lane, memory):
+def remember(lane: LaneState, memory: np.ndarray) -> LaneState:
     """The lane with another memory of its law."""
     return LaneState(
         lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, memory

@@ -12,15 +12,17 @@ once: the law is a compiled function that it is given.
 
 import math
 
+import numpy as np
+
 from svsa.borrowed import borrow
 from svsa.compilation import compiled
-from svsa.control.call import build_call, compute_law, read_estimate
+from svsa.control.call import BoundLaw, Call, build_call, compute_law, read_estimate
 from svsa.control.limits import limit_torque
 from svsa.lanes.choice import choose, some
-from svsa.loop.lane import Action, LaneState, borrow_inputs, borrow_law, remember
+from svsa.loop.lane import Action, Blocks, Inputs, LaneState, borrow_inputs, borrow_law, remember
 from svsa.loop.publish import publish
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
-from svsa.model.dynamics import compute_internal_torque
+from svsa.model.dynamics import InternalTorque, compute_internal_torque
 from svsa.observer.disturbance import (
     correct_disturbance_estimate,
     update_disturbance_estimate,
@@ -28,14 +30,15 @@ from svsa.observer.disturbance import (
 from svsa.observer.state import build_measured_state, update_state_estimate
 from svsa.plant.disturbances import compute_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
+from svsa.plant.effects import Bench
 from svsa.plant.integration import compute_plant_rate, integrate_from
 from svsa.plant.sensors import are_inexact, read_sensors
 from svsa.reference.transition import compute_trajectory
-from svsa.signals import Reference, Torque
+from svsa.signals import Disturbance, Measurement, Reference, State, Torque
 
 
 @compiled
-def read_reference(inputs, time):
+def read_reference(inputs: Inputs, time: float) -> Reference:
     """q_d to the 4th derivative and σ_d to the 2nd at `time` (s), as `Reference`."""
     p = compute_trajectory(inputs.position, time)
     s = compute_trajectory(inputs.stiffness, time)
@@ -43,14 +46,23 @@ def read_reference(inputs, time):
 
 
 @compiled
-def compute_control(blocks, call, x, reference, estimate, applied):
+def compute_control(
+    blocks: Blocks,
+    call: Call,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+) -> Torque:
     """The torque that the law of this `Call` asks for, after the limits, N·m."""
     asked = compute_law(call, x, reference, estimate, applied, blocks.period)
     return limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
 
 
 @compiled
-def delay(bench, asked, torque):
+def delay(
+    bench: Bench, asked: tuple[float, ...], torque: Torque
+) -> tuple[tuple[float, ...], Torque]:
     """The queue of asked torques with this one in front, and the torque that is due now."""
     asked = (torque.u1, torque.u2) + asked[:-2]  # noqa: RUF005  numba knows no unpacking here
     if bench.delay == 0:
@@ -59,7 +71,15 @@ def delay(bench, asked, torque):
 
 
 @compiled
-def decide(blocks, call, inputs, known, estimate, applied, tick):
+def decide(
+    blocks: Blocks,
+    call: Call,
+    inputs: Inputs,
+    known: State,
+    estimate: Disturbance,
+    applied: Torque,
+    tick: int,
+) -> tuple[Reference, Torque]:
     """The first half of a tick: reference and controller.
 
     call: the law, `Call`. known: x̂, `State`. estimate: ŵ, `Disturbance`. applied: mean `Torque`
@@ -70,7 +90,9 @@ def decide(blocks, call, inputs, known, estimate, applied, tick):
 
 
 @compiled
-def observe(blocks, known, estimate, applied, measurement):
+def observe(
+    blocks: Blocks, known: State, estimate: Disturbance, applied: Torque, measurement: Measurement
+) -> tuple[State, Disturbance]:
     """The second half of a tick: x̂, estimated where velocities are not measured, and ŵ.
 
     known, estimate: x̂ and ŵ a period ago. applied: mean `Torque` since, N·m. measurement:
@@ -84,7 +106,9 @@ def observe(blocks, known, estimate, applied, measurement):
 
 
 @compiled
-def know(blocks, known, estimate, applied, measurement):
+def know(
+    blocks: Blocks, known: State, estimate: Disturbance, applied: Torque, measurement: Measurement
+) -> State:
     """x̂ with this `Measurement`. known, estimate, applied: as in `observe`."""
     measured, estimates = build_measured_state(measurement), blocks.decay > 0.0
     if not some(estimates):
@@ -96,7 +120,7 @@ def know(blocks, known, estimate, applied, measurement):
 
 
 @compiled
-def sense(blocks, lane, x, applied, tick):
+def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int) -> State:
     """x̂ at `tick`, of the plant's state x: x itself where the sensors are perfect."""
     differs = (blocks.decay > 0.0) | are_inexact(blocks.bench)
     if not some(differs):
@@ -107,7 +131,9 @@ def sense(blocks, lane, x, applied, tick):
 
 
 @compiled
-def advance_tick(blocks, law, inputs, lane, tick, sample):
+def advance_tick(
+    blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, tick: int, sample: np.ndarray
+) -> tuple[LaneState, int]:
     """One tick of the loop: reference, controller, write, plant, read, observer, publish.
 
     law: `BoundLaw`. lane: `LaneState` at the start of the tick, whose memory the law writes in.
@@ -120,7 +146,15 @@ def advance_tick(blocks, law, inputs, lane, tick, sample):
 
 
 @compiled
-def advance_from(blocks, law, inputs, lane, F, tick, sample):
+def advance_from(
+    blocks: Blocks,
+    law: BoundLaw,
+    inputs: Inputs,
+    lane: LaneState,
+    F: InternalTorque,
+    tick: int,
+    sample: np.ndarray,
+) -> tuple[LaneState, InternalTorque, int]:
     """`advance_tick` where F = F_n(x̂), `InternalTorque`, N·m, is known; returns it for the next."""
     code = check_domain(blocks.domain, blocks.plant, lane.x)
     if code != INSIDE:
@@ -135,7 +169,17 @@ def advance_from(blocks, law, inputs, lane, F, tick, sample):
 
 
 @compiled
-def apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sample):
+def apply_torque(
+    blocks: Blocks,
+    inputs: Inputs,
+    lane: LaneState,
+    F: InternalTorque,
+    reference: Reference,
+    torque: Torque,
+    estimate: Disturbance,
+    tick: int,
+    sample: np.ndarray,
+) -> tuple[LaneState, InternalTorque]:
     """The tick from the controller's torque on: write, plant, read, observer, publish.
 
     lane: `LaneState` at the start of the tick. F: F_n(x̂) then, `InternalTorque`, N·m. reference:
@@ -149,7 +193,7 @@ def apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sam
 
 
 @compiled
-def act(blocks, inputs, lane, torque, tick):
+def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: int) -> Action:
     """`Action` of a torque within the limits, N·m: delay, drive, loads and what they do at once."""
     bench, time = blocks.bench, tick * blocks.period
     asked, target = delay(bench, lane.asked, torque)
@@ -160,7 +204,9 @@ def act(blocks, inputs, lane, torque, tick):
 
 
 @compiled
-def move(blocks, inputs, lane, F, action, tick):
+def move(
+    blocks: Blocks, inputs: Inputs, lane: LaneState, F: InternalTorque, action: Action, tick: int
+) -> tuple[LaneState, InternalTorque]:
     """The rest of the tick: plant, read, observer. Returns `LaneState` and F_n(x̂) at its end."""
     plant, nominal, bench, period = blocks.plant, blocks.nominal, blocks.bench, blocks.period
     start, target, load = lane.torque, action.target, action.load
@@ -179,7 +225,9 @@ def move(blocks, inputs, lane, F, action, tick):
 
 
 @compiled
-def advance(blocks, law, inputs, lane, first, samples):
+def advance(
+    blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, first: int, samples: np.ndarray
+) -> tuple[LaneState, int, int]:
     """Many ticks in one call that does not hold the GIL: one for each row of `samples`.
 
     law: `BoundLaw`. lane: `LaneState` at the tick `first`, which stays as it is. samples: (ticks,

@@ -7,6 +7,8 @@ A tick on a bench is read → follow → decide → write → publish → forese
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.compilation import compiled
 from svsa.control.call import Call, read_estimate
 from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
@@ -59,13 +61,13 @@ class Carried(NamedTuple):
 
 
 @compiled
-def read_state(x):
+def read_state(x: np.record) -> State:
     """A packed state as `State`."""
     return State(x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2)
 
 
 @compiled
-def store_state(packed, x):
+def store_state(packed: np.record, x: State) -> None:
     """`State` into a packed one."""
     packed.q, packed.dq = x.q, x.dq
     packed.theta1, packed.dtheta1 = x.theta1, x.dtheta1
@@ -73,25 +75,25 @@ def store_state(packed, x):
 
 
 @compiled
-def read_disturbance(w):
+def read_disturbance(w: np.record) -> Disturbance:
     """A packed disturbance as `Disturbance`."""
     return Disturbance(w.w2, w.w4, w.w6)
 
 
 @compiled
-def store_disturbance(packed, w):
+def store_disturbance(packed: np.record, w: Disturbance) -> None:
     """`Disturbance` into a packed one."""
     packed.w2, packed.w4, packed.w6 = w.w2, w.w4, w.w6
 
 
 @compiled
-def store_torque(packed, torque):
+def store_torque(packed: np.record, torque: Torque) -> None:
     """`Torque`, or a packed one, into a packed one."""
     packed.u1, packed.u2 = torque.u1, torque.u2
 
 
 @compiled
-def find_late_torque(constants, carried):
+def find_late_torque(constants: np.record, carried: np.record) -> tuple[Torque, Torque]:
     """What the motors make a period later, and what acts until then, as `Torque`s, N·m."""
     c, actuation = carried, constants.actuation
     return compute_late_torque(
@@ -105,7 +107,9 @@ def find_late_torque(constants, carried):
 
 
 @compiled
-def follow_and_decide(constants, inputs, carried, tick):
+def follow_and_decide(
+    constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, tick: int
+) -> None:
     """A period later: x̂, ŵ and made with what was measured then, reference and asked.
 
     constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
@@ -128,7 +132,9 @@ def follow_and_decide(constants, inputs, carried, tick):
 
 
 @compiled
-def publish_and_foresee(constants, carried, u1, u2, tick, sample):
+def publish_and_foresee(
+    constants: np.ndarray, carried: np.ndarray, u1: float, u2: float, tick: int, sample: np.ndarray
+) -> None:
     """What was sent (u1, u2, N·m) is carried on, `publish_measured` into `sample`, `foresee`."""
     k, c = constants[0], carried[0]
     store_torque(c.before, c.sent)
@@ -138,7 +144,7 @@ def publish_and_foresee(constants, carried, u1, u2, tick, sample):
 
 
 @compiled
-def pass_ticks(constants, carried, count):
+def pass_ticks(constants: np.ndarray, carried: np.ndarray, count: int) -> None:
     """`count` periods in which the loop did not run: x̂ goes on with ŵ and the torque last sent.
 
     A state that stood still meanwhile would take all that the axes have moved since for what
@@ -156,8 +162,8 @@ def pass_ticks(constants, carried, count):
 
 
 @compiled
-def foresee(constants, carried):
-    """X̂ as it is expected a period later, with the velocities of half the ages before.
+def foresee(constants: np.record, carried: np.record) -> State:
+    """x̂ as it is expected a period later, with the velocities of half the ages before.
 
     A count of age a is then brought to its tick by y + v(t − a/2) a, right to the second
     order. Returns `State`.
@@ -175,7 +181,7 @@ def foresee(constants, carried):
 
 
 @compiled
-def publish_measured(blocks, carried, tick, row):
+def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndarray) -> None:
     """Write one `Sample` of a bench into its row, (channels,).
 
     The true w is unknown; the residuals are filled in by whoever has the twin.

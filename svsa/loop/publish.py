@@ -10,16 +10,18 @@ from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
 
 from svsa.compilation import compiled
+from svsa.loop.lane import Blocks, LaneState
 from svsa.model.domain import compute_deflection_limit
 from svsa.model.dynamics import (
     Acceleration,
+    InternalTorque,
     compute_deflection,
     compute_internal_torque,
     compute_unexplained_torque,
 )
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
-from svsa.signals import Sample
+from svsa.signals import Disturbance, Reference, Sample, State, Torque
 
 
 @intrinsic
@@ -49,7 +51,7 @@ A loop over its fields would first put them into memory one after the other, and
 
 
 @compiled
-def compute_nominal_torque(blocks, lane, F):
+def compute_nominal_torque(blocks: Blocks, lane: LaneState, F: InternalTorque) -> InternalTorque:
     """F_n(x), `InternalTorque`, N·m, of the true state. F: that of x̂, often the same."""
     x, y = lane.x, lane.known
     if (x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2) == (
@@ -60,7 +62,17 @@ def compute_nominal_torque(blocks, lane, F):
 
 
 @compiled
-def publish(blocks, reference, lane, F, estimate, torque, rate, time, row):
+def publish(
+    blocks: Blocks,
+    reference: Reference,
+    lane: LaneState,
+    F: InternalTorque,
+    estimate: Disturbance,
+    torque: Torque,
+    rate: State,
+    time: float,
+    row: np.ndarray,
+) -> None:
     """Write one `Sample` into its row, (channels,).
 
     F: F_n(x̂), `InternalTorque`. estimate: the ŵ that the law acts on. torque: what the motors

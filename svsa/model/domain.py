@@ -3,6 +3,8 @@
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.compilation import compiled
 from svsa.lanes.choice import choose, least
 from svsa.model.dynamics import Actuator, compute_deflection
@@ -13,6 +15,7 @@ from svsa.model.lever import (
 )
 from svsa.model.spring import compute_spring
 from svsa.parameters import ActuatorParameters, Limits
+from svsa.signals import State
 
 INSIDE = 0
 NOT_FINITE = 1
@@ -65,7 +68,7 @@ def build_domain(actuator: ActuatorParameters, limits: Limits) -> Domain:
 
 
 @compiled
-def compute_deflection_limit(domain, mu):
+def compute_deflection_limit(domain: Domain, mu: float) -> float:
     """The |φ| at which a run ends, rad: a share of the zero-stiffness angle of this μ."""
     return least(
         domain.deflection_max, domain.deflection_fraction * compute_zero_stiffness_deflection(mu)
@@ -73,8 +76,8 @@ def compute_deflection_limit(domain, mu):
 
 
 @compiled
-def compute_relative_determinant(mu, phi):
-    """Det A(x) over its value at φ = 0: (1 − μ cos³φ)(1 − μ)⁵ / (1 − μ cos φ)⁶, from Eq 18.
+def compute_relative_determinant(mu: float, phi: float) -> float:
+    """det A(x) over its value at φ = 0: (1 − μ cos³φ)(1 − μ)⁵ / (1 − μ cos φ)⁶, from Eq 18.
 
     det A = 2K²μ³μ'(1 − μ cos³φ) / (M B1 B2 (1 − μ cos φ)⁶): never zero for μ in (0, 1), but
     small where the spring is soft, and there A⁻¹ asks for torques that no motor has.
@@ -86,7 +89,7 @@ def compute_relative_determinant(mu, phi):
 
 
 @compiled
-def check_domain(domain, actuator, x):
+def check_domain(domain: Domain, actuator: Actuator, x: State) -> int:
     """`INSIDE`, or the code of the first bound that the state x breaks.
 
     domain: `Domain`. actuator: `Actuator`. x: `State`.
@@ -102,6 +105,6 @@ def check_domain(domain, actuator, x):
 
 
 @compiled
-def check_packed_domain(bounds, x):
+def check_packed_domain(bounds: np.ndarray, x: State) -> int:
     """`check_domain` with packed `Bounds`: cheap to call from Python."""
     return check_domain(bounds[0].domain, bounds[0].actuator, x)

@@ -19,7 +19,7 @@ from svsa.model.spring import (
 )
 from svsa.model.trigonometry import sin
 from svsa.parameters import ActuatorParameters
-from svsa.signals import Disturbance, State
+from svsa.signals import Disturbance, State, Torque
 
 
 class Actuator(NamedTuple):
@@ -89,13 +89,13 @@ class InternalTorque(NamedTuple):
 
 
 @compiled
-def compute_deflection(x):
+def compute_deflection(x: State) -> float:
     """φ = q − θ1, rad (Eq 1)."""
     return x.q - x.theta1
 
 
 @compiled
-def compute_internal_torque(actuator, x):
+def compute_internal_torque(actuator: Actuator, x: State) -> InternalTorque:
     """F = (−D q̇ − τ_e, −D1 θ̇1 + τ_e, −D2 θ̇2 − τ_r), N·m: Eq 1 without u and w.
 
     actuator: `Actuator`. x: `State`. Returns `InternalTorque`.
@@ -116,7 +116,9 @@ def compute_internal_torque(actuator, x):
 
 
 @compiled
-def compute_acceleration(actuator, x, u, load):
+def compute_acceleration(
+    actuator: Actuator, x: State, u: Torque, load: ExternalLoad
+) -> Acceleration:
     """q̈, θ̈1, θ̈2 of Eq 1 under the torques u and the external load, rad/s².
 
     actuator: `Actuator`. x: `State`. u: `Torque`, N·m. load: `ExternalLoad`.
@@ -134,7 +136,7 @@ def compute_acceleration(actuator, x, u, load):
 
 
 @compiled
-def compute_rate(actuator, x, u, load):
+def compute_rate(actuator: Actuator, x: State, u: Torque, load: ExternalLoad) -> State:
     """ẋ = f(x) + g(x)u + p(x)w of Eq 9, as a `State` of velocities and accelerations."""
     acceleration = compute_acceleration(actuator, x, u, load)
     return State(
@@ -148,8 +150,8 @@ def compute_rate(actuator, x, u, load):
 
 
 @compiled
-def shift(x, rate, step):
-    """X + step · ẋ; x and rate: `State`, step: s."""
+def shift(x: State, rate: State, step: float) -> State:
+    """x + step · ẋ; x and rate: `State`, step: s."""
     return State(
         x.q + step * rate.q,
         x.dq + step * rate.dq,
@@ -161,8 +163,10 @@ def shift(x, rate, step):
 
 
 @compiled
-def compute_disturbance(nominal, x, u, acceleration):
-    """W = J_n q̈ − F_n(x) − u: the torque that the nominal model does not explain (Eq 6–9).
+def compute_disturbance(
+    nominal: Actuator, x: State, u: Torque, acceleration: Acceleration
+) -> Disturbance:
+    """w = J_n q̈ − F_n(x) − u: the torque that the nominal model does not explain (Eq 6–9).
 
     nominal: `Actuator`. x: `State`. u: `Torque`, N·m. acceleration: the true one,
     rad/s². Returns `Disturbance`, N·m, positive with growing angles.
@@ -171,7 +175,9 @@ def compute_disturbance(nominal, x, u, acceleration):
 
 
 @compiled
-def compute_unexplained_torque(nominal, F, u, acceleration):
+def compute_unexplained_torque(
+    nominal: Actuator, F: InternalTorque, u: Torque, acceleration: Acceleration
+) -> Disturbance:
     """`compute_disturbance` where F = F_n(x), `InternalTorque`, N·m, is known."""
     return Disturbance(
         nominal.M * acceleration.ddq - F.link,

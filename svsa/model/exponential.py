@@ -52,7 +52,7 @@ L = (
 
 
 @compiled
-def split_exponent(x):
+def split_exponent(x: float) -> tuple[float, float]:
     """(2^k, e^r − 1) with x = k ln 2 + r, |r| ≤ ½ ln 2; x held between `LEAST` and `GREATEST`."""
     x = least(greatest(x, LEAST), GREATEST)
     k = np.floor(x * LOG2_E + 0.5)
@@ -68,22 +68,22 @@ def split_exponent(x):
 
 
 @compiled
-def exp(x):
+def exp(x: float) -> float:
     """eˣ; beyond `LEAST` and `GREATEST` that of the bound."""
     power, grown = split_exponent(x)
     return fma(power, grown, power)
 
 
 @compiled
-def expm1(x):
+def expm1(x: float) -> float:
     """eˣ − 1, exact to the last digits for small x too; beyond the bounds that of the bound."""
     power, grown = split_exponent(x)
     return fma(power, grown, power - 1.0)
 
 
 @compiled
-def log(x):
-    """Ln x for 10⁻³⁰⁰ ≤ x < ∞."""
+def log(x: float) -> float:
+    """ln x for 10⁻³⁰⁰ ≤ x < ∞."""
     m, e = choose(abs(x) < math.inf, take_fraction(x), x), take_exponent(x)
     small = m < HALF_SQRT_2
     m, e = choose(small, 2.0 * m, m), choose(small, e - 1.0, e)
@@ -98,15 +98,15 @@ def log(x):
 
 
 @compiled
-def log1p(x):
+def log1p(x: float) -> float:
     """ln(1 + x) for x > −1, exact to the last digits for small x too."""
     u = 1.0 + x
     return log(u) + (x - (u - 1.0)) / u
 
 
 @compiled
-def tanh(x):
-    """Tanh x = −(e^(−2|x|) − 1)/(e^(−2|x|) + 1) with the sign of x."""
+def tanh(x: float) -> float:
+    """tanh x = −(e^(−2|x|) − 1)/(e^(−2|x|) + 1) with the sign of x."""
     t = expm1(-2.0 * abs(x))
     size = -t / (2.0 + t)
     return choose(x >= 0.0, size, -size)

@@ -7,7 +7,7 @@ from svsa.model.trigonometry import acos
 
 
 @compiled
-def compute_lever_ratio(theta2, mu0, gamma):
+def compute_lever_ratio(theta2: float, mu0: float, gamma: float) -> float:
     """μ = μ0 + θ2 / (2πγ), Eq 4.
 
     theta2: stiffness motor angle, rad at the gearbox output. mu0: μ at θ2 = 0, 1.
@@ -17,13 +17,13 @@ def compute_lever_ratio(theta2, mu0, gamma):
 
 
 @compiled
-def compute_lever_ratio_slope(gamma):
+def compute_lever_ratio_slope(gamma: float) -> float:
     """μ' = dμ/dθ2 = 1 / (2πγ), 1/rad (from Eq 4)."""
     return 1.0 / (2.0 * math.pi * gamma)
 
 
 @compiled
-def compute_lever_ratio_for_stiffness(sigma, K):
+def compute_lever_ratio_for_stiffness(sigma: float, K: float) -> float:
     """The μ whose stiffness at φ = 0 is σ: μ = r/(1 + r), r = √(σ/K) (Eq 3 at φ = 0).
 
     sigma: N·m/rad, ≥ 0. K = K_s R²: N·m/rad, > 0. Returns μ in [0, 1).
@@ -33,7 +33,7 @@ def compute_lever_ratio_for_stiffness(sigma, K):
 
 
 @compiled
-def compute_zero_stiffness_deflection(mu):
+def compute_zero_stiffness_deflection(mu: float) -> float:
     """The |φ| at which σ reaches zero: cos 2φ = μ cos φ (numerator of Eq 3).
 
     With c = cos φ: 2c² − μc − 1 = 0, c = (μ + √(μ² + 8))/4. Beyond this angle the spring

@@ -3,10 +3,10 @@
 from typing import NamedTuple
 
 from svsa.compilation import compiled
-from svsa.model.dynamics import compute_deflection, compute_internal_torque
+from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import compute_spring_derivatives
-from svsa.signals import Torque
+from svsa.signals import State, Torque
 
 
 class Linearization(NamedTuple):
@@ -32,7 +32,7 @@ class Linearization(NamedTuple):
 
 
 @compiled
-def compute_linearization(nominal, x):
+def compute_linearization(nominal: Actuator, x: State) -> Linearization:
     """L_f^k h1, L_f^k h2 and A(x) at the state x, with the constants of the nominal model.
 
     a = (−D q̇ − τ_e)/M, j = (−D a − τ̇_e)/M, L_f⁴h1 = (−D j − τ̈_e)/M, and σ̇, σ̈, all
@@ -83,8 +83,8 @@ def compute_linearization(nominal, x):
 
 
 @compiled
-def solve_decoupling(linearization, y1, y2):
-    """U = A⁻¹ y for the 2×2 decoupling matrix A(x) (Eq 24, 36).
+def solve_decoupling(linearization: Linearization, y1: float, y2: float) -> Torque:
+    """u = A⁻¹ y for the 2×2 decoupling matrix A(x) (Eq 24, 36).
 
     y1: rad/s⁴. y2: N·m/rad/s². Returns `Torque`, N·m; not finite where A is singular
     (the domain guard stops a run before).

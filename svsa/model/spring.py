@@ -48,7 +48,7 @@ class Spring(NamedTuple):
 
 
 @compiled
-def compute_spring(mu, phi):
+def compute_spring(mu: float, phi: float) -> Spring:
     """`Spring` at μ and φ; one division for both reciprocals. Exact to the last digits, |φ| ≤ π/4.
 
     The stiffness is zero at less than π/4 for every μ, so that no run that goes on leaves this.
@@ -61,21 +61,21 @@ def compute_spring(mu, phi):
 
 
 @compiled
-def compute_elastic_torque(mu, phi, K):
+def compute_elastic_torque(mu: float, phi: float, K: float) -> float:
     """τ_e = K μ² sin φ cos φ / (1 − μ cos φ)², N·m, Eq 2. Positive pulls q back."""
     p = compute_spring(mu, phi)
     return K * mu * mu * p.s * p.c * (p.i * p.i)
 
 
 @compiled
-def compute_stiffness(mu, phi, K):
+def compute_stiffness(mu: float, phi: float, K: float) -> float:
     """σ = ∂τ_e/∂φ = K μ² (cos 2φ − μ cos φ) / (1 − μ cos φ)³, N·m/rad, Eq 3."""
     p = compute_spring(mu, phi)
     return K * mu * mu * (2.0 * p.c * p.c - 1.0 - mu * p.c) * (p.i * p.i * p.i)
 
 
 @compiled
-def compute_elastic_energy(mu, phi, K):
+def compute_elastic_energy(mu: float, phi: float, K: float) -> float:
     """V = K [1/(1−μ) − 1/n + ln((1−μ)/n)], J; zero at φ = 0, ∂V/∂φ = τ_e exactly.
 
     Written with ε = μ(1 − cos φ)/(1 − μ), so that nothing cancels at small deflection.
@@ -86,7 +86,7 @@ def compute_elastic_energy(mu, phi, K):
 
 
 @compiled
-def compute_reaction_torque(mu, phi, K, gamma):
+def compute_reaction_torque(mu: float, phi: float, K: float, gamma: float) -> float:
     """τ_r = ∂V/∂θ2 = K μ [1/(1−μ)² − cos²φ/n²] / (2πγ) ≥ 0, N·m; replaces Eq 5.
 
     Written with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n), so that nothing cancels. gamma:
@@ -98,7 +98,7 @@ def compute_reaction_torque(mu, phi, K, gamma):
 
 
 @compiled
-def compute_printed_reaction_torque(mu, phi, K):
+def compute_printed_reaction_torque(mu: float, phi: float, K: float) -> float:
     """τ_r as printed in Eq 5, times R and positive, N·m: kept to compare with, not to use.
 
     R K_s R² a² |sin 2β| sin²φ / [2 (R − a cos φ)(a² + R² − 2 a R cos φ)] with a = μR and
@@ -112,7 +112,7 @@ def compute_printed_reaction_torque(mu, phi, K):
 
 
 @compiled
-def compute_spring_derivatives(mu, phi, K):
+def compute_spring_derivatives(mu: float, phi: float, K: float) -> SpringDerivatives:
     """All of `SpringDerivatives` by the quotient rule on Eq 2 and 3.
 
     τ_e = K μ² S/n² with S = sin φ cos φ; σ = K μ² N/n³ with N = cos 2φ − μ cos φ;

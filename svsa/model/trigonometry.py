@@ -57,7 +57,7 @@ P = (
 
 
 @compiled
-def sin_versin(x):
+def sin_versin(x: float) -> tuple[float, float]:
     """(sin x, 1 − cos x), rad, for |x| ≤ π/4, where nothing has to be reduced.
 
     Beyond it both lose digits, not at once: an error of 3·10⁻¹⁰ at π/2.
@@ -69,7 +69,7 @@ def sin_versin(x):
 
 
 @compiled
-def sin_cos(x):
+def sin_cos(x: float) -> tuple[float, float]:
     """(sin x, cos x); x in rad, |x| ≤ 10⁹. NaN where x is not finite.
 
     x = k π/2 + r + y with |r| ≤ π/4 and y what does not fit into r (Cody and Waite, with a
@@ -94,20 +94,20 @@ def sin_cos(x):
 
 
 @compiled
-def sin(x):
-    """Sin x; x in rad, |x| ≤ 10⁹. NaN where x is not finite."""
+def sin(x: float) -> float:
+    """sin x; x in rad, |x| ≤ 10⁹. NaN where x is not finite."""
     return sin_cos(x)[0]
 
 
 @compiled
-def cos(x):
-    """Cos x; x in rad, |x| ≤ 10⁹. NaN where x is not finite."""
+def cos(x: float) -> float:
+    """cos x; x in rad, |x| ≤ 10⁹. NaN where x is not finite."""
     return sin_cos(x)[1]
 
 
 @compiled
-def acos(x):
-    """Arccos x = 2 asin √((1 − x)/2), rad, for ½ ≤ x ≤ 1; NaN above 1."""
+def acos(x: float) -> float:
+    """arccos x = 2 asin √((1 − x)/2), rad, for ½ ≤ x ≤ 1; NaN above 1."""
     z = 0.5 - 0.5 * x
     s = math.sqrt(z)
     low = 0.5 * fma(-s, s, z) / greatest(s, TINY)

@@ -6,9 +6,9 @@ from pydantic import Field
 
 from svsa.checked import Checked, Number, quantity
 from svsa.compilation import compiled
-from svsa.model.dynamics import compute_internal_torque
+from svsa.model.dynamics import Actuator, InternalTorque, compute_internal_torque
 from svsa.model.exponential import expm1
-from svsa.signals import Disturbance
+from svsa.signals import Disturbance, State, Torque
 
 Bandwidth = Annotated[Number, Field(ge=0.1, le=1000)]
 
@@ -28,7 +28,15 @@ def compute_shares(observer: ObserverBandwidth, period: float) -> tuple[float, f
 
 
 @compiled
-def update_disturbance_estimate(nominal, shares, estimate, x_old, x_new, torque, period):
+def update_disturbance_estimate(
+    nominal: Actuator,
+    shares: tuple[float, float, float],
+    estimate: Disturbance,
+    x_old: State,
+    x_new: State,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
     """ŵ ← ŵ + (1 − e^(−βT)) [J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ].
 
     Eq 10 with the gain of Eq 14 and 15 (λ = k x, β = k/J), over one sample with both of
@@ -49,8 +57,16 @@ def update_disturbance_estimate(nominal, shares, estimate, x_old, x_new, torque,
 
 @compiled
 def correct_disturbance_estimate(
-    nominal, shares, estimate, x_old, F_old, x_new, F_new, torque, period
-):
+    nominal: Actuator,
+    shares: tuple[float, float, float],
+    estimate: Disturbance,
+    x_old: State,
+    F_old: InternalTorque,
+    x_new: State,
+    F_new: InternalTorque,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
     """`update_disturbance_estimate` where F at both ends, `InternalTorque`, N·m, is known."""
     seen = compute_unexplained_mean(nominal, x_old, F_old, x_new, F_new, torque, period)
     return Disturbance(
@@ -61,7 +77,15 @@ def correct_disturbance_estimate(
 
 
 @compiled
-def compute_unexplained_mean(nominal, x_old, F_old, x_new, F_new, torque, period):
+def compute_unexplained_mean(
+    nominal: Actuator,
+    x_old: State,
+    F_old: InternalTorque,
+    x_new: State,
+    F_new: InternalTorque,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
     """J (v_new − v_old)/T − ½(F_new + F_old) − u, `Disturbance`, N·m: the mean w of a sample."""
     rate = 1.0 / period
     return Disturbance(

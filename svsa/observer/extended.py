@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.compilation import compiled
 from svsa.lanes.choice import choose
 from svsa.model.exponential import exp
@@ -32,7 +34,14 @@ def build_triple_pole(omega: float, period: float) -> TriplePole:
 
 
 @compiled
-def observe_extended(gains, memory, measured, velocity, input_acceleration, period):
+def observe_extended(
+    gains: TriplePole,
+    memory: np.record,
+    measured: float,
+    velocity: float,
+    input_acceleration: float,
+    period: float,
+) -> None:
     """Predicted by z̈ = z3 + b u over the last period, then corrected by what is measured.
 
     gains: `TriplePole`. memory: `Extended`, written; it starts where the measurement is.

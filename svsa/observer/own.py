@@ -5,11 +5,13 @@ They see what the law is told, x̂ and the torque that really acted, and so do n
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.compilation import compiled
 from svsa.lanes.choice import choose
-from svsa.model.dynamics import compute_internal_torque
+from svsa.model.dynamics import Actuator, InternalTorque, compute_internal_torque
 from svsa.observer.disturbance import compute_unexplained_mean
-from svsa.signals import Disturbance, State
+from svsa.signals import Disturbance, State, Torque
 
 AT_START = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -31,13 +33,13 @@ class Observed(NamedTuple):
 
 
 @compiled
-def get_observed(memory):
+def get_observed(memory: np.record) -> Disturbance:
     """ŵ as `Disturbance`, N·m."""
     return Disturbance(memory.w2, memory.w4, memory.w6)
 
 
 @compiled
-def remember_state(memory, x):
+def remember_state(memory: np.record, x: State) -> None:
     """Keep x̂, `State`, for the period to come."""
     memory.x.q, memory.x.dq = x.q, x.dq
     memory.x.theta1, memory.x.dtheta1 = x.theta1, x.dtheta1
@@ -46,7 +48,15 @@ def remember_state(memory, x):
 
 
 @compiled
-def observe_disturbance(nominal, share, rate_share, memory, x, torque, period):
+def observe_disturbance(
+    nominal: Actuator,
+    share: float,
+    rate_share: float,
+    memory: np.record,
+    x: State,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
     """ŵ by an observer that knows its rate: ŵ += T ŵ̇, then ŵ += g r, ŵ̇ += h r/T.
 
     r = J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ, over the last sample with both of its
@@ -62,7 +72,17 @@ def observe_disturbance(nominal, share, rate_share, memory, x, torque, period):
 
 
 @compiled
-def observe_unexplained(nominal, share, rate_share, memory, x, F_old, F_new, torque, period):
+def observe_unexplained(
+    nominal: Actuator,
+    share: float,
+    rate_share: float,
+    memory: np.record,
+    x: State,
+    F_old: InternalTorque,
+    F_new: InternalTorque,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
     """`observe_disturbance` with F at both ends by a model of one's own, `InternalTorque`, N·m."""
     seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
     g = choose(memory.is_started > 0.0, share, 0.0)

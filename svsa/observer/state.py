@@ -1,19 +1,21 @@
 """The state estimator: measured positions → x̂, by predictor and corrector."""
 
 from svsa.compilation import compiled
-from svsa.model.dynamics import ExternalLoad, compute_rate, shift
-from svsa.signals import State
+from svsa.model.dynamics import Actuator, ExternalLoad, compute_rate, shift
+from svsa.signals import Disturbance, Measurement, State, Torque
 
 
 @compiled
-def build_measured_state(measurement):
+def build_measured_state(measurement: Measurement) -> State:
     """x̂ where velocities are known: q = θ1 + φ and the rest as measured."""
     y = measurement
     return State(y.theta1 + y.phi, y.dq, y.theta1, y.dtheta1, y.theta2, y.dtheta2)
 
 
 @compiled
-def correct(position, velocity, measured, decay, period):
+def correct(
+    position: float, velocity: float, measured: float, decay: float, period: float
+) -> tuple[float, float]:
     """Both moved towards the measured position (rad), critically damped.
 
     With p = e^(−ωT) for the corner ω: position += (1 − p²) r, velocity += (1 − p)²/T · r, r =
@@ -26,7 +28,9 @@ def correct(position, velocity, measured, decay, period):
 
 
 @compiled
-def predict_state(nominal, x, w, torque, period):
+def predict_state(
+    nominal: Actuator, x: State, w: Disturbance, torque: Torque, period: float
+) -> State:
     """x̂ a period later by Heun's rule on ẋ = f(x) + g(x)u + p(x)ŵ.
 
     nominal: `Actuator`. x: `State`. w: ŵ, `Disturbance`, N·m. torque: `Torque`. period: T, s.
@@ -38,7 +42,15 @@ def predict_state(nominal, x, w, torque, period):
 
 
 @compiled
-def update_state_estimate(nominal, decay, x, w, torque, measurement, period):
+def update_state_estimate(
+    nominal: Actuator,
+    decay: float,
+    x: State,
+    w: Disturbance,
+    torque: Torque,
+    measurement: Measurement,
+    period: float,
+) -> State:
     """x̂ after a sample: predicted by the nominal model with ŵ (Eq 8), then corrected.
 
     nominal: `Actuator`. decay: e^(−ωT) of the corner ω. x: the last x̂, `State`. w: ŵ,

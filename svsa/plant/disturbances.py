@@ -223,7 +223,7 @@ def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
 
 
 @compiled
-def compute_load(table, tick, period, time):
+def compute_load(table: LoadTable, tick: int, period: float, time: float) -> ExternalLoad:
     """The sum of all active loads at `time`, during the sample that began at `tick`.
 
     Whether a load is on is decided by the tick, so that a step falls between two samples
@@ -255,7 +255,7 @@ def compute_load(table, tick, period, time):
 
 
 @compiled
-def interpolate(points, first, count, column, time):
+def interpolate(points: np.ndarray, first: int, count: int, column: int, time: float) -> float:
     """A column of `count` points from `first` on at `time`, on straight lines; zero before them."""
     if time < points[first, 0]:
         return 0.0

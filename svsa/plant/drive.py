@@ -7,7 +7,7 @@ from svsa.signals import Torque
 
 
 @compiled
-def approach(start, target, rest):
+def approach(start: Torque, target: Torque, rest: float) -> Torque:
     """`Torque` with this share (1) of the way from `start` to `target` left, N·m."""
     return Torque(
         target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
@@ -15,7 +15,7 @@ def approach(start, target, rest):
 
 
 @compiled
-def compute_lagged_torque(start, target, lag, since):
+def compute_lagged_torque(start: Torque, target: Torque, lag: float, since: float) -> Torque:
     """First-order lag of the current loop: u + (τ_0 − u) e^(−t/τ), N·m.
 
     start: `Torque` at the beginning of the period. target: `Torque` asked for. lag: time
@@ -28,7 +28,7 @@ def compute_lagged_torque(start, target, lag, since):
 
 
 @compiled
-def compute_mean_torque(start, target, lag, period):
+def compute_mean_torque(start: Torque, target: Torque, lag: float, period: float) -> Torque:
     """The mean of `compute_lagged_torque` over a period (s): what the observer is told."""
     lags = lag > 0.0
     if not some(lags):
@@ -38,7 +38,9 @@ def compute_mean_torque(start, target, lag, period):
 
 
 @compiled
-def compute_late_torque(start, before, target, lag, latency, period):
+def compute_late_torque(
+    start: Torque, before: Torque, target: Torque, lag: float, latency: float, period: float
+) -> tuple[Torque, Torque]:
     """The motors' torque where a new target comes `latency` (s) after the period began.
 
     start: `Torque` made at the beginning. before, target: asked for until and after, N·m.

@@ -5,7 +5,9 @@ from svsa.model.exponential import exp, tanh
 
 
 @compiled
-def compute_friction(velocity, coulomb, static, stribeck, creep):
+def compute_friction(
+    velocity: float, coulomb: float, static: float, stribeck: float, creep: float
+) -> float:
     """τ_f = [τ_c + (τ_s − τ_c) e^(−(v/v_s)²)] tanh(v/v_c), N·m, against the motion.
 
     velocity v: rad/s. coulomb τ_c, static τ_s: N·m. stribeck v_s: rad/s, > 0. creep v_c:

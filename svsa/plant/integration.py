@@ -2,15 +2,19 @@
 
 from svsa.compilation import compiled
 from svsa.lanes.choice import choose, some
-from svsa.model.dynamics import ExternalLoad, compute_rate, shift
-from svsa.plant.disturbances import compute_load
+from svsa.model.dynamics import Actuator, ExternalLoad, compute_rate, shift
+from svsa.plant.disturbances import LoadTable, compute_load
 from svsa.plant.drive import compute_lagged_torque
+from svsa.plant.effects import Bench
 from svsa.plant.friction import compute_friction
-from svsa.plant.stops import hit_stops
+from svsa.plant.stops import Stops, hit_stops
+from svsa.signals import State, Torque
 
 
 @compiled
-def compute_plant_load(bench, table, x, tick, period, time):
+def compute_plant_load(
+    bench: Bench, table: LoadTable, x: State, tick: int, period: float, time: float
+) -> ExternalLoad:
     """All that acts on the plant besides the motors: loads, weight of the link, friction.
 
     bench: `Bench`. table: `LoadTable`. x: `State`. Returns `ExternalLoad`.
@@ -19,7 +23,7 @@ def compute_plant_load(bench, table, x, tick, period, time):
 
 
 @compiled
-def add_resistance(bench, load, x):
+def add_resistance(bench: Bench, load: ExternalLoad, x: State) -> ExternalLoad:
     """The load of the table and what the plant has of its own: weight of the link, friction."""
     b, w4, w6 = bench, load.w4, load.w6
     rubs1, rubs2 = b.static1 > 0.0, b.static2 > 0.0
@@ -33,13 +37,25 @@ def add_resistance(bench, load, x):
 
 
 @compiled
-def compute_plant_rate(actuator, bench, x, torque, load):
+def compute_plant_rate(
+    actuator: Actuator, bench: Bench, x: State, torque: Torque, load: ExternalLoad
+) -> State:
     """ẋ of the plant under the motors' torque, the loads and everything else that acts (Eq 1)."""
     return compute_rate(actuator, x, torque, add_resistance(bench, load, x))
 
 
 @compiled
-def integrate_period(actuator, bench, x, start, target, table, tick, period, steps):
+def integrate_period(
+    actuator: Actuator,
+    bench: Bench,
+    x: State,
+    start: Torque,
+    target: Torque,
+    table: LoadTable,
+    tick: int,
+    period: float,
+    steps: int,
+) -> State:
     """The state at the end of the control period that begins at `tick` (RK4).
 
     actuator: `Actuator`, the true plant. bench: `Bench`. x: `State`. start: `Torque` that
@@ -53,7 +69,19 @@ def integrate_period(actuator, bench, x, start, target, table, tick, period, ste
 
 
 @compiled
-def integrate_from(actuator, bench, x, rate, start, target, table, load, tick, period, steps):
+def integrate_from(
+    actuator: Actuator,
+    bench: Bench,
+    x: State,
+    rate: State,
+    start: Torque,
+    target: Torque,
+    table: LoadTable,
+    load: ExternalLoad,
+    tick: int,
+    period: float,
+    steps: int,
+) -> State:
     """`integrate_period` where ẋ (`rate`) and the load at the beginning are known."""
     h = period / steps
     early = load
@@ -75,14 +103,27 @@ def integrate_from(actuator, bench, x, rate, start, target, table, load, tick, p
 
 
 @compiled
-def follow_load(table, before, tick, period, time):
+def follow_load(
+    table: LoadTable, before: ExternalLoad, tick: int, period: float, time: float
+) -> ExternalLoad:
     """The load at `time` (s) in the period of `tick`; `before` where none of them changes."""
     return compute_load(table, tick, period, time) if table.changing else before
 
 
 @compiled
-def coast(actuator, bench, stops, x, torque, target, table, tick, period, count):
-    """X and the motors' torque `count` periods after `tick`, the target held (RK4, one step each).
+def coast(
+    actuator: Actuator,
+    bench: Bench,
+    stops: Stops,
+    x: State,
+    torque: Torque,
+    target: Torque,
+    table: LoadTable,
+    tick: int,
+    period: float,
+    count: int,
+) -> tuple[State, Torque]:
+    """x and the motors' torque `count` periods after `tick`, the target held (RK4, one step each).
 
     actuator: `Actuator`, the true plant. bench: `Bench`. stops: `Stops`. x: `State`.
     torque: `Torque` that the motors make at the beginning, target: `Torque` asked of them,

@@ -21,7 +21,7 @@ _CHANNELS, _ONE = np.uint64(64), np.uint64(1)
 
 
 @compiled
-def scramble(counter):
+def scramble(counter: int) -> np.uint64:
     """SplitMix64's output function: 64 well-mixed bits of a counter (Steele et al. 2014)."""
     z = (counter + _ONE) * _GOLDEN
     z = (z ^ (z >> _S30)) * _MIX1
@@ -30,7 +30,7 @@ def scramble(counter):
 
 
 @compiled
-def draw_uniform(seed, tick, channel):
+def draw_uniform(seed: int, tick: int, channel: int) -> float:
     """A number in (0, 1) for this seed, tick and channel (whole numbers ≥ 0, channel < 64)."""
     position = np.uint64(tick) * _CHANNELS + np.uint64(channel)
     bits = scramble(scramble(as_bits(seed)) + position)
@@ -38,7 +38,7 @@ def draw_uniform(seed, tick, channel):
 
 
 @compiled
-def draw_normal(seed, tick, channel):
+def draw_normal(seed: int, tick: int, channel: int) -> float:
     """A standard normal number (Box–Muller) from the channels 2·channel and 2·channel + 1."""
     radius = math.sqrt(-2.0 * log(draw_uniform(seed, tick, 2 * channel)))
     return radius * cos(2.0 * math.pi * draw_uniform(seed, tick, 2 * channel + 1))

@@ -4,12 +4,13 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.lanes.choice import choose, some
+from svsa.plant.effects import Bench
 from svsa.plant.noise import draw_normal
-from svsa.signals import Measurement
+from svsa.signals import Measurement, State
 
 
 @compiled
-def quantize(angle, step):
+def quantize(angle: float, step: float) -> float:
     """The angle in whole counts of `step` (rad), rounded to the nearest; as it is for step 0."""
     counts = step > 0.0
     if not some(counts):
@@ -18,7 +19,7 @@ def quantize(angle, step):
 
 
 @compiled
-def add_noise(angle, std, seed, tick, channel):
+def add_noise(angle: float, std: float, seed: int, tick: int, channel: int) -> float:
     """The angle with normal noise of this standard deviation, rad."""
     noisy = std > 0.0
     if not some(noisy):
@@ -27,14 +28,14 @@ def add_noise(angle, std, seed, tick, channel):
 
 
 @compiled
-def are_inexact(bench):
+def are_inexact(bench: Bench) -> bool:
     """Whether the sensors have counts or noise; else what is measured is the state itself."""
     counts, noise = bench.motor_step + bench.deflection_step, bench.motor_std + bench.deflection_std
     return counts + noise > 0.0
 
 
 @compiled
-def read_sensors(bench, x, tick):
+def read_sensors(bench: Bench, x: State, tick: int) -> Measurement:
     """θ1, θ2 from the motor encoders and φ from the deflection encoder; velocities as known.
 
     bench: `Bench`. x: `State` at the start of `tick`. Returns `Measurement`.

@@ -15,7 +15,7 @@ class Stops(NamedTuple):
 
 
 @compiled
-def hit_stops(stops, x, inertia, inertia1):
+def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
     """The state after an inelastic hit, or x as it is between the stops.
 
     The stiffness motor stands still at its stop. At the stop of the deflection link and

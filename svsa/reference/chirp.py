@@ -73,8 +73,16 @@ class ChirpStiffness(_Chirp):
 
 
 @compiled
-def compute_chirp(offset, amplitude, start, end, duration, taper, time):
-    """R of `_Chirp` and its four derivatives at the chirp's own time (s).
+def compute_chirp(
+    offset: float,
+    amplitude: float,
+    start: float,
+    end: float,
+    duration: float,
+    taper: float,
+    time: float,
+) -> Derivatives:
+    """r of `_Chirp` and its four derivatives at the chirp's own time (s).
 
     With p = φ̇ and the constant r = φ̈, sin φ has the derivatives c p, −s p² + c r,
     −c p³ − 3 s p r and s p⁴ − 6 c p² r − 3 s r². start, end: Hz. duration, taper: s.

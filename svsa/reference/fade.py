@@ -5,7 +5,7 @@ from svsa.reference.shape import Derivatives
 
 
 @compiled
-def compute_fade(start, duration, time):
+def compute_fade(start: float, duration: float, time: float) -> Derivatives:
     """The weight w and four derivatives: 0 before `start`, 1 after start + duration (s).
 
     w(x) = x⁵ (126 − 420x + 540x² − 315x³ + 70x⁴), x = (t − start)/duration: the polynomial
@@ -28,8 +28,8 @@ def compute_fade(start, duration, time):
 
 
 @compiled
-def blend(old, new, w):
-    """Old + w (new − old) to the 4th derivative, by Leibniz's rule; all `Derivatives`."""
+def blend(old: Derivatives, new: Derivatives, w: Derivatives) -> Derivatives:
+    """old + w (new − old) to the 4th derivative, by Leibniz's rule; all `Derivatives`."""
     e0, e1, e2 = new.d0 - old.d0, new.d1 - old.d1, new.d2 - old.d2
     e3, e4 = new.d3 - old.d3, new.d4 - old.d4
     return Derivatives(

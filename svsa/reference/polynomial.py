@@ -1,12 +1,16 @@
 """The value and four derivatives of one of many piecewise polynomials."""
 
+import numpy as np
+
 from svsa.compilation import compiled
 from svsa.reference.curve import DEGREE
 from svsa.reference.shape import Derivatives
 
 
 @compiled
-def compute_polynomial(breaks, coefficients, first, count, time):
+def compute_polynomial(
+    breaks: np.ndarray, coefficients: np.ndarray, first: int, count: int, time: float
+) -> Derivatives:
     """Σ c_k (t − t_i)^k and its derivatives by Horner's scheme; held before t_0 and at the end.
 
     breaks: (m,), s. coefficients: (m, 10). first, count: which of them are this curve's.

@@ -76,8 +76,10 @@ def build_sine(
 
 
 @compiled
-def compute_sine(offset, amplitude, omega, phase, time):
-    """Offset + amplitude sin(ωt + phase) with four derivatives; ω in rad/s, t in s."""
+def compute_sine(
+    offset: float, amplitude: float, omega: float, phase: float, time: float
+) -> Derivatives:
+    """offset + amplitude sin(ωt + phase) with four derivatives; ω in rad/s, t in s."""
     if amplitude == 0.0:
         return Derivatives(offset, 0.0, 0.0, 0.0, 0.0)
     angle = omega * time + phase

@@ -20,7 +20,7 @@ from svsa.reference.chirp import compute_chirp
 from svsa.reference.curve import DEGREE
 from svsa.reference.fade import blend, compute_fade
 from svsa.reference.polynomial import compute_polynomial
-from svsa.reference.shape import CHIRP, CURVE, MOST_NUMBERS, SINE
+from svsa.reference.shape import CHIRP, CURVE, MOST_NUMBERS, SINE, Derivatives
 from svsa.reference.sine import compute_sine
 from svsa.reference.trajectories import Trajectory
 
@@ -84,7 +84,7 @@ def _drop(stack: Stack, count: int) -> Stack:
 
 
 @compiled
-def compute_row(stack, i, time):
+def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
     """The i-th trajectory of the stack and its four derivatives at `time` (s)."""
     r = stack.rows
     if r[i, KIND] == SINE:
@@ -97,7 +97,7 @@ def compute_row(stack, i, time):
 
 
 @compiled
-def compute_trajectory(stack, time):
+def compute_trajectory(stack: Stack, time: float) -> Derivatives:
     """The running reference and its four derivatives at `time` (s).
 
     stack: as `build_stack` and `push_trajectory` make it.

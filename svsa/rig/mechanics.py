@@ -56,7 +56,7 @@ class Mechanics:
         return sum(load.end_tick > self._tick for load in self._loads)
 
     def read(self, time_us: int) -> State:
-        """X at this time; between two points of the grid it goes on with its velocities."""
+        """x at this time; between two points of the grid it goes on with its velocities."""
         self._coast(time_us // GRID_US)
         since = time_us * 1e-6 - self._tick * _PERIOD_S
         x = self._x

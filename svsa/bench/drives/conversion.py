@@ -34,7 +34,7 @@ def compute_current_ma(torque: float, scale: MotorScale) -> int:
 
 
 def build_deflection_scale(deflection: DeflectionSettings) -> float:
-    """Rad of φ for a count, with its sign."""
+    """rad of φ for a count, with its sign."""
     return (deflection.sign or 1) * 2.0 * math.pi / (deflection.counts_per_rev or 1)
 
 

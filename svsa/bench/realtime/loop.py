@@ -149,7 +149,7 @@ class BenchLoop:
     def _decide(
         self, y: Measurement, ages_s: tuple[float, float, float]
     ) -> tuple[State, Disturbance, Torque]:
-        """X̂, ŵ and the torque that is asked for. It begins at rest where y was measured first."""
+        """x̂, ŵ and the torque that is asked for. It begins at rest where y was measured first."""
         if not self._is_known:
             self._known[:] = (y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
             self._is_known = True
