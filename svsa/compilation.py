@@ -15,10 +15,8 @@ anew what is made of it, and nothing else: a law is no part of the loop that cal
 
 import contextlib
 import hashlib
-import os
 import platform
 import re
-import shutil
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -28,11 +26,11 @@ from typing import Any
 import numba
 from numba.core import config, event
 
+from svsa.code_cache import open_folder
 from svsa.fused import FusingCompiler
 
 _LIBRARY = Path(__file__).parent
 _IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
-_KEPT_CACHES = 3
 _OPTIONS: dict[str, Any] = {
     "nogil": True,
     "error_model": "numpy",
@@ -91,26 +89,10 @@ def _compute_fingerprint(file: Path) -> str:
     return digest.hexdigest()[:16]
 
 
-def _choose_cache_root() -> Path:
-    """`SVSA_CACHE`, or the user's cache folder."""
-    if chosen := os.environ.get("SVSA_CACHE"):
-        return Path(chosen)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "svsa"
-
-
 @cache
 def _open_cache(module: str, file: Path) -> Path | None:
     """The cache folder of a file's functions; None where none can be written."""
-    folder = _choose_cache_root() / module / _compute_fingerprint(file)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        os.utime(folder)
-        caches = sorted(folder.parent.iterdir(), key=os.path.getmtime, reverse=True)
-    except OSError:
-        return None
-    for stale in caches[_KEPT_CACHES:]:
-        shutil.rmtree(stale, ignore_errors=True)
-    return folder if os.access(folder, os.W_OK) else None
+    return open_folder(module, _compute_fingerprint(file))
 
 
 def compiled(function: Callable[..., Any]) -> Any:
