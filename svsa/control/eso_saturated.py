@@ -21,8 +21,10 @@ from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
+from svsa.model.dynamics import Actuator
 from svsa.model.exponential import exp
-from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.model.linearization import Linearization, compute_linearization, solve_decoupling
+from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class Observers(LawParameters):
@@ -115,7 +117,9 @@ def build(parameters: Observers, setting: Setting) -> Constants:
 
 
 @compiled
-def observe_position(gains, z, ξ, y, is_started, T):
+def observe_position(
+    gains: Gains5, z: np.ndarray, ξ: Linearization, y: float, is_started: bool, T: float
+) -> None:
     """The chain of q a period on, under the y that was made, rad/s⁴, then corrected by q."""
     z0, z1, z2, z3, d = z[0], z[1], z[2], z[3], z[4]
     a = y + d
@@ -132,7 +136,9 @@ def observe_position(gains, z, ξ, y, is_started, T):
 
 
 @compiled
-def observe_stiffness(gains, z, ξ, y, is_started, T):
+def observe_stiffness(
+    gains: Gains3, z: np.ndarray, ξ: Linearization, y: float, is_started: bool, T: float
+) -> None:
     """The chain of σ a period on, under the y that was made, then corrected by σ."""
     z0, z1, d = z[0], z[1], z[2]
     a = y + d
@@ -144,8 +150,17 @@ def observe_stiffness(gains, z, ξ, y, is_started, T):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
-    """U = A⁻¹(y − drift), y1 = q_d⁗ + … + λ(s − ζ1) − d1, y2 likewise, N·m, before limits."""
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u = A⁻¹(y − drift), y1 = q_d⁗ + … + λ(s − ζ1) − d1, y2 likewise, N·m, before limits."""
     c, m = constants, memory
     ξ = compute_linearization(nominal, x)
     is_started = m.is_started > 0.0

@@ -8,12 +8,16 @@ What does not repeat is FL's; a period that is not that of the reference teaches
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.feedback_linearization import GainConstants, compute_linearized_demand
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
+from svsa.model.dynamics import Actuator
 from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.signals import Disturbance, Reference, State, Torque
 
 KNOTS = 1000
 """Points in a period, between which the correction is a straight line."""
@@ -79,13 +83,13 @@ def build(parameters: Learning, setting: Setting) -> Constants:
 
 
 @compiled
-def read_correction(corrections, knot, share):
+def read_correction(corrections: np.ndarray, knot: int, share: float) -> float:
     """The correction between a knot and the next one."""
     return (1.0 - share) * corrections[knot] + share * corrections[(knot + 1) % KNOTS]
 
 
 @compiled
-def learn(constants, corrections, knot, error):
+def learn(constants: Constants, corrections: np.ndarray, knot: int, error: float) -> None:
     """Correct at a knot what led to this error, in place."""
     q = constants.smoothing
     beside = 0.5 * (corrections[(knot - 1) % KNOTS] + corrections[(knot + 1) % KNOTS])
@@ -94,8 +98,17 @@ def learn(constants, corrections, knot, error):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
-    """U = A⁻¹(b − v + (c0 c, s0 c_σ)), N·m, before limits; at every knot the error is learned."""
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u = A⁻¹(b − v + (c0 c, s0 c_σ)), N·m, before limits; at every knot the error is learned."""
     c = constants
     ξ = compute_linearization(nominal, x)
     y1, y2 = compute_linearized_demand(ξ, c.gains, reference)

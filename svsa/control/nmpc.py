@@ -24,9 +24,11 @@ from svsa.control.disturbed import compute_disturbed
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import greatest, least
+from svsa.model.dynamics import Actuator
 from svsa.model.exponential import expm1
 from svsa.model.linearization import compute_linearization, solve_decoupling
 from svsa.observer.own import Observed, observe_disturbance
+from svsa.signals import Disturbance, Reference, State, Torque
 
 BLOCKS = 10
 BLOCK_S = 0.005
@@ -144,7 +146,7 @@ def build(parameters: Horizon, setting: Setting) -> Constants:
 
 
 @compiled
-def plan(problem, blocks, e, low, high):
+def plan(problem: Plan, blocks: np.ndarray, e: tuple[float, ...], low: float, high: float) -> float:
     """Sweeps of projected Gauss–Seidel from the plan of the last tick, in place.
 
     e: error and its rates. low, high: bounds of every block's input. Returns the first block's.
@@ -162,7 +164,16 @@ def plan(problem, blocks, e, low, high):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """The first block of both plans, as torques; `Torque`, N·m. constants: `Constants`."""
     c = constants
     w = observe_disturbance(nominal, c.share, 0.0, memory.observed, x, applied, period)

@@ -12,17 +12,19 @@ link swings, and what has left its funnel is met with what is met at its edge, 9
 
 from typing import NamedTuple
 
+import numpy as np
+
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.linear_dob import compute_stiffness_slope
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import greatest, least
-from svsa.model.dynamics import compute_deflection
+from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.exponential import log
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import compute_elastic_torque, compute_stiffness
-from svsa.signals import Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 EDGE = 0.99
 
@@ -87,14 +89,23 @@ def build(parameters: Funnels, setting: Setting) -> Constants:
 
 
 @compiled
-def push_inside(error, width):
+def push_inside(error: float, width: float) -> float:
     """ρ ε(e/ρ): the error, the more of it the nearer to the edge of its funnel."""
     x = least(greatest(error / width, -EDGE), EDGE)
     return 0.5 * width * log((1.0 + x) / (1.0 - x))
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """See above; of the actuator it knows the spring only, for τ_e, σ and g. N·m."""
     c = constants
     phi = compute_deflection(x)

@@ -17,10 +17,10 @@ from svsa.control.law import Law, Setting
 from svsa.control.ndobc import compute_ndobc
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
-from svsa.model.dynamics import compute_internal_torque
+from svsa.model.dynamics import Actuator, compute_internal_torque
 from svsa.model.exponential import exp
 from svsa.observer.own import AT_START, remember_state
-from svsa.signals import Disturbance, State
+from svsa.signals import Disturbance, Reference, State, Torque
 
 POSITIONS_RAD = (-1.05, -0.35, 0.35, 1.05)
 VELOCITIES_RAD_PER_S = (-1.3, 0.0, 1.3)
@@ -85,7 +85,7 @@ def build(parameters: Network, setting: Setting) -> Constants:
 
 
 @compiled
-def compute_basis(constants, x, index):
+def compute_basis(constants: Constants, x: State | np.record, index: int) -> float:
     """The basis function with this index at (q, q̇): e^(−½ d²), d the distance over its width."""
     a = (x.q - POSITIONS_RAD[index // 3]) * constants.q
     b = (x.dq - VELOCITIES_RAD_PER_S[index % 3]) * constants.dq
@@ -93,7 +93,16 @@ def compute_basis(constants, x, index):
 
 
 @compiled
-def control(nominal, constants, memory, x, reference, estimate, applied, period):
+def control(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
     """The networks learn from the last period, then Eq 24 with what they say; `Torque`, N·m."""
     c = constants
     is_started = memory.is_started > 0.0
