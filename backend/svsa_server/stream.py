@@ -190,6 +190,6 @@ def _greet(hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...
         period_s=session.run.period_s,
         rate_hz=cursor.rate_hz,
         lanes=[lane + 1 for lane in cursor.read_lanes()],
-        channels=[StreamChannel(name=c.name, unit=c.unit, label=c.label) for c in named],
+        channels=[StreamChannel(**vars(channel)) for channel in named],
         state=build_state(hosted),
     ).model_dump_json()

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, Number, Whole, quantity
+from svsa.experiment.channels import ChannelName
 from svsa.run.configuration import MOST_LANES
 from svsa.signals import PLOTTED
 from svsa_server.session_schemas import SessionProgress, SessionState
@@ -39,7 +40,7 @@ class StreamRequest(Checked):
 class StreamChannel(BaseModel):
     """A column of the batches."""
 
-    name: str
+    name: ChannelName
     unit: str
     label: str
 

@@ -4479,8 +4479,11 @@ export interface components {
          * @description A column of the batches.
          */
         StreamChannel: {
-            /** Name */
-            name: string;
+            /**
+             * Name
+             * @enum {string}
+             */
+            name: "time_s" | "position_reference_rad" | "velocity_reference_rad_per_s" | "stiffness_reference_nm_per_rad" | "position_rad" | "velocity_rad_per_s" | "position_estimate_rad" | "velocity_estimate_rad_per_s" | "motor1_position_rad" | "motor1_velocity_rad_per_s" | "motor2_position_rad" | "motor2_velocity_rad_per_s" | "deflection_rad" | "deflection_limit_rad" | "lever_ratio" | "stiffness_nm_per_rad" | "position_error_rad" | "stiffness_error_nm_per_rad" | "torque1_nm" | "torque2_nm" | "disturbance_link_nm" | "disturbance_motor1_nm" | "disturbance_motor2_nm" | "estimate_link_nm" | "estimate_motor1_nm" | "estimate_motor2_nm" | "position_residual_rad" | "stiffness_residual_nm_per_rad";
             /** Unit */
             unit: string;
             /** Label */

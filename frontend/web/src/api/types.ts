@@ -63,6 +63,9 @@ export type RunDifference = Schemas["RunDifference"];
 export type RunList = Schemas["RunList"];
 export type RunPatch = Schemas["RunPatch"];
 export type RunSamples = Schemas["RunSamples"];
+export type Hello = Schemas["Hello"];
+/** A channel of the library, as the stream calls it. */
+export type StreamedName = Schemas["StreamChannel"]["name"];
 export type RunOrigin = Schemas["RunOrigin"];
 export type CommandKind = RunOrigin["commands"][number]["command"]["kind"];
 export type ExportName =

@@ -1,10 +1,11 @@
 /** The server's channels as plots show them: unit, scale, ink, and which belong together. */
-import type { SessionState } from "../api/types";
-import type { text } from "../text/en";
+import type { SessionState, StreamedName } from "../api/types";
+import type { DerivedName } from "../stream/derived";
 import { DEGREES_PER_RADIAN } from "../units";
 import type { PlotColour } from "./definitions";
 
-export type ChannelName = keyof typeof text.channelNames;
+/** Every channel of the library, and what the page derives of them. */
+export type ChannelName = Exclude<StreamedName, "time_s"> | DerivedName;
 
 interface ChannelLook {
   /** On screen. */

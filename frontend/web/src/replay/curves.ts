@@ -1,4 +1,5 @@
 /** Which channels are drawn where, for the lanes of a run. A new plot is a new entry here. */
+import type { StreamedName } from "../api/types";
 import type { PlotColour } from "../plots/definitions";
 import { inkOf } from "../plots/inks";
 import { text } from "../text/replay";
@@ -57,7 +58,7 @@ function copyStretch(
 export function definePlots(recording: Recording): ReplayPlot[] {
   const { run, arrays } = recording;
 
-  const read = (channel: string, factor: number): Float32Array[] => {
+  const read = (channel: StreamedName, factor: number): Float32Array[] => {
     const numbers = run.curves.channels[channel] ?? [];
     const scaled = new Map<number, Float32Array>();
     for (const number of numbers) {
@@ -66,7 +67,7 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     }
     return numbers.map((number) => scaled.get(number) as Float32Array);
   };
-  const lanes = (channel: string, factor: number): Curve[] => {
+  const lanes = (channel: StreamedName, factor: number): Curve[] => {
     const curves = new Map<number, Curve>();
     for (const [lane, values] of read(channel, factor).entries()) {
       const stretches = run.stretches[lane] ?? [];
@@ -86,7 +87,7 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     }
     return [...curves.values()];
   };
-  const reference = (channel: string, factor: number): Curve[] =>
+  const reference = (channel: StreamedName, factor: number): Curve[] =>
     read(channel, factor)
       .slice(0, 1)
       .map((values) => ({
@@ -97,7 +98,7 @@ export function definePlots(recording: Recording): ReplayPlot[] {
         values,
       }));
   /** The load on a lane may depend on where the lane is: one curve for all that are equal. */
-  const truth = (channel: string): Curve[] =>
+  const truth = (channel: StreamedName): Curve[] =>
     [...new Set(read(channel, 1))].map((values, index) => ({
       key: `${channel}.${index}`,
       label: plots.true,

@@ -1,13 +1,16 @@
 /** Several runs on one axis of time, on which 0 is where the window of their numbers begins. */
 import { readRun, readSamples } from "../api/runs";
-import type { MeasuredWindow, Metrics, RunDetails, RunSamples } from "../api/types";
+import type { MeasuredWindow, Metrics, RunDetails, RunSamples, StreamedName } from "../api/types";
 import type { Ink } from "../plots/definitions";
 import { inkOf } from "../plots/inks";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
 import { shiftToRecord } from "./measured";
 
-export const CHANNELS = ["position_error_rad", "stiffness_error_nm_per_rad"] as const;
+export const CHANNELS = [
+  "position_error_rad",
+  "stiffness_error_nm_per_rad",
+] as const satisfies readonly StreamedName[];
 export type OverlayChannel = (typeof CHANNELS)[number];
 const FACTORS: Record<OverlayChannel, number> = {
   position_error_rad: DEGREES_PER_RADIAN,

@@ -1,12 +1,12 @@
 /** The position error of a run, small: one path a lane, on one scale. */
 import { readRun, readSamples } from "../api/runs";
-import type { RunDetails, RunSamples } from "../api/types";
+import type { RunDetails, RunSamples, StreamedName } from "../api/types";
 
 export const WIDTH = 300;
 export const HEIGHT = 44;
 const POINTS = 240;
 const MARGIN = 2;
-const CHANNEL = "position_error_rad";
+const CHANNEL: StreamedName = "position_error_rad";
 /** A smaller error than this fills no plot, rad. */
 const SMALLEST = 1e-4;
 

@@ -2,7 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import { readState, streamAddress } from "../api/client";
 import { LockedError, RefusedError } from "../api/errors";
-import type { SessionState } from "../api/types";
+import type { Hello, SessionState } from "../api/types";
 import { type Finding, type Phase, StreamConnection } from "../stream/connection";
 import { decodeBatch } from "../stream/decoder";
 import { HISTORY_S, LONGEST_WINDOW_S, RATE_HZ } from "../stream/rates";
@@ -10,12 +10,6 @@ import { SampleRing } from "../stream/ring";
 
 const CAPACITY = LONGEST_WINDOW_S * RATE_HZ + 1;
 
-interface Hello {
-  type: "hello";
-  period_s: number;
-  channels: { name: string; unit: string; label: string }[];
-  state: SessionState;
-}
 /** After a change the whole state; once a second only the fields that move by themselves. */
 type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
 type TextMessage = Hello | { type: "state"; state: Progress };

@@ -1,9 +1,10 @@
 /** Channels that the page derives from two that are streamed: `of` less `less`, sample by sample. */
+import type { StreamedName } from "../api/types";
 
 export const DERIVED = {
   /** ė = q̇_d − q̇. */
   velocity_error_rad_per_s: { of: "velocity_reference_rad_per_s", less: "velocity_rad_per_s" },
-} as const;
+} as const satisfies Record<string, { of: StreamedName; less: StreamedName }>;
 
 export type DerivedName = keyof typeof DERIVED;
 const NAMES = Object.keys(DERIVED) as DerivedName[];
