@@ -77,6 +77,16 @@ FIND_PROBLEMS = """async (leastPlot) => {
         }
     }
 
+    for (const one of document.querySelectorAll(".button")) {
+        const words = [...one.childNodes].find(({ data }) => data?.trim());
+        if (words === undefined || !isSeen(one)) continue;
+        const range = document.createRange();
+        range.selectNodeContents(words);
+        const [inner, outer] = [range, one].map((part) => part.getBoundingClientRect());
+        const off = (inner.top + inner.bottom - outer.top - outer.bottom) / 2;
+        if (Math.abs(off) > 3) problems.push(`${named(one)} has its words ${off} px off its middle`);
+    }
+
     const walker = document.createTreeWalker(document.getElementById("app"), NodeFilter.SHOW_TEXT);
     for (let text = walker.nextNode(); text !== null; text = walker.nextNode()) {
         const one = text.parentElement;
