@@ -84,7 +84,7 @@ FIND_PROBLEMS = """async (leastPlot) => {
         range.selectNodeContents(words);
         const [inner, outer] = [range, one].map((part) => part.getBoundingClientRect());
         const off = (inner.top + inner.bottom - outer.top - outer.bottom) / 2;
-        if (Math.abs(off) > 3) problems.push(`${named(one)} has its words ${off} px off its middle`);
+        if (Math.abs(off) > 3) problems.push(`words of ${named(one)} are ${off} px off its middle`);
     }
 
     const walker = document.createTreeWalker(document.getElementById("app"), NodeFilter.SHOW_TEXT);

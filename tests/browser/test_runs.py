@@ -165,6 +165,20 @@ def test_a_replay_that_takes_its_time_is_told_of(
     expect(waiting).to_have_count(0)
 
 
+def test_a_replay_that_is_refused_says_why_and_can_be_asked_for_again(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    refusal = {"error": "busy", "message": "Too many wait: ask again in 5 s.", "violations": []}
+    page.route("**/replay", lambda route: route.fulfill(status=503, json=refusal))
+    page.goto(f"{own_lab.url}/?run={runs[1]}")
+    told = page.get_by_role("alert").filter(has_text="Too many wait: ask again in 5 s.")
+    expect(told).to_be_visible()
+    page.unroute("**/replay")
+    told.get_by_role("button", name="Try again").click()
+    expect(find_replay(page).get_by_role("button", name="Play")).to_be_visible(timeout=PATIENCE_MS)
+    expect(told).to_have_count(0)
+
+
 NUMBERS_CUT = """() => [...document.querySelectorAll(".overlay-table td, .overlay-table th")]
     .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText)"""
 

@@ -22,12 +22,25 @@ function passStop(event: KeyboardEvent): void {
   void pressStop();
 }
 
+/** What the server said in place of a replay, as where too many wait; null for a replay. */
+function readRefusal(shown: Document | null): string | null {
+  if (shown === null) return text.connection.unreachable;
+  if (shown.contentType === "text/html") return null;
+  try {
+    return String(JSON.parse(shown.body.innerText).message);
+  } catch {
+    return text.connection.unreachable;
+  }
+}
+
 /** The replay page of a run; made anew where the theme changes, at the moment that was shown. */
 export function ReplayFrame({ run, name, startS, onMoment }: ReplayFrameProps) {
   const frame = useRef<HTMLIFrameElement>(null);
   const moment = useRef(startS);
-  const address = `${theme.value} ${run}`;
-  const [shown, setShown] = useState("");
+  const [tries, setTries] = useState(0);
+  const address = `${theme.value} ${run} ${tries}`;
+  const [came, setCame] = useState<{ address: string; refusal: string | null } | null>(null);
+  const answer = came?.address === address ? came : null;
   useEffect(() => {
     const timer = setInterval(() => {
       const replay = (frame.current?.contentWindow as Partial<Window> | null)?.svsaReplay;
@@ -39,20 +52,30 @@ export function ReplayFrame({ run, name, startS, onMoment }: ReplayFrameProps) {
   }, [onMoment]);
   return (
     <div class="replay-place">
-      {shown !== address && (
+      {answer === null && (
         <p class="replay-waiting" role="status">
           {text.run.waiting}
         </p>
+      )}
+      {answer?.refusal && (
+        <div class="replay-waiting" role="alert">
+          <p class="problem">{answer.refusal}</p>
+          <button type="button" class="button" onClick={() => setTries(tries + 1)}>
+            {text.run.again}
+          </button>
+        </div>
       )}
       <iframe
         key={address}
         ref={frame}
         class="replay-frame"
+        hidden={Boolean(answer?.refusal)}
         title={text.run.replay(name)}
         src={replayAddress(run, moment.current)}
-        onLoad={({ currentTarget: { contentWindow } }) => {
-          contentWindow?.addEventListener("keydown", passStop, true);
-          setShown(address);
+        onLoad={({ currentTarget: { contentDocument, contentWindow } }) => {
+          const refusal = readRefusal(contentDocument);
+          if (refusal === null) contentWindow?.addEventListener("keydown", passStop, true);
+          setCame({ address, refusal });
         }}
       />
     </div>

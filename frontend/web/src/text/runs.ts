@@ -116,6 +116,7 @@ export const runsText = {
     notesHint: "What was tried, what came out",
     replay: (name: string) => `Replay of ${name}`,
     waiting: "Making the replay…",
+    again: "Try again",
     branch: (time: string) => `Branch at ${time}`,
     branchHint: "A private session that goes on from this moment, paused, yours to change",
     branchBench: "Only a simulated run can be continued: this one was recorded on a bench.",
