@@ -1,0 +1,34 @@
+"""`svsa arena run`: names are checked first, and a row is JSON or a line of a table."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+import svsa
+from svsa.arena.cli import arena
+from svsa.arena.table import HEADINGS, format_markdown
+
+
+def run(*arguments):
+    return CliRunner().invoke(arena, ["run", *arguments], catch_exceptions=False)
+
+
+def test_a_law_that_is_not_installed_is_refused_before_anything_runs():
+    with pytest.raises(svsa.ParameterError, match="installed here: ndobc"):
+        run("fl", "no_law")
+
+
+def test_a_row_as_json_and_as_markdown():
+    """FL: what it does not hold is null in JSON and a word in the table, and no number."""
+    (row,) = json.loads(run("fl", "--json").stdout)["laws"]
+    assert row["law"] == "fl"
+    assert row["rig_4a"]["recovery_s"] is None
+    assert row["ideal_4a"]["peak_deg"] == pytest.approx(12.06, rel=0.01)
+    assert row["unloading_faults_of_48"] == 0
+    faulty = row | {"faults": {"mass": "lever_end"}, "mass_rms_deg": None}
+    heading, rule, cells = format_markdown([faulty]).splitlines()
+    assert heading == f"| {' | '.join(HEADINGS)} |"
+    assert rule.count("---") == len(HEADINGS)
+    assert "/ never |" in cells
+    assert "| lever_end |" in cells
