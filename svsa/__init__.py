@@ -8,11 +8,13 @@
 Units are SI; every name ends in its unit.
 """
 
-from svsa import design, paper
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from svsa import paper
 from svsa.control.gains import Gains
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
 from svsa.experiment.channels import ChannelName
-from svsa.experiment.recorded import export_run, open_run, resimulate, runs
 from svsa.experiment.reproduce import reproduce
 from svsa.experiment.result import Result
 from svsa.experiment.simulate import simulate
@@ -29,7 +31,6 @@ from svsa.plant.disturbances import (
     SineLoad,
 )
 from svsa.plant.effects import IDEAL, RIG, Effects
-from svsa.records.catalogue.runs import Catalogue
 from svsa.reference.chirp import ChirpPosition, ChirpStiffness
 from svsa.reference.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
 from svsa.reference.preview import sample_reference
@@ -47,6 +48,26 @@ from svsa.run.configuration import (
     read_design,
     write_design,
 )
+
+if TYPE_CHECKING:
+    from svsa import design
+    from svsa.experiment.recorded import export_run, open_run, resimulate, runs
+    from svsa.records.catalogue.runs import Catalogue
+
+_LATE = {
+    "design": "svsa.design",
+    "Catalogue": "svsa.records.catalogue.runs",
+    **dict.fromkeys(("export_run", "open_run", "resimulate", "runs"), "svsa.experiment.recorded"),
+}
+
+
+def __getattr__(name: str) -> object:
+    """What a simulation does without, and what takes a while to import, when it is asked for."""
+    if name not in _LATE:
+        raise AttributeError(f"module 'svsa' has no attribute {name!r}")
+    module = import_module(_LATE[name])
+    return module if name == "design" else getattr(module, name)
+
 
 __all__ = [
     "IDEAL",

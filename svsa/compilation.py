@@ -19,15 +19,32 @@ import platform
 import re
 from collections.abc import Callable
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from types import FunctionType
 from typing import Any
 
 import numba
 from numba.core import config, event
+from numba.np import linalg
 
 from svsa.code_cache import open_folder
 from svsa.fused import FusingCompiler
+
+
+def _import_arrays_of_numba() -> None:
+    """Numba imports scipy.linalg, a fifth of a start, only to see whether it is there: it is.
+
+    Compiled code that needs it has numba import it then.
+    """
+    ensure, linalg.ensure_blas = linalg.ensure_blas, lambda: None
+    try:
+        import_module("numba.np.arraymath")
+    finally:
+        linalg.ensure_blas = ensure
+
+
+_import_arrays_of_numba()
 
 _LIBRARY = Path(__file__).parent
 _IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)

@@ -98,3 +98,35 @@ def test_a_function_of_a_package_outside_is_cached_until_its_package_changes(
     changed = PACKAGE["gain.py"].replace("return x", "return 5.0 * x")
     (package / "gain.py").write_text(changed)
     assert call() == "False 15.0", "what was compiled of another file before is not used"
+
+
+START = """
+import sys
+import numpy as np
+import svsa
+from svsa.compilation import compiled
+
+svsa.simulate("4a", "ndobc", duration_s=0.01)
+late = ("scipy.linalg", "pyarrow", "sqlite3", "svsa.design")
+print([name for name in late if name in sys.modules])
+
+@compiled
+def multiply(a, b):
+    return a @ b
+
+print(multiply(np.diag([2.0, 3.0]), np.array([5.0, 7.0])).tolist())
+print(len([*svsa.design.linearize(15.0)]), svsa.runs.__name__, svsa.Catalogue.__name__)
+"""
+
+
+def test_a_start_imports_what_a_run_needs_and_the_rest_when_it_is_asked_for() -> None:
+    """numba's own check for scipy, too; matrices in a law's function work all the same."""
+    answer = subprocess.run(
+        [sys.executable, "-c", START], capture_output=True, text=True, check=True, timeout=300
+    )
+    assert answer.stdout.splitlines() == ["[]", "[10.0, 21.0]", "4 runs Catalogue"]
+
+
+def test_a_name_that_the_library_has_not_is_refused_as_ever() -> None:
+    with pytest.raises(AttributeError, match="'svsa' has no attribute 'nothing'"):
+        _ = svsa.nothing  # pyright: ignore[reportAttributeAccessIssue]
