@@ -15,6 +15,7 @@ import "./controls/shaped.css";
 import "./widgets/panel.css";
 import "./design/design.css";
 import "./design/plane.css";
+import "./design/stability.css";
 import "./design/outcome.css";
 import "./learning/learning.css";
 import "./scene/labels.css";

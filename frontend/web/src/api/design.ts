@@ -1,15 +1,32 @@
 /** Ask the server what gains and observer would do; nothing is changed by it. */
 import { request, sessionName } from "./request";
 import type { components } from "./schema";
+import type { SessionState } from "./types";
 
 type Schemas = components["schemas"];
 
 export type Prediction = Schemas["Prediction"];
+export type DesignRequest = Partial<Schemas["DesignRequest"]>;
+export type DesignResponse = Schemas["ResponseState"];
+export type Stability = Schemas["StabilityState"];
+export type RegionRequest = Partial<Schemas["RegionRequest"]>;
+export type Region = Schemas["RegionState"];
+export type Fate = Schemas["FateState"];
 export type PredictRequest = Partial<Schemas["PredictRequest"]>;
 
+const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
+/** A worker that has to begin first takes its time. */
+const LONGEST_WORK_MS = 30_000;
+
 export const predict = (wanted: PredictRequest) =>
-  request(
-    "post",
-    `sessions/${encodeURIComponent(sessionName)}/predict`,
-    wanted,
-  ) as Promise<Prediction>;
+  request("post", `${SESSION}/predict`, wanted) as Promise<Prediction>;
+
+export const askResponse = (wanted: DesignRequest) =>
+  request("post", `${SESSION}/design/response`, wanted) as Promise<DesignResponse>;
+export const askStability = (wanted: DesignRequest) =>
+  request("post", `${SESSION}/design/stability`, wanted, LONGEST_WORK_MS) as Promise<Stability>;
+export const askRegion = (wanted: RegionRequest) =>
+  request("post", `${SESSION}/design/region`, wanted, LONGEST_WORK_MS) as Promise<Region>;
+/** A private simulated session with this design, stable or not. */
+export const simulateDesign = (wanted: DesignRequest) =>
+  request("post", `${SESSION}/design/simulation`, wanted) as Promise<SessionState>;

@@ -44,7 +44,7 @@ export const isChanged = computed(
   () => changed.value !== null && JSON.stringify(changed.value) !== JSON.stringify(inUse.value),
 );
 /** Everything that the prediction depends on besides the draft. */
-const surroundings = computed(() => {
+export const surroundings = computed(() => {
   const state = session.value;
   if (state === null) return "";
   const { gains, observer, law, stiffness, position, effects, limits } = state.configuration;
@@ -60,7 +60,7 @@ const surroundings = computed(() => {
   ]);
 });
 
-function requestOf(wanted: Draft): Parameters<typeof predict>[0] {
+export function requestOf(wanted: Draft): Parameters<typeof predict>[0] {
   const [p1, p2, p3, p4] = wanted.position.map(toRequest) as [number, number, number, number];
   const [s1, s2] = wanted.stiffness.map(toRequest) as [number, number];
   return {

@@ -16,8 +16,14 @@ import {
   isOpen,
   watchSurroundings,
 } from "./draft";
+import { FailButton } from "./failbutton";
 import { Outcome } from "./outcome";
 import { Plane } from "./plane";
+import { stopFilling } from "./region";
+import { RegionMap } from "./regionmap";
+import { Responses } from "./responses";
+import { watchStability } from "./stability";
+import { StabilityTable } from "./stabilitytable";
 import { UndoButton } from "./summary";
 import { describePoles } from "./words";
 
@@ -74,6 +80,8 @@ export function DesignPanel() {
 
 function Design() {
   useEffect(watchSurroundings, []);
+  useEffect(watchStability, []);
+  useEffect(() => stopFilling, []);
   return (
     <Panel
       title={words.title}
@@ -98,7 +106,13 @@ function Design() {
           <Roots />
           <Outcome />
           <Problem id="design-problem" control="design.apply" />
+          <FailButton />
           <Buttons />
+        </div>
+        <div class="design-more">
+          <Responses />
+          <StabilityTable />
+          <RegionMap />
         </div>
       </div>
     </Panel>

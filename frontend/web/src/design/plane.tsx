@@ -11,12 +11,13 @@ import {
   type Poles,
   stepPole,
 } from "./poles";
+import { stability } from "./stability";
 import { describePole } from "./words";
 
-const SCALE = 1.3;
+const SCALE = 1.1;
 const WIDTH = (MOST_RE - LEAST_RE) * SCALE;
 const HEIGHT = 2 * MOST_IM * SCALE;
-const CIRCLES = [50, 100, 150, 200];
+const CIRCLES = [50, 100, 150, 200, 250];
 const FAR = 10;
 const GROUPS: readonly Group[] = ["position", "stiffness"];
 const MARKS: Record<Group, string> = {
@@ -83,6 +84,22 @@ function ObserverMark({ bandwidth }: { bandwidth: number }) {
       <path d={`M${x} ${yOf(20)}V${yOf(-20)}`} />
       <text x={x} y={yOf(20) - 4} text-anchor="middle">
         {text.design.observerLine}
+      </text>
+    </svg>
+  );
+}
+
+/** Faster observers than this line are unstable in the sampled loop. */
+function FastestMark() {
+  const fastest = stability.value?.fastest_observer_rad_per_s ?? null;
+  if (fastest === null || -fastest < LEAST_RE) return null;
+  const x = xOf(-fastest);
+  return (
+    <svg class="plane-fastest" aria-hidden="true">
+      <rect x="0" y="0" width={x} height={HEIGHT} />
+      <path d={`M${x} 0V${HEIGHT}`} />
+      <text x={x + 5} y={HEIGHT - 22}>
+        {text.stability.fastestLine(fastest.toFixed(0))}
       </text>
     </svg>
   );
@@ -202,6 +219,7 @@ export function Plane() {
       aria-label={text.design.plane}
     >
       <Ground />
+      <FastestMark />
       <ObserverMark bandwidth={tried.observer[0]} />
       <Shadows now={now} />
       {GROUPS.map((group) => (

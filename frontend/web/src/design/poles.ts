@@ -11,7 +11,7 @@ export type Poles = readonly Pole[];
 /** Closer to the real axis than this, a pole lies on it, rad/s. */
 export const SNAP = 4;
 export const MOST_RE = 40;
-export const LEAST_RE = -240;
+export const LEAST_RE = -300;
 export const MOST_IM = 120;
 
 const clamp = (value: number, least: number, most: number) =>

@@ -1,5 +1,5 @@
 /** Poles and numbers of a design as they are read. */
-import type { Prediction } from "../api/design";
+import type { Prediction, Stability } from "../api/design";
 import { text } from "../text/en";
 import { formatInput, formatNumber, toDegrees } from "../units";
 import { countPlaces, type Pole, type Poles } from "./poles";
@@ -29,3 +29,13 @@ export const torqueOf = (torque: number) => `${formatNumber(torque, 3, 4)} N·m`
 /** Nothing is plainly good that goes beyond a limit, however shortly. */
 export const verdictOf = ({ verdict, reasons }: Prediction): keyof typeof text.design.verdict =>
   verdict === "ok" && reasons.length > 0 ? "note" : verdict;
+
+const ratio = (value: number) => formatNumber(value, 3, 2);
+
+/** For which true over nominal values of a parameter the loop is stable. */
+export function rangeOf({ low, high }: Stability["ranges"][number]): string {
+  if (high === null) return low === null ? text.stability.all : text.stability.from(ratio(low));
+  return low === null
+    ? text.stability.upTo(ratio(high))
+    : text.stability.between(ratio(low), ratio(high));
+}

@@ -13,6 +13,7 @@ import { realismText } from "./realism";
 import { runsText } from "./runs";
 import { sceneText } from "./scene";
 import { scriptText } from "./script";
+import { stabilityText } from "./stability";
 
 export const text = {
   ...pageText,
@@ -21,6 +22,7 @@ export const text = {
   ...controlText,
   ...benchText,
   ...designText,
+  ...stabilityText,
   ...learningText,
   ...lawsText,
   ...sceneText,

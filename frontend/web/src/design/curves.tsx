@@ -1,0 +1,108 @@
+/** A small chart: a few curves on two axes, each even or logarithmic. */
+import { useId } from "preact/hooks";
+
+export interface Axis {
+  from: number;
+  to: number;
+  ticks: readonly number[];
+  label: string;
+  isLogarithmic?: boolean;
+}
+
+export interface Curve {
+  look: "tried" | "present";
+  points: readonly (readonly [number, number])[];
+}
+
+const WIDTH = 340;
+const HEIGHT = 150;
+const LEFT = 44;
+const RIGHT = 8;
+const TOP = 8;
+const BOTTOM = 30;
+
+/** Where a value stands between the ends of an axis, 0 to 1. */
+export function shareOf(value: number, { from, to, isLogarithmic }: Axis): number {
+  return isLogarithmic
+    ? Math.log(value / from) / Math.log(to / from)
+    : (value - from) / (to - from);
+}
+
+const xOf = (value: number, axis: Axis) => LEFT + shareOf(value, axis) * (WIDTH - LEFT - RIGHT);
+const yOf = (value: number, axis: Axis) =>
+  HEIGHT - BOTTOM - shareOf(value, axis) * (HEIGHT - TOP - BOTTOM);
+
+export function pathOf(points: Curve["points"], x: Axis, y: Axis): string {
+  const places = points.map(
+    ([at, value]) => `${xOf(at, x).toFixed(1)} ${yOf(value, y).toFixed(1)}`,
+  );
+  return places.length === 0 ? "" : `M${places.join("L")}`;
+}
+
+interface CurvesProps {
+  title: string;
+  /** What the curves show, for who does not see them. */
+  told: string;
+  x: Axis;
+  y: Axis;
+  curves: readonly Curve[];
+  /** Stands in place of curves that have no meaning. */
+  note?: string | null;
+}
+
+export function Curves({ title, told, x, y, curves, note }: CurvesProps) {
+  const clip = useId();
+  const right = WIDTH - RIGHT;
+  const bottom = HEIGHT - BOTTOM;
+  return (
+    <figure class="curves">
+      <figcaption>{title}</figcaption>
+      <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={told}>
+        <clipPath id={clip}>
+          <rect x={LEFT} y={TOP} width={right - LEFT} height={bottom - TOP} />
+        </clipPath>
+        {x.ticks.map((tick) => (
+          <g key={tick}>
+            <path class="curves-grid" d={`M${xOf(tick, x)} ${TOP}V${bottom}`} />
+            <text x={xOf(tick, x)} y={bottom + 13} text-anchor="middle">
+              {Number(tick.toPrecision(3))}
+            </text>
+          </g>
+        ))}
+        {y.ticks.map((tick) => (
+          <g key={tick}>
+            <path class="curves-grid" d={`M${LEFT} ${yOf(tick, y)}H${right}`} />
+            <text x={LEFT - 5} y={yOf(tick, y) + 4} text-anchor="end">
+              {String(Number(tick.toPrecision(3))).replace("-", "\u2212")}
+            </text>
+          </g>
+        ))}
+        <text class="curves-axis" x={right} y={HEIGHT - 3} text-anchor="end">
+          {x.label}
+        </text>
+        <text class="curves-axis" x={LEFT + 4} y={TOP + 11}>
+          {y.label}
+        </text>
+        <g clip-path={`url(#${clip})`}>
+          {curves.map((curve) => (
+            <path
+              key={curve.look}
+              class={`curve is-${curve.look}`}
+              d={pathOf(curve.points, x, y)}
+            />
+          ))}
+        </g>
+        {note && (
+          <text
+            class="curves-note"
+            x={(LEFT + right) / 2}
+            y={(TOP + bottom) / 2}
+            text-anchor="middle"
+          >
+            {note}
+          </text>
+        )}
+      </svg>
+    </figure>
+  );
+}
