@@ -6,16 +6,16 @@ import pytest
 from typer.testing import CliRunner
 
 import svsa
-from svsa.arena.cli import arena
 from svsa.arena.table import HEADINGS, format_markdown
+from svsa.cli import app
 
 
 def run(*arguments):
-    return CliRunner().invoke(arena, ["run", *arguments], catch_exceptions=False)
+    return CliRunner().invoke(app, ["arena", "run", *arguments], catch_exceptions=False)
 
 
 def test_a_law_that_is_not_installed_is_refused_before_anything_runs():
-    with pytest.raises(svsa.ParameterError, match="installed here: ndobc"):
+    with pytest.raises(svsa.ParameterError, match=r"is .no_law.: .*installed here: ndobc"):
         run("fl", "no_law")
 
 
