@@ -20,13 +20,18 @@ SETTLED = slice(2000, TICKS)
 
 def run(law, start=start_in_process):
     """Three seconds of Figure 4A, with the cable's 2 N·m on the link from 1 s on; its samples."""
+    return run_and_remember(law, start)[0]
+
+
+def run_and_remember(law, start=start_in_process, load=LOAD):
+    """The same under this load; its samples, and what the law remembers at the end."""
     assert LOADED_S < LOAD_TIME_S
     with start() as rig:
         bench = LockstepBench(rig, FIGURES["4a"].build_configuration(law), TICKS)
         try:
             bench.prepare()
             bench.start()
-            rig.control.load(LOAD, at_s=bench.now() + LOADED_S)
+            rig.control.load(load, at_s=bench.now() + LOADED_S)
             bench.tick(TICKS)
             assert bench.plant.fault is None
             assert bench.plant.status is BenchStatus.RUN
@@ -34,11 +39,12 @@ def run(law, start=start_in_process):
             assert bench.plant.skipped_commands == 0
             drives = rig.control.read_state()["drives"].values()
             assert [drive["errors"] for drive in drives] == [0, 0]
+            memory = bench.loop.run.lanes[0].memory.copy()
         finally:
             bench.close()
         after = rig.control.read_state()["drives"].values()
         assert [(drive["mode"], drive["commanded_ma"]) for drive in after] == [(None, 0)] * 2
-        return bench.sink.samples
+        return bench.sink.samples, memory
 
 
 @pytest.fixture(scope="module")
@@ -64,6 +70,24 @@ def test_without_compensation_the_same_load_moves_the_link(compensated):
     assert read_worst(plain, "position_error_rad") > 10.0 * read_worst(
         compensated, "position_error_rad"
     )
+
+
+def test_a_law_integrates_every_tick_of_the_bench_and_the_same_run_is_the_same():
+    """FL + I, no motor at its limit: ∫e dt is T times the sum over all recorded ticks of q_d less q
+    as the law knew it, as in the simulated loop; it takes the load away without an observer.
+    """
+    load = ConstantLoad(torque_nm=(0.5, 0.0, 0.0))
+    (samples, memory), (again, _) = (run_and_remember("fl_integral", load=load) for _ in range(2))
+    assert np.array_equal(samples, again, equal_nan=True)
+    limits = {"torque1_nm": 14.0, "torque2_nm": 4.5}
+    assert all(np.max(np.abs(samples[:, CHANNEL_INDEX[n]])) < most for n, most in limits.items())
+    reference, known = (
+        samples[:, CHANNEL_INDEX[name]]
+        for name in ("position_reference_rad", "position_estimate_rad")
+    )
+    assert memory[0] == pytest.approx(1e-3 * np.sum(reference - known), rel=1e-9)
+    assert abs(memory[0]) > 1e-3, "the load has left something to remember"
+    assert read_worst(samples, "position_error_rad") < np.radians(0.2)
 
 
 def test_through_sockets_the_same_run_gives_the_same_samples_to_the_bit(compensated):
