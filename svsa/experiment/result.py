@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from svsa.checked import check_number
-from svsa.control.installed import get_title
-from svsa.control.law import NAME
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.experiment.channels import Channels
+from svsa.experiment.law_style import name_law
 from svsa.extras import list_missing, require_extra
 from svsa.run.command import Command, SetLaw, SetLaws
 from svsa.run.configuration import Configuration
@@ -106,9 +105,11 @@ class Result(Channels):
         Raises `MissingExtraError` where matplotlib, of the extra `plot`, is not installed.
         """
         require_extra("plot")
-        from svsa.experiment.figures import plot_run
+        from svsa.experiment.plot import plot_run
 
-        return plot_run(self)
+        period = self.configuration.sampling.period_s
+        changes_s = {command.tick * period for command in self.commands}
+        return plot_run(self, self.list_stretches(), changes_s)
 
     def __repr__(self) -> str:
         return "\n".join(self._describe())
@@ -172,10 +173,3 @@ def build_results(
     (rows, law), *others = zip(samples, laws, strict=True)
     rivals = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)
     return Result(configuration, rows, fault, rivals, law, commands, name)
-
-
-def name_law(law: str) -> str:
-    """What controlled, in words: a law's title, "own controller", or a lane as it was called."""
-    if law == "own":
-        return "own controller"
-    return get_title(law) if NAME.fullmatch(law) else law

@@ -34,7 +34,7 @@ def rig(
     Clients connect as to a socketcand server (python-can's interface `socketcand`), or to the
     printed terminal as to a slcan adapter. Reachable from this machine only.
     """
-    from svsa.bench.realtime.schedule import RIG_PRIORITY, request_real_time
+    from svsa.bench.schedule import RIG_PRIORITY, request_real_time
     from svsa.rig.control import ControlServer
     from svsa.rig.parameters import RigParameters, read_rig
     from svsa.rig.process import RigProcess

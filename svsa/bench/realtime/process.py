@@ -21,9 +21,9 @@ from svsa.bench.realtime.configuration import build_guard
 from svsa.bench.realtime.link import Link, LinkClosedError
 from svsa.bench.realtime.loop import MOVING, STATUSES, BenchLoop
 from svsa.bench.realtime.memory import LoopMemory, add_to_histogram
-from svsa.bench.realtime.schedule import LOOP_PRIORITY, request_real_time
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.bench.safety.machine import BenchStatus
+from svsa.bench.schedule import LOOP_PRIORITY, request_real_time
 from svsa.compilation import watch_compilation
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.run.configuration import Configuration

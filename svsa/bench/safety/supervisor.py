@@ -18,8 +18,8 @@ import can
 from svsa.bench.drives.bus import DELIVERY_S, open_bus, take_waiting
 from svsa.bench.drives.drive import build_broadcast_resets, build_zero_currents
 from svsa.bench.file import BenchFile, read_bench
-from svsa.bench.realtime.schedule import SUPERVISOR_PRIORITY, request_real_time
 from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.bench.schedule import SUPERVISOR_PRIORITY, request_real_time
 from svsa.errors import SvsaError
 
 DEAF_S = 0.25

@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 from svsa.bench.drives.bus import BUS_TROUBLE, open_bus, prepare_bus
 from svsa.bench.file import BenchFile
-from svsa.bench.realtime.schedule import SUPERVISOR_PRIORITY, request_priority
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.bench.safety.supervisor import PERIOD_S, Supervisor
+from svsa.bench.schedule import SUPERVISOR_PRIORITY, request_priority
 from svsa.errors import SvsaError
 
 STILL = 5.0
