@@ -7,7 +7,7 @@ from pydantic import TypeAdapter
 
 from svsa.errors import ParameterError
 from svsa.plant.disturbances import Load
-from svsa.plant.effects import MOST_DELAY_SAMPLES, Effects
+from svsa.plant.effects import MAX_DELAY_SAMPLES, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 
 
@@ -31,7 +31,7 @@ def test_a_whole_number_in_float_keeps_its_bounds() -> None:
 
 def test_the_schema_says_the_bounds_of_a_whole_number() -> None:
     said = Effects.model_json_schema()["properties"]["delay_samples"]
-    assert (said["type"], said["minimum"], said["maximum"]) == ("integer", 0, MOST_DELAY_SAMPLES)
+    assert (said["type"], said["minimum"], said["maximum"]) == ("integer", 0, MAX_DELAY_SAMPLES)
 
 
 @pytest.mark.parametrize("given", [1, 0.0, "yes", "true"])

@@ -22,7 +22,7 @@ from svsa.export.formats import export
 from svsa.records.reader import open_record
 from svsa.records.resimulation import Comparison, compare_with_simulation
 
-MOST_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
+MAX_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
 RETRY_AFTER_S = 5
 _JOBS_A_WORKER = 100
 _NICENESS = 10
@@ -40,7 +40,7 @@ class HeavyWork:
     most: how many jobs are worked at or wait. workers: processes.
     """
 
-    def __init__(self, most: int, workers: int = MOST_WORKERS) -> None:
+    def __init__(self, most: int, workers: int = MAX_WORKERS) -> None:
         self._most, self._workers = most, workers
         self._taken = 0
         self._pool: ProcessPoolExecutor | None = None

@@ -10,14 +10,14 @@ from svsa.session.journal import KEPT_S
 from svsa.session.session import Session
 from svsa_server.lane_schemas import StretchState, WindowState
 
-MOST_STRETCHES = 200
+MAX_STRETCHES = 200
 
 
 def list_session_stretches(session: Session) -> list[list[StretchState]]:
     """Of every lane the stretches of the last `KEPT_S`; the last one is the present."""
     period_s = session.run.period_s
     first_tick = session.run.tick - KEPT_S / period_s
-    return _build(session.journal.timeline.list_stretches(first_tick, MOST_STRETCHES), period_s)
+    return _build(session.journal.timeline.list_stretches(first_tick, MAX_STRETCHES), period_s)
 
 
 def list_record_stretches(record: Record, timeline: Timeline | None) -> list[list[StretchState]]:

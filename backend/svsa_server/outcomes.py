@@ -16,7 +16,7 @@ from svsa_server.control import CHANGING
 
 REQUEST_HEADER = "SVSA-Request"
 LONGEST_NAME = 64
-MOST_KEPT = 1000
+MAX_KEPT = 1000
 
 Outcome = Literal["unknown", "pending", "carried_out", "refused"]
 
@@ -36,7 +36,7 @@ class Outcomes:
     def note(self, name: str, status: int | None) -> None:
         """A request of this name has come (None), or was answered with this status."""
         self._statuses[name] = status
-        if len(self._statuses) > MOST_KEPT:
+        if len(self._statuses) > MAX_KEPT:
             self._statuses.popitem(last=False)
 
     def find(self, name: str) -> tuple[Outcome, int | None]:

@@ -11,7 +11,7 @@ from svsa.records.header import (
     LONGEST_NAME,
     LONGEST_NOTES,
     LONGEST_TAG,
-    MOST_TAGS,
+    MAX_TAGS,
     PlantKind,
 )
 from svsa.records.measured_window import MeasuredWindow
@@ -26,7 +26,7 @@ RunName = Annotated[str, Field(max_length=LONGEST_NAME)]
 Notes = Annotated[str, Field(max_length=LONGEST_NOTES)]
 Tags = Annotated[
     tuple[Annotated[str, Field(min_length=1, max_length=LONGEST_TAG)], ...],
-    Field(max_length=MOST_TAGS, json_schema_extra={"uniqueItems": True}),
+    Field(max_length=MAX_TAGS, json_schema_extra={"uniqueItems": True}),
 ]
 
 

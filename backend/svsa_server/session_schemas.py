@@ -10,7 +10,7 @@ from svsa.errors import Fault
 from svsa.paper import get_figure
 from svsa.plant.disturbances import Load
 from svsa.plant.effects import IDEAL, Effects
-from svsa.run.configuration import MOST_LANES, Configuration, Design
+from svsa.run.configuration import MAX_LANES, Configuration, Design
 from svsa.run.events import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState
@@ -43,7 +43,7 @@ class ExperimentRequest(Checked):
     )
     load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
     rivals: tuple[InstalledLane, ...] = quantity(
-        "", "Up to three", max_length=MOST_LANES - 1, default=()
+        "", "Up to three", max_length=MAX_LANES - 1, default=()
     )
     effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
 

@@ -11,7 +11,7 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.run.configuration import MOST_LANES, Lane
+from svsa.run.configuration import MAX_LANES, Lane
 from svsa_server.gain_schemas import GainsState
 from svsa_server.law_schemas import InstalledLane
 
@@ -25,7 +25,7 @@ class LawRequest(Checked):
     rival_laws: tuple[InstalledLaw, ...] = quantity(
         "",
         "Laws of the lanes beside, from the first on; those left out keep theirs",
-        max_length=MOST_LANES - 1,
+        max_length=MAX_LANES - 1,
         default=(),
     )
 
@@ -59,7 +59,7 @@ def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
 class LanesRequest(Checked):
     """The controllers beside the session's own."""
 
-    rivals: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MOST_LANES - 1)
+    rivals: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MAX_LANES - 1)
 
 
 class ParameterFileRequest(Checked):

@@ -9,8 +9,8 @@ from svsa.control.installed import InstalledLaw
 from svsa_server.design_schemas import PredictRequest
 from svsa_server.gain_schemas import Root
 
-MOST_STARTS = 61
-MOST_AT_ONCE = 400
+MAX_STARTS = 61
+MAX_AT_ONCE = 400
 
 
 class DesignRequest(PredictRequest):
@@ -25,9 +25,9 @@ class DesignRequest(PredictRequest):
 class RegionRequest(DesignRequest):
     """A part of the map of starts, from coarse to fine: ask on until `next` is null."""
 
-    starts: Whole = quantity("", "Starts along each side", ge=3, le=MOST_STARTS, default=31)
-    first: Whole = quantity("", "First start of this part", ge=0, le=MOST_STARTS**2, default=0)
-    count: Whole = quantity("", "Starts of this part", ge=1, le=MOST_AT_ONCE, default=100)
+    starts: Whole = quantity("", "Starts along each side", ge=3, le=MAX_STARTS, default=31)
+    first: Whole = quantity("", "First start of this part", ge=0, le=MAX_STARTS**2, default=0)
+    count: Whole = quantity("", "Starts of this part", ge=1, le=MAX_AT_ONCE, default=100)
 
 
 class LoadResponseState(BaseModel):

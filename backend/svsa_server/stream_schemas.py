@@ -8,7 +8,7 @@ from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.experiment.channels import ChannelName
-from svsa.run.configuration import MOST_LANES
+from svsa.run.configuration import MAX_LANES
 from svsa.signals import PLOTTED
 from svsa_server.session_schemas import SessionProgress, SessionState
 
@@ -31,7 +31,7 @@ class StreamRequest(Checked):
     """What a stream carries."""
 
     rate_hz: Number = quantity("Hz", "Samples a second", ge=1, le=10_000, default=200.0)
-    lanes: tuple[Annotated[Whole, Field(ge=1, le=MOST_LANES)], ...] | None = quantity(
+    lanes: tuple[Annotated[Whole, Field(ge=1, le=MAX_LANES)], ...] | None = quantity(
         "", "Numbers of the lanes, from 1; None is all there are", default=(1,)
     )
     history_s: Number = quantity("s", "Past to send first", ge=0, le=20, default=0.0)
@@ -125,7 +125,7 @@ def list_stream_parameters() -> list[dict[str, Any]]:
     """What may stand in the address of a stream, as OpenAPI parameters."""
     bounds = StreamRequest.model_json_schema()["properties"]
     words = {
-        "lanes": f"`all`, or numbers from 1 to {MOST_LANES} with commas; lane 1 if left out",
+        "lanes": f"`all`, or numbers from 1 to {MAX_LANES} with commas; lane 1 if left out",
         "channels": "Names with commas between them; left out, those of the plots",
         "client": "Who watches, as the header SVSA-Client; a browser cannot send that here",
     }

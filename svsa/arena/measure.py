@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from svsa.arena.scenarios import (
     IDEAL_4A,
     MASS,
-    MOST_STEP_NM,
+    MAX_STEP_NM,
     OFF_S,
     RIG_4A,
     SINE_2HZ,
@@ -83,7 +83,7 @@ def find_largest_step(entry: Entry) -> float:
     the smallest is.
     """
     count = 0
-    while (count + 1) * STEP_NM <= MOST_STEP_NM:
+    while (count + 1) * STEP_NM <= MAX_STEP_NM:
         step = build_link_step((count + 1) * STEP_NM)
         error = measure_rms(run_scenario(step, entry), step.duration_s - 1.0, step.duration_s)
         if error is None or error > SETTLED_DEG:

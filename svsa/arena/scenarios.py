@@ -79,7 +79,7 @@ UNLOADINGS = tuple(
 """The load taken off at 16 phases of the movement and three stiffnesses: 48 runs."""
 
 STEP_NM = 0.5
-MOST_STEP_NM = 15.0
+MAX_STEP_NM = 15.0
 
 
 def build_link_step(torque_nm: float) -> Scenario:

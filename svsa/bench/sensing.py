@@ -20,7 +20,7 @@ from svsa.bench.safety.faults import Alarm
 from svsa.bench.safety.standstill import NewCounts
 from svsa.signals import Measurement, State
 
-MOST_FRAMES_A_TICK = 200
+MAX_FRAMES_A_TICK = 200
 NEW_PERIODS = 2
 FRESH_PERIODS = 5
 """What is older says nothing of the present: x̂ goes on by its model alone."""
@@ -86,7 +86,7 @@ class Sensing:
     def listen(self, bus: can.BusABC) -> None:
         """Fetch what has come so far, for the next `read`; trouble is left for it to find."""
         with contextlib.suppress(*BUS_TROUBLE):
-            room = MOST_FRAMES_A_TICK - len(self._early)
+            room = MAX_FRAMES_A_TICK - len(self._early)
             self._early += take_waiting(bus, self._settings, room)
 
     def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
@@ -150,7 +150,7 @@ class Sensing:
         for message in (*self._clock.take_frames(), *early):
             self._take(message, now)
         try:
-            room = MOST_FRAMES_A_TICK - len(early)
+            room = MAX_FRAMES_A_TICK - len(early)
             for message in take_waiting(bus, self._settings, room):
                 self._take(message, now)
         except BUS_TROUBLE as error:

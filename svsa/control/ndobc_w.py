@@ -39,7 +39,7 @@ from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
 
 GIVE = 0.96
-MOST_STEPS = 24
+MAX_STEPS = 24
 SPRING_SHARE, TORQUE_RATIO = 0.95, 1.8
 DEFLECTION_RATE, DEFLECTION_SHARE = 60.0, 0.8
 LEVER_RATE, LEVER_MARGIN = 25.0, 0.02
@@ -238,7 +238,7 @@ def control(
     e_sigma, de_sigma = reference.sigma + sigma - ξ.sigma, reference.dsigma + dsigma - ξ.dsigma
     a = least(c.a_max, c.a_max - memory.yielded + c.back)
     torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         beyond = (abs(torque.u1) > c.torque1_max) | (abs(torque.u2) > c.torque2_max)
         gives = beyond & (a > c.a_min)
         if not some(gives):

@@ -14,8 +14,8 @@ from svsa.run.configuration import Configuration
 from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, CHANNELS, State
 
-MOST_POSITION_RAD = math.pi / 2.0
-MOST_VELOCITY_RAD_PER_S = 20.0
+MAX_POSITION_RAD = math.pi / 2.0
+MAX_VELOCITY_RAD_PER_S = 20.0
 DURATION_S = 2.0
 LAST_S = 0.2
 CLOSE_RAD = math.radians(1.0)
@@ -47,8 +47,8 @@ class Map(NamedTuple):
 def build_map(count: int) -> Map:
     """Starts in `count` rows and columns: q0 within ±90°, q̇0 within ±20 rad/s."""
     return Map(
-        np.linspace(-MOST_POSITION_RAD, MOST_POSITION_RAD, count),
-        np.linspace(-MOST_VELOCITY_RAD_PER_S, MOST_VELOCITY_RAD_PER_S, count),
+        np.linspace(-MAX_POSITION_RAD, MAX_POSITION_RAD, count),
+        np.linspace(-MAX_VELOCITY_RAD_PER_S, MAX_VELOCITY_RAD_PER_S, count),
     )
 
 

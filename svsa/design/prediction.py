@@ -25,8 +25,8 @@ LOAD = Disturbance(PAPER_TORQUE_NM, PAPER_TORQUE_NM, PAPER_TORQUE_NM)
 BEFORE_S = 1.5
 AROUND_S = 1.5
 LONGEST_AT_LIMIT_S = 0.1
-MOST_NOISE_SHARE = 0.05
-MOST_STEADY_ERROR_RAD = math.radians(20.0)
+MAX_NOISE_SHARE = 0.05
+MAX_STEADY_ERROR_RAD = math.radians(20.0)
 
 Verdict = Literal["ok", "warn", "refuse"]
 Kind = Literal["note", "warn", "refuse"]
@@ -155,7 +155,7 @@ def _judge_steady(
             " Choose faster poles."
         )
         return [Reason("warn", "no_rest", message)]
-    if abs(steady.position) > MOST_STEADY_ERROR_RAD:
+    if abs(steady.position) > MAX_STEADY_ERROR_RAD:
         message = (
             f"Under the load {law} stays {abs(math.degrees(steady.position)):.0f}° away. Choose"
             " faster poles."
@@ -187,7 +187,7 @@ def _judge_noise(configuration: Configuration, noise: LoopNoise) -> list[Reason]
             ),
         )
         for name, rms, most in pairs
-        if rms > MOST_NOISE_SHARE * most
+        if rms > MAX_NOISE_SHARE * most
     ]
 
 

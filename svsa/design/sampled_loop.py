@@ -10,7 +10,7 @@ from svsa.loop.lane import Inputs, LaneState
 from svsa.loop.loop import apply_torque, decide, observe
 from svsa.model.dynamics import compute_internal_torque
 from svsa.plant.disturbances import ConstantLoad, build_load_table, schedule_load
-from svsa.plant.effects import MOST_DELAY_SAMPLES
+from svsa.plant.effects import MAX_DELAY_SAMPLES
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
@@ -92,7 +92,7 @@ def _pack(lane: LaneState) -> np.ndarray:
 
 
 def _unpack(z: np.ndarray) -> LaneState:
-    values, queue = z.tolist(), 2 * MOST_DELAY_SAMPLES + 2
+    values, queue = z.tolist(), 2 * MAX_DELAY_SAMPLES + 2
     return LaneState(
         State(*values[:6]),
         State(*values[6:12]),

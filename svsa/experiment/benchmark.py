@@ -28,7 +28,7 @@ from svsa.loop.measured import (
     BenchConstants,
     Carried,
     follow_and_decide,
-    publish_and_foresee,
+    publish_and_predict,
 )
 from svsa.model.lever import compute_lever_ratio_slope
 from svsa.packed import pack
@@ -155,7 +155,7 @@ def measure_bench_tick(run: Run, repeats: int = REPEATS) -> float:
     def work() -> None:
         for tick in range(BENCH_TICKS):
             follow_and_decide(constants, run.inputs, carried, tick)
-            publish_and_foresee(constants, carried, 0.0, 0.0, tick, row)
+            publish_and_predict(constants, carried, 0.0, 0.0, tick, row)
 
     return _measure_in_turns({"tick": work}, repeats)["tick"] / BENCH_TICKS
 

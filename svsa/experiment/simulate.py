@@ -17,8 +17,8 @@ from svsa.run.replay import play
 from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
-MOST_TICKS = 5_000_000
-MOST_STEPS = 1000
+MAX_TICKS = 5_000_000
+MAX_STEPS = 1000
 
 
 def simulate(
@@ -58,8 +58,8 @@ def simulate(
     if changes:
         configuration = configuration.changed(**changes)
     period = configuration.sampling.period_s
-    check_number("duration_s", duration_s, "s", period, MOST_TICKS * period)
-    check_number("steps", steps, "", 1, MOST_STEPS)
+    check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
+    check_number("steps", steps, "", 1, MAX_STEPS)
     if not isinstance(steps, int):
         raise ParameterError(Violation("steps", steps, "", "a whole number"))
     given = build_commands(commands, period, duration_s)

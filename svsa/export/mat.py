@@ -14,7 +14,7 @@ from scipy.io import savemat
 from svsa.records.header import RecordError
 from svsa.records.reader import Record
 
-MOST_BYTES_A_LANE = 2**31 - 2**20
+MAX_BYTES_A_LANE = 2**31 - 2**20
 LONGEST_WORD = 63
 
 
@@ -24,8 +24,8 @@ def write_mat(record: Record, stream: IO[bytes]) -> None:
     Raises `RecordError` for one whose lanes are greater than the format allows, 2 GB.
     """
     header, names = record.header, build_identifiers(record.header.channel_names)
-    if 8 * record.tick_count * len(names) > MOST_BYTES_A_LANE:
-        most = MOST_BYTES_A_LANE // (8 * len(names))
+    if 8 * record.tick_count * len(names) > MAX_BYTES_A_LANE:
+        most = MAX_BYTES_A_LANE // (8 * len(names))
         text = f"{record.tick_count} ticks are too many for MAT, which holds {most}"
         raise RecordError(f"Run {header.run_id} cannot be exported: {text}; choose Parquet.")
     reserved = ["tick", "time_s", "units", "run"]

@@ -21,14 +21,14 @@ from svsa.identification.record import Evidence, IdentificationError
 
 _FIRST_DEVIATION = np.array([2e-5, 2e-5, 2e-4])
 _LEAST_DEVIATION = 1e-9
-_MOST_PASSES = 6
+_MAX_PASSES = 6
 _STEADY = 0.02
-_MOST_ITERATIONS = 30
+_MAX_ITERATIONS = 30
 _ROUGH, _FINE = 0.05, 1e-6
 _ROUGH_SHARE = 3
-_LEAST_DAMPING, _MOST_DAMPING = 1e-9, 1e6
+_LEAST_DAMPING, _MAX_DAMPING = 1e-9, 1e6
 _OUTLIER = 5.0
-_MOST_DROPPED = 0.2
+_MAX_DROPPED = 0.2
 _MODEL_SHARE = 1e-4
 
 Progress = Callable[[float], None]
@@ -64,7 +64,7 @@ def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
     tell = _build_teller(progress, 0)
     point, _ = _minimize(problem, Point(centre, starts[few]), _ROUGH, tell)
     point = Point(point.values, starts)
-    for step in range(1, _MOST_PASSES):
+    for step in range(1, _MAX_PASSES):
         problem = Problem(evidence, segments, residual, centre)
         point, squares = _minimize(problem, point, _FINE, _build_teller(progress, step))
         before, share = residual, np.sum(squares / residual**2, axis=1)
@@ -110,14 +110,14 @@ def _minimize(
     """
     normal = problem.linearize(point)
     cost, damping = problem.compute_cost(normal.squares, point.values), 1e-3
-    for iteration in range(_MOST_ITERATIONS):
+    for iteration in range(_MAX_ITERATIONS):
         tell(iteration)
         while True:
             trial = problem.step(normal, point, damping)
             found = problem.compute_cost(problem.compute_squares(trial), trial.values)
             if found <= cost:
                 break
-            if damping > _MOST_DAMPING:
+            if damping > _MAX_DAMPING:
                 return point, normal.squares
             damping *= 10.0
         fall, point, cost = cost - found, trial, found
@@ -135,7 +135,7 @@ def _build_teller(progress: Progress, step: int) -> Callable[[int], None]:
 
 def _check_dropped(evidence: Evidence, kept: int) -> None:
     count = len(evidence.segments)
-    if count - kept > _MOST_DROPPED * count:
+    if count - kept > _MAX_DROPPED * count:
         raise IdentificationError(
             f"The model does not explain {count - kept} of {count} pieces of this run: was"
             " there a load, a contact or a wrong geometry?"

@@ -52,7 +52,7 @@ def guess_parameters(evidence: Evidence) -> np.ndarray:
     def weigh(signal: np.ndarray, order: int = 0) -> np.ndarray:
         return _filter(signal, width, order, period)[rows]
 
-    def rub(angle: np.ndarray) -> np.ndarray:
+    def compute_friction(angle: np.ndarray) -> np.ndarray:
         velocity = _filter(angle, width, 1, period)
         return weigh(np.tanh(velocity / _CREEP_RAD_PER_S))
 
@@ -66,8 +66,8 @@ def guess_parameters(evidence: Evidence) -> np.ndarray:
         "D1": (zero, weigh(theta1, 1), zero),
         "D2": (zero, zero, weigh(theta2, 1)),
         "K": (-link, -motor1, -motor2),
-        "coulomb1": (zero, rub(theta1), zero),
-        "coulomb2": (zero, zero, rub(theta2)),
+        "coulomb1": (zero, compute_friction(theta1), zero),
+        "coulomb2": (zero, zero, compute_friction(theta2)),
         "gravity_moment": (weigh(np.sin(q)), zero, zero),
     }
     matrix = np.stack([np.concatenate(parts) for parts in columns.values()], 1)

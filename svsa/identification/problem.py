@@ -41,7 +41,7 @@ _MOST = Parameters(
     *(_INFINITE,) * UNKNOWNS,
 )._replace(static_ratio=5.0, stribeck=10.0, creep1=1.0, creep2=1.0, delay1=0.01, delay2=0.01)
 _ALWAYS_POSITIVE = np.array([least > 0.0 for least in _LEAST])
-_MOST_FACTOR = 3.0
+_MAX_FACTOR = 3.0
 _CREEP_SHARE = 0.5
 
 
@@ -180,7 +180,7 @@ def _share_out(work: Callable[[int], None], count: int) -> None:
 def _bound(values: np.ndarray, step: np.ndarray, period: float) -> np.ndarray:
     """A step held within bounds; creep no less than the integration can follow."""
     moved = values + step
-    within = np.clip(moved, values / _MOST_FACTOR, values * _MOST_FACTOR)
+    within = np.clip(moved, values / _MAX_FACTOR, values * _MAX_FACTOR)
     p = Parameters(*np.clip(np.where(_ALWAYS_POSITIVE, within, moved), _LEAST, _MOST))
     least1 = _CREEP_SHARE * p.coulomb1 * p.static_ratio * period / p.B1
     least2 = _CREEP_SHARE * p.coulomb2 * p.static_ratio * period / p.B2

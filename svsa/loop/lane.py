@@ -10,7 +10,7 @@ from svsa.control.call import BoundLaw
 from svsa.model.domain import Domain
 from svsa.model.dynamics import Actuator, ExternalLoad
 from svsa.plant.disturbances import LoadTable
-from svsa.plant.effects import MOST_DELAY_SAMPLES, Bench
+from svsa.plant.effects import MAX_DELAY_SAMPLES, Bench
 from svsa.reference.transition import Stack
 from svsa.signals import Disturbance, State, Torque
 
@@ -81,7 +81,7 @@ class Action(NamedTuple):
 
 def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
     """A lane at its start. memory: of its law. x: where its plant is, which is known."""
-    asked = (0.0,) * (2 * MOST_DELAY_SAMPLES + 2)
+    asked = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)
     return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, asked, memory)
 
 

@@ -98,7 +98,7 @@ def observe(
     known, estimate: x̂ and ŵ a period ago. applied: mean `Torque` since, N·m. measurement:
     `Measurement` now. Returns (`State`, `Disturbance`).
     """
-    x = know(blocks, known, estimate, applied, measurement)
+    x = observe_state(blocks, known, estimate, applied, measurement)
     w = update_disturbance_estimate(
         blocks.nominal, blocks.shares, estimate, known, x, applied, blocks.period
     )
@@ -106,7 +106,7 @@ def observe(
 
 
 @compiled
-def know(
+def observe_state(
     blocks: Blocks, known: State, estimate: Disturbance, applied: Torque, measurement: Measurement
 ) -> State:
     """x̂ with this `Measurement`. known, estimate, applied: as in `observe`."""
@@ -126,7 +126,7 @@ def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int)
     if not some(differs):
         return x
     measurement = read_sensors(blocks.bench, x, tick)
-    known = know(blocks, lane.known, lane.estimate, applied, measurement)
+    known = observe_state(blocks, lane.known, lane.estimate, applied, measurement)
     return choose(differs, known, x)
 
 

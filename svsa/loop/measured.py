@@ -1,6 +1,6 @@
 """The loop's pieces where the plant is a bench: what is measured takes the place of x.
 
-A tick on a bench is read → follow → decide → write → publish → foresee: the loop of
+A tick on a bench is read → follow → decide → write → publish → predict: the loop of
 `svsa.loop.loop`, cut open where the bench is read.
 """
 
@@ -132,15 +132,15 @@ def follow_and_decide(
 
 
 @compiled
-def publish_and_foresee(
+def publish_and_predict(
     constants: np.ndarray, carried: np.ndarray, u1: float, u2: float, tick: int, sample: np.ndarray
 ) -> None:
-    """What was sent (u1, u2, N·m) is carried on, `publish_measured` into `sample`, `foresee`."""
+    """What was sent (u1, u2, N·m) is carried on, `publish_measured` into `sample`, `predict`."""
     k, c = constants[0], carried[0]
     store_torque(c.before, c.sent)
     store_torque(c.sent, Torque(u1, u2))
     publish_measured(k.blocks, c, tick, sample)
-    store_state(c.expected, foresee(k, c))
+    store_state(c.expected, predict(k, c))
 
 
 @compiled
@@ -158,11 +158,11 @@ def pass_ticks(constants: np.ndarray, carried: np.ndarray, count: int) -> None:
         store_state(c.known, predict_state(k.blocks.nominal, known, w, applied, k.blocks.period))
         store_torque(c.made, made)
         store_torque(c.before, c.sent)
-    store_state(c.expected, foresee(k, c))
+    store_state(c.expected, predict(k, c))
 
 
 @compiled
-def foresee(constants: np.record, carried: np.record) -> State:
+def predict(constants: np.record, carried: np.record) -> State:
     """x̂ as it is expected a period later, with the velocities of half the ages before.
 
     A count of age a is then brought to its tick by y + v(t − a/2) a, right to the second

@@ -17,7 +17,7 @@ GRAVITY_M_PER_S2 = 9.81
 PAPER_TORQUE_NM = 2.0
 PAPER_MASS_KG = 3.0
 PAPER_ARM_M = 0.068
-MOST_SERIES_POINTS = 20_000
+MAX_SERIES_POINTS = 20_000
 
 _Torque = Annotated[Number, Field(ge=-50, le=50)]
 TorqueTriple = tuple[_Torque, _Torque, _Torque]
@@ -95,11 +95,11 @@ class SeriesLoad(_Load):
     """A torque of one's own: points in time since the onset, joined by straight lines."""
 
     kind: Literal["series"] = "series"
-    time_s: Annotated[tuple[Number, ...], Field(min_length=2, max_length=MOST_SERIES_POINTS)] = (
+    time_s: Annotated[tuple[Number, ...], Field(min_length=2, max_length=MAX_SERIES_POINTS)] = (
         quantity("s", "Times since onset, growing from ≥ 0")
     )
     torque_nm: Annotated[
-        tuple[TorqueTriple, ...], Field(min_length=2, max_length=MOST_SERIES_POINTS)
+        tuple[TorqueTriple, ...], Field(min_length=2, max_length=MAX_SERIES_POINTS)
     ] = quantity("N·m", _TRIPLE + ", one for each time")
 
     @classmethod
@@ -112,7 +112,7 @@ class SeriesLoad(_Load):
     ) -> Self:
         """A torque (w2, w4, w6) = function(time since onset, s), sampled every `step_s`."""
         count = max(2, round(duration_s / step_s) + 1)
-        times = tuple(index * step_s for index in range(min(count, MOST_SERIES_POINTS + 1)))
+        times = tuple(index * step_s for index in range(min(count, MAX_SERIES_POINTS + 1)))
         torques = tuple(tuple(map(float, function(time))) for time in times)
         return cls(start_s=start_s, time_s=times, torque_nm=torques)  # pyright: ignore[reportArgumentType]
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.parameters import ActuatorParameters
 
-MOST_DELAY_SAMPLES = 5
+MAX_DELAY_SAMPLES = 5
 
 
 class Encoders(Checked):
@@ -71,7 +71,7 @@ class Effects(Checked):
         "", "State estimated from positions", default=None
     )
     delay_samples: Whole = quantity(
-        "samples", "From measurement to torque", ge=0, le=MOST_DELAY_SAMPLES, default=0
+        "samples", "From measurement to torque", ge=0, le=MAX_DELAY_SAMPLES, default=0
     )
     torque_limits: Flag = quantity("", "Torques limited as the limits say", default=True)
     friction: Friction | None = quantity("", "Motor friction", default=None)

@@ -19,7 +19,7 @@ FORMAT = 1
 LONGEST_NAME = 200
 LONGEST_NOTES = 10_000
 LONGEST_TAG = 50
-MOST_TAGS = 20
+MAX_TAGS = 20
 LONGEST_LANE = 60
 
 HEADER_FILE = "header.json"
@@ -161,8 +161,8 @@ def check_texts(name: str, tags: tuple[str, ...], notes: str) -> None:
     """Raise `ParameterError` where a name, tag or note is too long or no text at all."""
     check_text("name", name, LONGEST_NAME)
     check_text("notes", notes, LONGEST_NOTES)
-    if len(tags) > MOST_TAGS or len(set(tags)) < len(tags):
-        raise ParameterError(Violation("tags", list(tags), "", f"at most {MOST_TAGS}, each once"))
+    if len(tags) > MAX_TAGS or len(set(tags)) < len(tags):
+        raise ParameterError(Violation("tags", list(tags), "", f"at most {MAX_TAGS}, each once"))
     for tag in tags:
         check_text("tags", tag, LONGEST_TAG, least=1)
 

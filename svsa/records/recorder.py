@@ -22,7 +22,7 @@ from svsa.records.writer import RecordWriter
 
 FLUSH_PERIOD_S = 0.2
 LONGEST_CLOSE_S = 5.0
-MOST_WAITING_BYTES = 64 << 20
+MAX_WAITING_BYTES = 64 << 20
 _COMMAND_BYTES = 200
 
 
@@ -116,8 +116,8 @@ class Recorder:
     def _hand_over(self, tick: int, item: bytes | np.ndarray, size: int) -> None:
         if self._failure is not None or self._close_asked.is_set():
             return
-        if self._bytes_in - self._bytes_out + size > MOST_WAITING_BYTES:
-            waiting = f"{MOST_WAITING_BYTES >> 20} MB wait to be written"
+        if self._bytes_in - self._bytes_out + size > MAX_WAITING_BYTES:
+            waiting = f"{MAX_WAITING_BYTES >> 20} MB wait to be written"
             self._fail(f"Recording ended: the disk is too slow, {waiting}.")
             return
         self._bytes_in += size

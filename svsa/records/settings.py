@@ -11,7 +11,7 @@ from svsa.records.acting import Acting, read_acting
 from svsa.records.header import RecordHeader
 from svsa.records.parquet import Commands
 from svsa.records.wording import (
-    MOST_STEPS,
+    MAX_STEPS,
     UNKNOWN,
     VERSUS,
     compute_mean,
@@ -155,9 +155,9 @@ def _describe_loads(acting: Acting) -> str:
     texts = [describe_load(scheduled.load) for scheduled in acting.loads]
     kinds = list(dict.fromkeys(texts))
     counted = [_count(text, texts) for text in kinds]
-    if len(counted) > MOST_STEPS:
-        rest = len(kinds) - MOST_STEPS + 1
-        counted = [*counted[: MOST_STEPS - 1], f"{rest} other loads"]
+    if len(counted) > MAX_STEPS:
+        rest = len(kinds) - MAX_STEPS + 1
+        counted = [*counted[: MAX_STEPS - 1], f"{rest} other loads"]
     return " + ".join(counted) or NO_LOAD
 
 

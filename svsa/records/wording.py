@@ -26,7 +26,7 @@ from svsa.reference.trajectories import (
 from svsa.run.configuration import Lane
 
 UNKNOWN = "?"
-MOST_STEPS = 3
+MAX_STEPS = 3
 VERSUS = " vs "
 _ARROW = " → "
 _EFFECTS = {
@@ -46,7 +46,7 @@ def follow(texts: Iterable[str]) -> str:
     for text in texts:
         if not steps or steps[-1] != text:
             steps.append(text)
-    if len(steps) > MOST_STEPS:
+    if len(steps) > MAX_STEPS:
         steps = [steps[0], "…", steps[-1]]
     return "" if steps == [UNKNOWN] else _ARROW.join(steps)
 

@@ -20,15 +20,15 @@ from svsa.reference.shape import (
     build_curve_shape,
 )
 
-MOST_ROWS = 2000
+MAX_ROWS = 2000
 LEAST_GAP_S = 0.001
 SPLINE_DEGREE = 7
 AT_REST = tuple((order, 0.0) for order in (1, 2, 3))
-MOST_MISS = 1e-6
+MAX_MISS = 1e-6
 
 _Position = Annotated[Number, Field(ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)]
 _Stiffness = Annotated[Number, Field(gt=0, le=GREATEST_NM_PER_RAD)]
-_Rows = Field(min_length=2, max_length=MOST_ROWS)
+_Rows = Field(min_length=2, max_length=MAX_ROWS)
 
 
 class _Series(Checked):
@@ -41,7 +41,7 @@ class _Series(Checked):
 
     kind: Literal["series"] = "series"
     time_s: Annotated[tuple[Number, ...], _Rows] = quantity(
-        "s", f"Times since the beginning, growing from ≥ 0, up to {MOST_ROWS}"
+        "s", f"Times since the beginning, growing from ≥ 0, up to {MAX_ROWS}"
     )
     transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
 
@@ -108,7 +108,7 @@ def build_spline(points: Points) -> Curve:
     coefficients[-1, 0] = values[-1]
     miss = np.abs(coefficients[:, 0] - values)
     worst = int(np.argmax(miss))
-    if not miss[worst] <= MOST_MISS * (1.0 + np.ptp(values)):
+    if not miss[worst] <= MAX_MISS * (1.0 + np.ptp(values)):
         bound = "spaced more evenly: the spline misses its own points"
         place = points.place("time_s", worst)
         raise ParameterError(Violation(place, float(times[worst]), "s", bound))

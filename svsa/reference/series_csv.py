@@ -14,7 +14,7 @@ from typing import NamedTuple
 from svsa.errors import ParameterError, Violation
 from svsa.reference.curve import check_curve
 from svsa.reference.points import Points
-from svsa.reference.series import MOST_ROWS, SeriesPosition, SeriesStiffness, build_spline
+from svsa.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness, build_spline
 from svsa.reference.shape import FASTEST_POSITION, FASTEST_STIFFNESS, FULL_TURN_RAD
 
 TIME = "time_s"
@@ -65,8 +65,8 @@ def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
         bound = f"{TIME} and one of " + ", ".join(COLUMNS)
         raise ParameterError(Violation("the head of the CSV", ",".join(head), "", bound))
     name, count = names[0], len(rows) - 1
-    if not 2 <= count <= MOST_ROWS:
-        bound = f"from 2 to {MOST_ROWS} below the head"
+    if not 2 <= count <= MAX_ROWS:
+        bound = f"from 2 to {MAX_ROWS} below the head"
         raise ParameterError(Violation("the number of rows", count, "", bound))
 
     def place(name: str, number: int) -> str:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from svsa.reference.curve import Curve
 
 SINE, CHIRP, CURVE = range(3)
-MOST_NUMBERS = 6
+MAX_NUMBERS = 6
 
 FULL_TURN_RAD = 2.0 * math.pi
 FASTEST_HZ = 5.0
@@ -31,7 +31,7 @@ class Shape(NamedTuple):
     """A reference in its own unit.
 
     kind: SINE, which runs on the session's time, or CHIRP or CURVE, which begin at their own
-    t = 0 when they have faded in. numbers: up to `MOST_NUMBERS`, as the kind's function takes
+    t = 0 when they have faded in. numbers: up to `MAX_NUMBERS`, as the kind's function takes
     them. range: least and greatest value. start: the value at t = 0.
     """
 

@@ -17,11 +17,11 @@ from svsa.reference.shape import (
     build_curve_shape,
 )
 
-MOST_STEPS = 200
+MAX_STEPS = 200
 RISE = (126.0, -420.0, 540.0, -315.0, 70.0)
 """Coefficients of s⁵ … s⁹ in the weight of `compute_fade`."""
 
-_Times = Annotated[tuple[Number, ...], Field(min_length=1, max_length=MOST_STEPS)]
+_Times = Annotated[tuple[Number, ...], Field(min_length=1, max_length=MAX_STEPS)]
 _Position = Annotated[Number, Field(ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)]
 _Stiffness = Annotated[Number, Field(gt=0, le=GREATEST_NM_PER_RAD)]
 
@@ -53,7 +53,7 @@ class _Steps(Checked):
 class StepsPosition(_Steps):
     """Steps of q_d: see `_Steps`."""
 
-    position_rad: Annotated[tuple[_Position, ...], Field(min_length=1, max_length=MOST_STEPS)] = (
+    position_rad: Annotated[tuple[_Position, ...], Field(min_length=1, max_length=MAX_STEPS)] = (
         quantity("rad", "A level for each time")
     )
 
@@ -75,7 +75,7 @@ class StepsStiffness(_Steps):
     """Steps of σ_d, inside the range of the limits: see `_Steps`."""
 
     stiffness_nm_per_rad: Annotated[
-        tuple[_Stiffness, ...], Field(min_length=1, max_length=MOST_STEPS)
+        tuple[_Stiffness, ...], Field(min_length=1, max_length=MAX_STEPS)
     ] = quantity("N·m/rad", "A level for each time")
 
     @model_validator(mode="after")

@@ -20,13 +20,13 @@ from svsa.reference.chirp import compute_chirp
 from svsa.reference.curve import DEGREE
 from svsa.reference.fade import blend, compute_fade
 from svsa.reference.polynomial import compute_polynomial
-from svsa.reference.shape import CHIRP, CURVE, MOST_NUMBERS, SINE, Derivatives
+from svsa.reference.shape import CHIRP, CURVE, MAX_NUMBERS, SINE, Derivatives
 from svsa.reference.sine import compute_sine
 from svsa.reference.trajectories import Trajectory
 
-MOST_FADES = 32
+MAX_FADES = 32
 
-KIND, A, B, C, D, E, F, START, FADE = range(3 + MOST_NUMBERS)
+KIND, A, B, C, D, E, F, START, FADE = range(3 + MAX_NUMBERS)
 
 
 class Stack(NamedTuple):
@@ -41,7 +41,7 @@ class Stack(NamedTuple):
     coefficients: np.ndarray
 
 
-_EMPTY = Stack(np.empty((0, 3 + MOST_NUMBERS)), np.empty(0), np.empty((0, DEGREE + 1)))
+_EMPTY = Stack(np.empty((0, 3 + MAX_NUMBERS)), np.empty(0), np.empty((0, DEGREE + 1)))
 
 
 def build_stack(trajectory: Trajectory) -> Stack:
@@ -52,19 +52,19 @@ def build_stack(trajectory: Trajectory) -> Stack:
 def push_trajectory(stack: Stack, trajectory: Trajectory, time: float) -> Stack:
     """The stack with `trajectory` fading in from `time` (s) on, finished fades dropped.
 
-    Raises `StateError` while `MOST_FADES` changes are still fading.
+    Raises `StateError` while `MAX_FADES` changes are still fading.
     """
     done = stack.rows[:, START] + stack.rows[:, FADE] <= time
     kept = _drop(stack, int(np.flatnonzero(done)[-1])) if done.any() else stack
-    if len(kept.rows) >= MOST_FADES:
+    if len(kept.rows) >= MAX_FADES:
         raise StateError(
-            f"{MOST_FADES} changes of this reference are still fading in; wait for one to end."
+            f"{MAX_FADES} changes of this reference are still fading in; wait for one to end."
         )
     return _append(kept, trajectory, time, trajectory.transition_s)
 
 
 def _append(stack: Stack, trajectory: Trajectory, start: float, fade: float) -> Stack:
-    shape, row = trajectory.get_shape(), np.zeros(3 + MOST_NUMBERS)
+    shape, row = trajectory.get_shape(), np.zeros(3 + MAX_NUMBERS)
     row[KIND], row[START], row[FADE] = shape.kind, start, fade
     row[A : A + len(shape.numbers)] = shape.numbers
     breaks, coefficients = stack.breaks, stack.coefficients

@@ -21,7 +21,7 @@ from svsa.plant.disturbances import Load
 from svsa.rig.faults import RigFault
 from svsa.rig.rig import Rig
 
-MOST_LINE_BYTES = 1 << 20
+MAX_LINE_BYTES = 1 << 20
 _LOAD = TypeAdapter(Load)
 _FAULT = TypeAdapter(RigFault)
 
@@ -61,7 +61,7 @@ class ControlServer:
 
     def _serve(self, client: socket.socket, unread: bytearray) -> None:
         chunk = client.recv(65536)
-        if not chunk or len(unread) > MOST_LINE_BYTES:
+        if not chunk or len(unread) > MAX_LINE_BYTES:
             raise ConnectionError
         unread += chunk
         while (end := unread.find(b"\n")) >= 0:

@@ -17,7 +17,7 @@ from svsa.rig.parameters import RigParameters
 from svsa.signals import State, Torque
 
 GRID_US = 100
-MOST_LOADS = 100
+MAX_LOADS = 100
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 NO_TORQUE = Torque(0.0, 0.0)
 _PERIOD_S = GRID_US * 1e-6
@@ -82,8 +82,8 @@ class Mechanics:
 
         Raises `StateError` where too many hang there.
         """
-        if self.load_count >= MOST_LOADS:
-            raise StateError(f"{MOST_LOADS} loads are on the rig: take some off first.")
+        if self.load_count >= MAX_LOADS:
+            raise StateError(f"{MAX_LOADS} loads are on the rig: take some off first.")
         now = max(self._tick, -(-time_us // GRID_US))
         self._load_count += 1
         loads = [*self._loads, schedule_load(self._load_count, load, now, _PERIOD_S)]

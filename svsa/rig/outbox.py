@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-MOST_BYTES = 8 * 2**20
+MAX_BYTES = 8 * 2**20
 RETRY_S = 0.002
 
 
@@ -23,7 +23,7 @@ class Outbox:
 
     def push(self, text: bytes) -> None:
         """Say this. Raises `OSError` for a client that has left, or has long read nothing."""
-        if len(self._kept) + len(text) > MOST_BYTES:
+        if len(self._kept) + len(text) > MAX_BYTES:
             raise ConnectionError("the client does not read")
         if self._kept:
             self._kept += text

@@ -36,7 +36,7 @@ from svsa.rig.parameters import RigClock, RigParameters
 from svsa.signals import Torque
 
 FRAME_US = 130
-MOST_WAITING = 1000
+MAX_WAITING = 1000
 _EMULATED_US = round(EMULATED_PERIOD_S * 1e6)
 _ERROR_FRAME_US = 1000
 
@@ -210,7 +210,7 @@ class Rig:
 
     def _request(self, frame: Frame, sender: Any) -> None:
         """Have a frame sent when the bus is free; one that is asked for too much loses frames."""
-        if len(self._waiting) >= MOST_WAITING:
+        if len(self._waiting) >= MAX_WAITING:
             return
         self._order += 1
         heapq.heappush(self._waiting, (frame.can_id, self._order, frame, sender))

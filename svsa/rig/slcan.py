@@ -16,7 +16,7 @@ from svsa.rig.frame import Frame
 from svsa.rig.outbox import Outbox
 
 OK, BELL = b"\r", b"\a"
-MOST_UNREAD_BYTES = 65_536
+MAX_UNREAD_BYTES = 65_536
 BUS_ERROR = 0x80
 _HEX = "[0-9A-Fa-f]"
 _STANDARD = re.compile(rf"t([0-7]{_HEX}{{2}})([0-8])((?:{_HEX}{{2}}){{0,8}})")
@@ -62,7 +62,7 @@ class SlcanServer:
         except OSError:
             return []
         *lines, rest = self._unread.split(OK)
-        self._unread = bytearray(rest[-MOST_UNREAD_BYTES:])
+        self._unread = bytearray(rest[-MAX_UNREAD_BYTES:])
         frames = []
         for line in lines:
             answer, frame = self._answer(line.decode("ascii", "replace").strip("\n"))

@@ -22,8 +22,8 @@ from svsa.rig.frame import Frame
 from svsa.rig.outbox import Outbox
 
 QUIET_S = 0.2
-MOST_UNREAD_BYTES = 65_536
-MOST_CLIENTS = 32
+MAX_UNREAD_BYTES = 65_536
+MAX_CLIENTS = 32
 _QUICK_ACK: int | None = getattr(socket, "TCP_QUICKACK", None)
 _TAG = re.compile(rb"<([^<>]*)>")
 _SEND = re.compile(
@@ -95,7 +95,7 @@ class SocketcandServer:
             connection, _ = self._listener.accept()
         except OSError:
             return
-        if len(self._clients) == MOST_CLIENTS:
+        if len(self._clients) == MAX_CLIENTS:
             connection.close()
             return
         connection.setblocking(False)
@@ -120,7 +120,7 @@ class SocketcandServer:
             if frame is not None:
                 frames.append(frame)
         del client.unread[:end]
-        if len(client.unread) > MOST_UNREAD_BYTES:
+        if len(client.unread) > MAX_UNREAD_BYTES:
             raise ValueError("no tag ends")
         return frames
 

@@ -30,9 +30,9 @@ from svsa.plant.effects import IDEAL, Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference, get_range
 from svsa.toml_file import parse_toml, read_toml
 
-MOST_LOADS = 16
+MAX_LOADS = 16
 PARAMETER_FILE = "parameter file"
-MOST_LANES = 4
+MAX_LANES = 4
 
 
 class Sampling(Checked):
@@ -87,7 +87,7 @@ class Lane(Checked):
 class LaneSetting(Checked):
     """What controls a lane beside the first."""
 
-    lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MOST_LANES)
+    lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MAX_LANES)
     controller: Lane
 
 
@@ -99,14 +99,14 @@ class Configuration(Design):
         "",
         "Controllers that run beside the first, each on a plant of its own",
         default=(),
-        max_length=MOST_LANES - 1,
+        max_length=MAX_LANES - 1,
     )
     effects: Effects = quantity("", "What separates the simulation from a bench", default=IDEAL)
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
     position: PositionReference
     stiffness: StiffnessReference
     loads: tuple[Load, ...] = quantity(
-        "", "Loads from the start on", default=(), max_length=MOST_LOADS
+        "", "Loads from the start on", default=(), max_length=MAX_LOADS
     )
 
     @model_validator(mode="after")

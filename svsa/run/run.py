@@ -27,7 +27,7 @@ from svsa.reference.trajectories import (
 )
 from svsa.reference.transition import Stack, build_stack, push_trajectory
 from svsa.run.blocks import bind_law, build_blocks, compute_start_ratio
-from svsa.run.configuration import MOST_LOADS, Configuration, Lane, LaneSetting
+from svsa.run.configuration import MAX_LOADS, Configuration, Lane, LaneSetting
 from svsa.run.fault import build_fault
 from svsa.run.loads import Loads, give_load
 from svsa.signals import State
@@ -222,8 +222,8 @@ class Run:
         """
         lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
         given, loads = give_load(lasting, self._load_count + 1, load, self.tick, self.period_s)
-        if len(loads) > MOST_LOADS:
-            raise StateError(f"{MOST_LOADS} loads are applied or planned: clear one first.")
+        if len(loads) > MAX_LOADS:
+            raise StateError(f"{MAX_LOADS} loads are applied or planned: clear one first.")
         self._load_count += 1
         self._set_loads(loads)
         return given

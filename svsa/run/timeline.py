@@ -36,8 +36,8 @@ from svsa.run.events import describe_change, describe_end, describe_load
 from svsa.run.replay import list_loads
 from svsa.run.run import find_origins
 
-MOST_WINDOWS = 1000
-MOST_STRETCHES = 1000
+MAX_WINDOWS = 1000
+MAX_STRETCHES = 1000
 
 WindowKind = Literal["start", "load", "unload", "change"]
 
@@ -129,7 +129,7 @@ class Timeline:
         self._begin("unload", describe_end(load), tick)
 
     def list_stretches(
-        self, first_tick: float = 0, most: int = MOST_STRETCHES
+        self, first_tick: float = 0, most: int = MAX_STRETCHES
     ) -> list[list[Stretch]]:
         """Of every lane those that reach beyond a tick, the newest ones where there are more."""
         return [
@@ -159,7 +159,7 @@ class Timeline:
             if last.kind == "load":
                 self.load_window = self.windows[-1]
         self.windows.append(Window(kind, label, tick))
-        del self.windows[:-MOST_WINDOWS]
+        del self.windows[:-MAX_WINDOWS]
 
     def _follow_controllers(self, tick: int) -> None:
         held = [lane[-1].controller if lane else None for lane in self.lanes]

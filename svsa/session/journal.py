@@ -11,7 +11,7 @@ from svsa.plant.disturbances import Load, ScheduledLoad
 from svsa.records.header import BranchPoint
 from svsa.records.recorder import Recorder
 from svsa.run.command import ApplyLoad, Command, RemoveLoad, build_command
-from svsa.run.configuration import MOST_LANES, Configuration
+from svsa.run.configuration import MAX_LANES, Configuration
 from svsa.run.events import Event, describe_change, describe_end, describe_onset
 from svsa.run.run import Run
 from svsa.run.timeline import Timeline
@@ -45,7 +45,7 @@ class Journal:
         self.on_recorded: Callable[[Recorder], None] = lambda _: None
         self.run_number = 0
         self.version = 0
-        self.history = History(MOST_LANES, HISTORY_TICKS)
+        self.history = History(MAX_LANES, HISTORY_TICKS)
         self._is_bench, self._hang = is_bench, hang
         self.begin(run)
 

@@ -19,7 +19,7 @@ SCROLL_MS = 2500
 STEEP = {"kind": "sine", "amplitude_rad": 0.5, "frequency_hz": 0.8}
 # Of the pixels of a trace, how many may differ by more than a quarter of the scale: where strokes
 # of a few points end, edges are smoothed a little differently.
-MOST_DIFFERENT = 0.03
+MAX_DIFFERENT = 0.03
 
 
 FEATURES = """() => {
@@ -112,4 +112,4 @@ def test_what_has_scrolled_is_as_if_drawn_just_now(
     strokes = anew < 200
     assert strokes.sum() > 1000
     different = np.abs(scrolled - anew)[strokes] > 64
-    assert different.mean() < MOST_DIFFERENT
+    assert different.mean() < MAX_DIFFERENT

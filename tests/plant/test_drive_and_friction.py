@@ -14,7 +14,7 @@ from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Inputs
 from svsa.loop.loop import compute_control, read_reference
 from svsa.loop.loop import delay as delay_torque
 from svsa.plant.drive import compute_lagged_torque, compute_late_torque, compute_mean_torque
-from svsa.plant.effects import MOST_DELAY_SAMPLES, CurrentLag, Friction, build_bench
+from svsa.plant.effects import MAX_DELAY_SAMPLES, CurrentLag, Friction, build_bench
 from svsa.plant.friction import compute_friction
 from svsa.plant.integration import integrate_period
 from svsa.reference.transition import build_stack
@@ -141,11 +141,11 @@ def test_friction_of_one_motor_leaves_the_other_free():
     assert end.dtheta2 == pytest.approx(1.0 - T * 0.1 / FREE.B2, rel=1e-3)
 
 
-@pytest.mark.parametrize("samples", range(MOST_DELAY_SAMPLES + 1))
+@pytest.mark.parametrize("samples", range(MAX_DELAY_SAMPLES + 1))
 def test_a_delay_of_d_samples_is_exactly_d_samples(samples):
     """A queue of zeros first; then each torque once, in order, d samples late."""
     bench = IDEAL_BENCH._replace(delay=samples)
-    asked, due = (0.0,) * (2 * MOST_DELAY_SAMPLES + 2), []
+    asked, due = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2), []
     for k in range(1, 21):
         asked, torque = delay_torque(bench, asked, Torque(float(k), -float(k)))
         due.append(torque)

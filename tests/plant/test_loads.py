@@ -8,7 +8,7 @@ import pytest
 import svsa
 from svsa.model.dynamics import ExternalLoad, compute_acceleration, compute_internal_torque
 from svsa.plant.disturbances import build_load_table, compute_load, schedule_load
-from svsa.run.configuration import MOST_LOADS
+from svsa.run.configuration import MAX_LOADS
 from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, Torque
 from tests.model.prototype import PLANT, build_state, record
@@ -163,9 +163,9 @@ def test_a_push_that_is_told_again_is_one_load_that_changes_and_lasts_on():
 
 def test_loads_are_numbered_removed_and_limited_in_number():
     run = Run(svsa.paper.get_figure("4a").build_configuration())
-    added = [run.add_load(svsa.ConstantLoad(torque_nm=TRIPLE)) for _ in range(MOST_LOADS - 1)]
-    assert len({load.number for load in run.loads}) == MOST_LOADS
-    with pytest.raises(svsa.StateError, match=f"{MOST_LOADS} loads"):
+    added = [run.add_load(svsa.ConstantLoad(torque_nm=TRIPLE)) for _ in range(MAX_LOADS - 1)]
+    assert len({load.number for load in run.loads}) == MAX_LOADS
+    with pytest.raises(svsa.StateError, match=f"{MAX_LOADS} loads"):
         run.add_load(svsa.PaperLoad())
     run.remove_load(added[0].number)
     with pytest.raises(svsa.StateError, match=f"no load {added[0].number}"):

@@ -92,7 +92,7 @@ def test_a_folder_that_exists_or_cannot_be_made_is_refused(tmp_path: Path) -> No
 
 
 def test_a_disk_that_is_too_slow_ends_the_recording_not_the_run(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(recorder_module, "MOST_WAITING_BYTES", 1 << 20)
+    monkeypatch.setattr(recorder_module, "MAX_WAITING_BYTES", 1 << 20)
     recorder = Recorder(tmp_path / "run-1", build_header())
     for tick in range(0, 10_000, 100):
         recorder.write_samples(tick, build_samples(100, first_tick=tick))

@@ -20,7 +20,7 @@ from svsa.records.writer import write_record
 from .records import PERIOD_S, build_header, build_samples, wait_until
 
 ROUNDS_OF_KILLING = 20
-MOST_LOST_TICKS = round(0.5 / PERIOD_S)
+MAX_LOST_TICKS = round(0.5 / PERIOD_S)
 PATIENCE_S = 60.0
 
 
@@ -98,7 +98,7 @@ def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path) -> No
             acting = [tick for tick, command in record.commands if command["tick"] == tick]
             assert len(acting) == len(record.commands)
             lost.append(handed_over[-1] - record.tick_count - max(np.diff(handed_over)))
-    assert max(lost) <= MOST_LOST_TICKS
+    assert max(lost) <= MAX_LOST_TICKS
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -12,7 +12,7 @@ from svsa.reference.fade import compute_fade
 from svsa.reference.sine import compute_sine
 from svsa.reference.trajectories import compute_start_value, get_range
 from svsa.reference.transition import (
-    MOST_FADES,
+    MAX_FADES,
     build_stack,
     compute_trajectory,
     push_trajectory,
@@ -134,10 +134,10 @@ def test_too_many_changes_at_once_are_refused_and_change_nothing():
     """A stack that grows without bound would slow every tick."""
     run = Run(svsa.paper.get_figure("4a").build_configuration())
     slow = svsa.ConstantPosition(position_rad=0.1, transition_s=60.0)
-    for _ in range(MOST_FADES - 1):
+    for _ in range(MAX_FADES - 1):
         run.set_position(slow)
     before = run.configuration
-    with pytest.raises(svsa.StateError, match=str(MOST_FADES)):
+    with pytest.raises(svsa.StateError, match=str(MAX_FADES)):
         run.set_position(svsa.ConstantPosition(position_rad=0.2))
     assert run.configuration == before
 

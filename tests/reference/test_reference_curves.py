@@ -7,7 +7,7 @@ import pytest
 
 import svsa
 from svsa.reference.preview import sample_reference
-from svsa.reference.series import MOST_ROWS
+from svsa.reference.series import MAX_ROWS
 from svsa.reference.series_csv import parse_series
 from svsa.reference.trajectories import compute_start_value, get_range
 from svsa.reference.transition import Stack, build_stack, compute_trajectory, push_trajectory
@@ -128,7 +128,7 @@ BAD = {
     "unit unknown": ("time_s,position\n0,1\n1,2", ["position_deg"]),
     "nothing": ("", ["head of the CSV"]),
     "one row": (write([1.0]), ["number of rows is 1", "from 2 to 2000"]),
-    "too many": (write([0.0] * (MOST_ROWS + 1)), ["2001", "from 2 to 2000"]),
+    "too many": (write([0.0] * (MAX_ROWS + 1)), ["2001", "from 2 to 2000"]),
     "no number": (write([0.0, "fast", 1.0]), ["position_rad in row 3 is 'fast'", "finite"]),
     "NaN": (write([0.0, 1.0, "nan"]), ["position_rad in row 4 is 'nan'", "finite number"]),
     "a cell too many": ("time_s,position_rad\n0,1\n1,2,3", ["row 3", "two cells"]),

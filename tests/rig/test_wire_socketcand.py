@@ -196,7 +196,7 @@ def test_a_tag_that_never_ends_is_cut_off(server, unit):
 
 
 def test_a_client_that_does_not_read_is_let_go_and_the_others_are_not(server, monkeypatch):
-    monkeypatch.setattr(outbox, "MOST_BYTES", 100_000)
+    monkeypatch.setattr(outbox, "MAX_BYTES", 100_000)
     deaf, well = Peer(server).enter(), Peer(server).enter()
     for peer in (deaf, well):
         peer.write(b"< send 123 0 >")
@@ -236,7 +236,7 @@ def test_a_burst_reaches_who_reads_it_late(server):
 
 
 def test_more_clients_than_a_bench_can_have_are_turned_away(server, monkeypatch):
-    monkeypatch.setattr(socketcand, "MOST_CLIENTS", 2)
+    monkeypatch.setattr(socketcand, "MAX_CLIENTS", 2)
     peers = [Peer(server).enter() for _ in range(2)]
     turned_away = Peer(server)
     turned_away.pump()

@@ -6,7 +6,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from svsa_server.outcomes import MOST_KEPT, Outcomes
+from svsa_server.outcomes import MAX_KEPT, Outcomes
 from tests.lab import Lab
 
 
@@ -60,7 +60,7 @@ def test_what_never_came_and_what_only_reads_are_unknown(lab: Lab) -> None:
 
 def test_only_the_last_requests_are_kept() -> None:
     outcomes = Outcomes()
-    for number in range(MOST_KEPT + 1):
+    for number in range(MAX_KEPT + 1):
         outcomes.note(str(number), 200)
     assert outcomes.find("0") == ("unknown", None)
     assert outcomes.find("1") == ("carried_out", 200)

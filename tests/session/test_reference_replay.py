@@ -7,7 +7,7 @@ import pytest
 
 import svsa
 from svsa.bench.realtime.configuration import check_takes_no_time
-from svsa.reference.series import MOST_ROWS
+from svsa.reference.series import MAX_ROWS
 from svsa.run.command import read_command
 from svsa.run.replay import simulate_again
 from svsa.signals import CHANNEL_INDEX
@@ -65,7 +65,7 @@ def test_a_session_with_every_kind_of_reference_is_the_same_again_bit_for_bit():
 
 
 def test_the_longest_series_that_may_be_asked_for_runs():
-    times = 0.01 * np.arange(MOST_ROWS)
+    times = 0.01 * np.arange(MAX_ROWS)
     series = svsa.SeriesPosition(
         time_s=tuple(times.tolist()),
         position_rad=tuple((0.3 * (1.0 - np.cos(0.1 * np.pi * times))).tolist()),
@@ -79,8 +79,8 @@ def test_the_longest_series_that_may_be_asked_for_runs():
 
 
 def test_a_series_that_is_too_long_is_refused_with_its_bound():
-    many = tuple(0.01 * number for number in range(MOST_ROWS + 1))
-    with pytest.raises(svsa.ParameterError, match=f"at most {MOST_ROWS}"):
+    many = tuple(0.01 * number for number in range(MAX_ROWS + 1))
+    with pytest.raises(svsa.ParameterError, match=f"at most {MAX_ROWS}"):
         svsa.SeriesPosition(time_s=many, position_rad=many)
 
 

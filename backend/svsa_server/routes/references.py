@@ -8,7 +8,7 @@ from fastapi import APIRouter, Body
 from pydantic import BaseModel, Field
 
 from svsa.reference.preview import sample_reference
-from svsa.reference.series import MOST_ROWS, SeriesPosition, SeriesStiffness
+from svsa.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness
 from svsa.reference.series_csv import parse_series
 from svsa.reference.trajectories import (
     PositionReference,
@@ -55,7 +55,7 @@ async def read_csv(
         Body(
             media_type="text/csv",
             description=f"time_s and position_rad, position_deg or stiffness_nm_per_rad; 2 to"
-            f" {MOST_ROWS} rows below this head",
+            f" {MAX_ROWS} rows below this head",
             examples=["time_s,position_deg\n0,0\n1,30\n2,0\n"],
         ),
     ],

@@ -9,7 +9,7 @@ from svsa.records.difference import compare_settings
 from svsa_server.routes.depends import RunId, Runs
 from svsa_server.run_schemas import RunDifference, SettingDifference
 
-MOST_OTHERS = 7
+MAX_OTHERS = 7
 router = APIRouter()
 
 
@@ -19,7 +19,7 @@ def read_difference(
     run_id: RunId,
     other: Annotated[
         list[str],
-        Query(min_length=1, max_length=MOST_OTHERS, description="Ids of the runs beside it"),
+        Query(min_length=1, max_length=MAX_OTHERS, description="Ids of the runs beside it"),
     ],
 ) -> RunDifference:
     """What of the settings differs between a run and others, and nothing that does not."""

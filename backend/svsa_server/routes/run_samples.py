@@ -19,7 +19,7 @@ from svsa_server.lanes import build_window
 from svsa_server.routes.depends import RunId, Runs
 from svsa_server.run_schemas import RunMetrics, RunSamples
 
-MOST_POINTS = 20_000
+MAX_POINTS = 20_000
 router = APIRouter()
 
 
@@ -42,7 +42,7 @@ def read_samples(
     ] = None,
     start_s: RunTime = None,
     end_s: RunTime = None,
-    points: Annotated[int, Query(ge=2, le=MOST_POINTS, description="At most so many")] = 2000,
+    points: Annotated[int, Query(ge=2, le=MAX_POINTS, description="At most so many")] = 2000,
 ) -> Response:
     """A stretch of the run for a plot; least and greatest values are kept."""
     record = runs.open(run_id)

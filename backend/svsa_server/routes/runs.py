@@ -9,8 +9,8 @@ from svsa.errors import Fault
 from svsa.fault_labels import label_fault
 from svsa.records.catalogue.entry import (
     LONGEST_SEARCH,
-    MOST_PAGE_SIZE,
-    MOST_PAGES,
+    MAX_PAGE_SIZE,
+    MAX_PAGES,
     SORTS,
     RunEntry,
 )
@@ -30,7 +30,7 @@ from svsa_server.run_schemas import (
     RunSummary,
 )
 
-MOST_COMMANDS = 1000
+MAX_COMMANDS = 1000
 LONGEST_FACET = 60
 router = APIRouter(tags=["runs"], responses=REFUSALS)
 router.include_router(run_samples.router)
@@ -73,8 +73,8 @@ def list_runs(
             examples=["-created"],
         ),
     ] = "-created",
-    page: Annotated[int, Query(ge=1, le=MOST_PAGES)] = 1,
-    page_size: Annotated[int, Query(ge=1, le=MOST_PAGE_SIZE)] = 50,
+    page: Annotated[int, Query(ge=1, le=MAX_PAGES)] = 1,
+    page_size: Annotated[int, Query(ge=1, le=MAX_PAGE_SIZE)] = 50,
     trash: Annotated[bool, Query(description="What was deleted instead")] = False,
 ) -> RunList:
     """The runs, newest first, a page at a time."""
@@ -105,7 +105,7 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
         seed=record.header.seed,
         configuration=record.header.configuration,
         channels=list(record.header.channels),
-        commands=[RunCommand(tick=t, command=c) for t, c in record.commands[:MOST_COMMANDS]],
+        commands=[RunCommand(tick=t, command=c) for t, c in record.commands[:MAX_COMMANDS]],
         command_count=len(record.commands),
     )
 

@@ -43,7 +43,7 @@ INKS: tuple[Rgb, ...] = (
     (214, 140, 10),
 )
 """The colours of curves, in the order of the page's inks: `frontend/web/src/plots/inks.ts`."""
-MOST_RIVALS = 3
+MAX_RIVALS = 3
 
 _STIFFNESS_RANGE = (1.7, 150.56)
 _STIFFNESS_STEPS = 32

@@ -24,7 +24,7 @@ from svsa_scene.replay_curves import compute_metrics, pack_curves
 from svsa_scene.replay_motion import POSE_CHANNELS, record_motion
 from svsa_scene.replay_packing import ArrayPack
 
-MOST_LANES = 4
+MAX_LANES = 4
 
 _TITLE_MARK = "REPLAY_TITLE"
 _RUN_MARK = '"REPLAY_RUN"'
@@ -148,8 +148,8 @@ def _check(
     wrong: list[Violation] = []
     if not (math.isfinite(period_s) and period_s > 0):
         wrong.append(Violation("period_s", period_s, "s", "above 0"))
-    if not 1 <= len(lanes) <= MOST_LANES:
-        wrong.append(Violation("lanes", len(lanes), "", f"1 to {MOST_LANES} lanes"))
+    if not 1 <= len(lanes) <= MAX_LANES:
+        wrong.append(Violation("lanes", len(lanes), "", f"1 to {MAX_LANES} lanes"))
     missing = [name for name in POSE_CHANNELS if name not in channels]
     if missing:
         wrong.append(Violation("channels", list(channels), "", f"with {', '.join(missing)}"))

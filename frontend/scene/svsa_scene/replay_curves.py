@@ -15,7 +15,7 @@ from svsa_scene.replay_packing import ArrayPack
 
 Array = npt.NDArray[np.float64]
 
-MOST_POINTS = 120_000
+MAX_POINTS = 120_000
 """Of a curve, in all lanes together: a minute of two lanes at 1 kHz has every sample."""
 
 _AXIS_PARTS = 4000
@@ -59,10 +59,10 @@ def pack_curves(
 ) -> dict[str, Any]:
     """Every drawn channel that the run has: for each lane the number of its array.
 
-    Every sample, or of a run of more than `MOST_POINTS` one of several, with the peaks between.
+    Every sample, or of a run of more than `MAX_POINTS` one of several, with the peaks between.
     """
     ticks, lanes, _ = samples.shape
-    stride = -(-ticks * lanes // MOST_POINTS)
+    stride = -(-ticks * lanes // MAX_POINTS)
     return {
         "step_s": stride * period_s,
         "stride": stride,

@@ -26,7 +26,7 @@ from svsa_scene.replay_packing import ArrayPack
 from svsa_scene.scene import ActuatorScene
 
 RATE_HZ = 30.0
-MOST_FRAMES = 5400
+MAX_FRAMES = 5400
 POSE_CHANNELS = (
     "position_rad",
     "position_reference_rad",
@@ -43,7 +43,7 @@ POSE_CHANNELS = (
 _REST = {"wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, 0.0), "visible": True}
 _SMOOTH = ("wxyz", "position", "scale")
 _GHOST_STEP = 0.16
-_MOST_NAMED = 2
+_MAX_NAMED = 2
 _LONGEST_NAME = 16
 _ON_GHOST = (1.43, 0.1, 0.86)
 
@@ -74,14 +74,14 @@ def record_motion(
     """The first lane as the actuator, every other lane as the outline of its link, one for
     each of its controllers that is seen while that one controls.
 
-    30 frames a second of the run, fewer where that would be more than `MOST_FRAMES`.
+    30 frames a second of the run, fewer where that would be more than `MAX_FRAMES`.
     """
-    stride = max(1, round(1.0 / (RATE_HZ * period_s)), math.ceil(len(samples) / MOST_FRAMES))
+    stride = max(1, round(1.0 / (RATE_HZ * period_s)), math.ceil(len(samples) / MAX_FRAMES))
     columns = [channels.index(name) for name in POSE_CHANNELS]
     position = channels.index("position_rad")
     with _start_viser() as server:
         scene = ActuatorScene(server)
-        named = len(lanes) == _MOST_NAMED
+        named = len(lanes) == _MAX_NAMED
         ghosts = [_Ghosts(server, lane, lanes[lane], named) for lane in range(1, len(lanes))]
         html = _hide_viser_controls(server.get_scene_serializer().as_html())
         recording = server.get_scene_serializer()

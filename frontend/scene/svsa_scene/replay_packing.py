@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 _LEVEL = 6
-_MOST_STEPS = 2**30
+_MAX_STEPS = 2**30
 _NO_NUMBER = np.int32(-(2**31))
 
 
@@ -40,7 +40,7 @@ class ArrayPack:
         exact = np.asarray(values, dtype=np.float64).ravel()
         finite = np.isfinite(exact)
         peak = float(np.max(np.abs(exact), initial=0.0, where=finite))
-        step = max(step, peak / _MOST_STEPS)
+        step = max(step, peak / _MAX_STEPS)
         whole = np.full(exact.size, _NO_NUMBER, dtype="<i4")
         whole[finite] = np.rint(exact[finite] / step)
         change = np.diff(whole, prepend=np.int32(0))

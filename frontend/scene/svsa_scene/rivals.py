@@ -16,14 +16,14 @@ class Rivals:
     def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
         self._moved = moved
         self._scene = scene = server.scene
-        self._names = [""] * look.MOST_RIVALS
-        self._inks = [number + 1 for number in range(look.MOST_RIVALS)]
+        self._names = [""] * look.MAX_RIVALS
+        self._inks = [number + 1 for number in range(look.MAX_RIVALS)]
         self._frames = [
             scene.add_frame(f"/a/r{number}", show_axes=False, visible=False)
-            for number in range(look.MOST_RIVALS)
+            for number in range(look.MAX_RIVALS)
         ]
         self._labels = []
-        for number in range(look.MOST_RIVALS):
+        for number in range(look.MAX_RIVALS):
             self._paint(number)
             self._labels.append(
                 add_label(

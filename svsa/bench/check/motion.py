@@ -17,7 +17,7 @@ from svsa.bench.file import BenchFile, MotorSettings
 LEVELS = (0.01, 0.02, 0.03, 0.05, 0.08, 0.11, 0.15)
 LONGEST_PULSE_S = 0.15
 IMPULSE_S = 0.003
-MOST_TRAVEL_RAD = 0.03
+MAX_TRAVEL_RAD = 0.03
 LEAST_COUNTS = 8
 LEAST_DEFLECTION_COUNTS = 4
 SETTLE_S = 0.2
@@ -74,7 +74,7 @@ def _is_clear(name: str, pulse: Pulse) -> bool:
 def _get_most_counts(motor: MotorSettings) -> float:
     """Counts at which a pulse ends: 0.03 rad, or a tenth of a motor turn where unknown."""
     if motor.counts_per_rev and motor.gear_ratio:
-        return MOST_TRAVEL_RAD / abs(build_motor_scale(motor).angle_per_count)
+        return MAX_TRAVEL_RAD / abs(build_motor_scale(motor).angle_per_count)
     return 0.1 * (motor.counts_per_rev or 1000)
 
 
@@ -87,7 +87,7 @@ def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse
     start = before.feedback[address][-1].feedback.position_counts
     spring = before.deflection[-1].counts
     most = _get_most_counts(getattr(probe.bench, name))
-    most_spring = MOST_TRAVEL_RAD / abs(build_deflection_scale(probe.bench.deflection))
+    most_spring = MAX_TRAVEL_RAD / abs(build_deflection_scale(probe.bench.deflection))
     traffic, end = Traffic(), probe.now() + duration_s
     try:
         while probe.now() < end and not traffic.drive_errors.get(address):

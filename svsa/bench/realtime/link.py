@@ -6,7 +6,7 @@ import socket
 from typing import Any
 
 _CHUNK = 65_536
-MOST_UNSENT_BYTES = 1 << 20
+MAX_UNSENT_BYTES = 1 << 20
 
 
 class LinkClosedError(ConnectionError):
@@ -34,7 +34,7 @@ class Link:
     def send(self, message: dict[str, Any]) -> None:
         """Send a message; raises `LinkClosedError` where nobody reads any more."""
         self._unsent += json.dumps(message).encode() + b"\n"
-        if len(self._unsent) > MOST_UNSENT_BYTES:
+        if len(self._unsent) > MAX_UNSENT_BYTES:
             raise LinkClosedError("the other side does not read")
         self.flush()
 

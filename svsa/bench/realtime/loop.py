@@ -22,7 +22,7 @@ from svsa.loop.measured import (
     Carried,
     follow_and_decide,
     pass_ticks,
-    publish_and_foresee,
+    publish_and_predict,
 )
 from svsa.packed import pack, view_field
 from svsa.run.command import build_command
@@ -169,4 +169,4 @@ class BenchLoop:
         self._constants = pack(BenchConstants(self._blocks, self._actuation, call))
 
     def _publish(self, sent: Torque, row: np.ndarray) -> None:
-        publish_and_foresee(self._constants, self._carried, sent.u1, sent.u2, self.run.tick, row)
+        publish_and_predict(self._constants, self._carried, sent.u1, sent.u2, self.run.tick, row)

@@ -25,7 +25,7 @@ from svsa.errors import SvsaError
 DEAF_S = 0.25
 PERIOD_S = 0.005
 ORPHANED_S = 2.0
-_MOST_FRAMES = 500
+_MAX_FRAMES = 500
 
 
 class Supervisor:
@@ -63,7 +63,7 @@ class Supervisor:
 
     def listen(self) -> bool:
         """Take what has come off the bus; whether there was anything."""
-        return bool(list(take_waiting(self._bus, self._settings, _MOST_FRAMES)))
+        return bool(list(take_waiting(self._bus, self._settings, _MAX_FRAMES)))
 
     def stop_drives(self) -> None:
         """Zero current to both, and reset all."""

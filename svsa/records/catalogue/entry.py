@@ -31,8 +31,8 @@ SORTS = (
     "session",
 )
 FACETS = ("tag", "law", "load", "figure", "plant")
-MOST_PAGE_SIZE = 200
-MOST_PAGES = 1_000_000
+MAX_PAGE_SIZE = 200
+MAX_PAGES = 1_000_000
 LONGEST_SEARCH = 200
 
 
@@ -140,7 +140,7 @@ class Query:
         if self.sort.removeprefix("-") not in SORTS:
             bound = "one of " + ", ".join(SORTS) + ", or one of them after -"
             raise ParameterError(Violation("sort", self.sort, "", bound))
-        for name, most in (("page", MOST_PAGES), ("page_size", MOST_PAGE_SIZE)):
+        for name, most in (("page", MAX_PAGES), ("page_size", MAX_PAGE_SIZE)):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
                 bound = f"a whole number from 1 to {most}"

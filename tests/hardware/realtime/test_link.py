@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.bench.realtime.link import MOST_UNSENT_BYTES, LinkClosedError, build_links
+from svsa.bench.realtime.link import MAX_UNSENT_BYTES, LinkClosedError, build_links
 
 
 def test_messages_arrive_whole_and_in_order():
@@ -29,4 +29,4 @@ def test_a_peer_that_does_not_read_is_given_up():
     one, _other = build_links()
     with pytest.raises(LinkClosedError, match="does not read"):
         for _ in range(1000):
-            one.send({"text": "x" * (MOST_UNSENT_BYTES // 100)})
+            one.send({"text": "x" * (MAX_UNSENT_BYTES // 100)})

@@ -13,7 +13,7 @@ export interface Call {
   timeS: number | null;
 }
 
-const MOST_CALLS = 200;
+const MAX_CALLS = 200;
 /** What carries the lab's secret is shown nowhere. */
 const SECRET_PATH = "login";
 /** What is only looked at, at every key that is pressed. */
@@ -51,7 +51,7 @@ export function noteDownload(path: string): void {
 
 function addCall(call: Omit<Call, "id">): number {
   lastId += 1;
-  calls.value = [...calls.peek(), { id: lastId, ...call }].slice(-MOST_CALLS);
+  calls.value = [...calls.peek(), { id: lastId, ...call }].slice(-MAX_CALLS);
   return lastId;
 }
 

@@ -8,7 +8,7 @@ import { Problem } from "../widgets/problem";
 import { Beside } from "./beside";
 import { LawPicker } from "./lawpicker";
 
-const MOST_LANES = 4;
+const MAX_LANES = 4;
 const words = text.beside;
 
 /** Other controllers beside the session's own: switched on and off, added, set, removed. */
@@ -18,7 +18,7 @@ export function Compare({ state }: { state: SessionState }) {
   const id = useId();
   const isOn = beside.length > 0;
   const isRecording = state.recording !== null;
-  const isFull = state.lanes.length >= MOST_LANES;
+  const isFull = state.lanes.length >= MAX_LANES;
   const most = beside.length;
   if (!isOn && other === undefined) return null;
   const laws = isOn ? beside.map(({ controller }) => controller.law) : [other ?? ""];

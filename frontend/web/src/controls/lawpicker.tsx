@@ -6,7 +6,7 @@ import { text } from "../text/en";
 import { Popup } from "../widgets/popup";
 
 const words = text.laws;
-const MOST_AT_A_GLANCE = 6;
+const MAX_AT_A_GLANCE = 6;
 
 /** Arrows go through what can be pressed in a list, the search before it; Home and End too. */
 function stepTo(list: HTMLElement, event: KeyboardEvent): void {
@@ -54,7 +54,7 @@ function LawList({ value, onChoose }: LawListProps) {
   const list = useRef<HTMLDivElement>(null);
   const id = useId();
   const usable = usableLaws.value;
-  const isMany = usable.length > MOST_AT_A_GLANCE;
+  const isMany = usable.length > MAX_AT_A_GLANCE;
   const found = findLaws(usable, sought);
   useEffect(() => {
     const first = list.current?.querySelector<HTMLElement>("input, [aria-current=true], button");

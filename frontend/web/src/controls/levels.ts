@@ -3,7 +3,7 @@ import type { Follows, Reference } from "../api/references";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
 
-export const MOST_LEVELS = 200;
+export const MAX_LEVELS = 200;
 const GAP = /[\s,;]+/;
 
 /** So many steps between two levels, at equal times; the list that these numbers stand for. */
@@ -23,8 +23,8 @@ export function readLevels(follows: Follows, list: string): Reference {
     }
     return [cells as [number, number]];
   });
-  if (rows.length === 0 || rows.length > MOST_LEVELS) {
-    throw new RangeError(text.references.levelCount(rows.length, MOST_LEVELS));
+  if (rows.length === 0 || rows.length > MAX_LEVELS) {
+    throw new RangeError(text.references.levelCount(rows.length, MAX_LEVELS));
   }
   const time_s = rows.map(([time]) => time);
   const levels = rows.map(([, level]) => level);

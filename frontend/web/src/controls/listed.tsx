@@ -1,6 +1,6 @@
 /** References that are typed or opened as a list: steps line by line, a time series as CSV. */
 import { text } from "../text/en";
-import { MOST_LEVELS } from "./levels";
+import { MAX_LEVELS } from "./levels";
 
 const words = text.references;
 
@@ -28,7 +28,7 @@ export function Levels({ unit, ...list }: Pick<ListProps, "list" | "onList"> & {
   return (
     <>
       <List label={words.levels(unit)} rows={6} {...list} />
-      <p class="hint">{words.levelsHint(unit, MOST_LEVELS)}</p>
+      <p class="hint">{words.levelsHint(unit, MAX_LEVELS)}</p>
     </>
   );
 }

@@ -6,7 +6,7 @@ import { perform } from "../state/actions";
 import { lanesBeside } from "../state/lanes";
 import { session } from "../state/session";
 
-const MOST_STEPS = 50;
+const MAX_STEPS = 50;
 
 /** parameters: by law. beside: by the identity of the lane. */
 export interface Design {
@@ -60,7 +60,7 @@ export const isSame = (one: Design, other: Design): boolean =>
 
 /** The steps after a change to `next`: the one before it is kept. */
 export function keepStep(kept: readonly Design[], before: Design): Design[] {
-  return [...kept, before].slice(-MOST_STEPS);
+  return [...kept, before].slice(-MAX_STEPS);
 }
 
 export function watchDesign(): void {

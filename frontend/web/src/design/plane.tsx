@@ -4,8 +4,8 @@ import { type Draft, draft, type Group, inUse, tryPoles } from "./draft";
 import {
   countPlaces,
   LEAST_RE,
-  MOST_IM,
-  MOST_RE,
+  MAX_IM,
+  MAX_RE,
   movePole,
   type Pole,
   type Poles,
@@ -15,8 +15,8 @@ import { stability } from "./stability";
 import { describePole } from "./words";
 
 const SCALE = 1.1;
-const WIDTH = (MOST_RE - LEAST_RE) * SCALE;
-const HEIGHT = 2 * MOST_IM * SCALE;
+const WIDTH = (MAX_RE - LEAST_RE) * SCALE;
+const HEIGHT = 2 * MAX_IM * SCALE;
 const CIRCLES = [50, 100, 150, 200, 250];
 const FAR = 10;
 const GROUPS: readonly Group[] = ["position", "stiffness"];
@@ -31,8 +31,8 @@ const ARROWS: Record<string, readonly [number, number]> = {
   ArrowDown: [0, -1],
 };
 
-const xOf = (re: number) => (Math.max(LEAST_RE, Math.min(MOST_RE, re)) - LEAST_RE) * SCALE;
-const yOf = (im: number) => (MOST_IM - Math.max(-MOST_IM, Math.min(MOST_IM, im))) * SCALE;
+const xOf = (re: number) => (Math.max(LEAST_RE, Math.min(MAX_RE, re)) - LEAST_RE) * SCALE;
+const yOf = (im: number) => (MAX_IM - Math.max(-MAX_IM, Math.min(MAX_IM, im))) * SCALE;
 
 /** Axes, circles of equal speed, and the half where nothing is stable. */
 function Ground() {
@@ -144,7 +144,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
       aria-label={text.design.pole(name, index + 1, poles.length)}
       aria-valuenow={pole.re}
       aria-valuemin={LEAST_RE}
-      aria-valuemax={MOST_RE}
+      aria-valuemax={MAX_RE}
       aria-valuetext={text.design.poleValue(describePole(pole))}
       aria-describedby="plane-hint"
       onPointerDown={grab}
@@ -204,8 +204,8 @@ export function Plane() {
   const readPlace = (event: PointerEvent): Pole => {
     const box = (picture.current as SVGSVGElement).getBoundingClientRect();
     return {
-      re: LEAST_RE + ((event.clientX - box.left) / box.width) * (MOST_RE - LEAST_RE),
-      im: MOST_IM - ((event.clientY - box.top) / box.height) * 2 * MOST_IM,
+      re: LEAST_RE + ((event.clientX - box.left) / box.width) * (MAX_RE - LEAST_RE),
+      im: MAX_IM - ((event.clientY - box.top) / box.height) * 2 * MAX_IM,
     };
   };
   if (tried === null || now === null) return null;

@@ -10,9 +10,9 @@ export type Poles = readonly Pole[];
 
 /** Closer to the real axis than this, a pole lies on it, rad/s. */
 export const SNAP = 4;
-export const MOST_RE = 40;
+export const MAX_RE = 40;
 export const LEAST_RE = -300;
-export const MOST_IM = 120;
+export const MAX_IM = 120;
 
 const clamp = (value: number, least: number, most: number) =>
   Math.min(most, Math.max(least, value));
@@ -63,8 +63,8 @@ export function partnerOf(poles: Poles, index: number): number {
 export function movePole(start: Poles, index: number, to: Pole): Pole[] {
   const partner = partnerOf(start, index);
   const isOnAxis = Math.abs(to.im) < SNAP || partner < 0;
-  const re = rounded(clamp(to.re, LEAST_RE, MOST_RE));
-  const im = isOnAxis ? 0 : rounded(clamp(to.im, -MOST_IM, MOST_IM));
+  const re = rounded(clamp(to.re, LEAST_RE, MAX_RE));
+  const im = isOnAxis ? 0 : rounded(clamp(to.im, -MAX_IM, MAX_IM));
   const wasPair = (start[index] as Pole).im !== 0;
   return start.map((pole, other) => {
     if (other === index) return { re, im };

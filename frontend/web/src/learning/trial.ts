@@ -5,7 +5,7 @@ import { decodeBatch } from "../stream/decoder";
 import { type Course, sliceCourse } from "./outcome";
 
 const DURATION_S = 20;
-const MOST_STEP = 10_000;
+const MAX_STEP = 10_000;
 const RATE_HZ = 1000;
 const PATIENCE_MS = 20_000;
 const CHANNELS = ["time_s", "position_error_rad", "stiffness_error_nm_per_rad"] as const;
@@ -26,7 +26,7 @@ export async function runFigureApart(figure: Figure): Promise<Course> {
     let state = await ask("post", `${path}/pause`);
     const last = Math.round(DURATION_S * state.rate_hz);
     while (state.tick < last && state.status !== "fault") {
-      const ticks = Math.min(MOST_STEP, last - state.tick);
+      const ticks = Math.min(MAX_STEP, last - state.tick);
       state = await ask("post", `${path}/step`, { ticks });
     }
     return await readHistory(path, state.tick);

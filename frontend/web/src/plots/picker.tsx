@@ -1,12 +1,12 @@
 import { text } from "../text/en";
 import { Popup } from "../widgets/popup";
 import { ChannelChoice } from "./channelchoice";
-import { addOwnPlot, MOST_PLOTS, PRESET_NAMES, resetPlots, setups, togglePreset } from "./setups";
+import { addOwnPlot, MAX_PLOTS, PRESET_NAMES, resetPlots, setups, togglePreset } from "./setups";
 
 /** Which plots there are. */
 export function PlotPicker() {
   const shown = setups.value;
-  const isFull = shown.length >= MOST_PLOTS;
+  const isFull = shown.length >= MAX_PLOTS;
   return (
     <Popup class="tool" title={text.picker.openHint} button={text.picker.open}>
       {() => (

@@ -35,7 +35,7 @@ export interface PlotSetup {
   channels: readonly ChannelName[];
 }
 
-export const MOST_PLOTS = 16;
+export const MAX_PLOTS = 16;
 const STORE = "svsa.plots";
 /** What numbers on the page need, whatever is plotted. */
 const ALWAYS: readonly ChannelName[] = ["position_error_rad"];
@@ -79,7 +79,7 @@ export function readSetups(stored: string | null): PlotSetup[] | null {
   }
   if (!Array.isArray(rows)) return null;
   const setups = new Map<string, PlotSetup>();
-  for (const setup of rows.slice(0, MOST_PLOTS).flatMap(readSetup)) setups.set(setup.key, setup);
+  for (const setup of rows.slice(0, MAX_PLOTS).flatMap(readSetup)) setups.set(setup.key, setup);
   return [...setups.values()];
 }
 

@@ -3,7 +3,7 @@ import { text } from "../text/replay";
 import type { Run } from "./data";
 
 const { about } = text;
-const MOST_ENTRIES = 200;
+const MAX_ENTRIES = 200;
 
 const isPlain = (value: unknown) => value === null || typeof value !== "object";
 const words = (key: string) => key.replaceAll("_", " ");
@@ -17,7 +17,7 @@ function Value({ value }: { value: unknown }) {
   const entries = Object.entries(value as object);
   return (
     <dl>
-      {entries.slice(0, MOST_ENTRIES).map(([key, inner]) => (
+      {entries.slice(0, MAX_ENTRIES).map(([key, inner]) => (
         <div key={key} class={isPlain(inner) ? "" : "is-group"}>
           <dt>{Array.isArray(value) ? Number(key) + 1 : words(key)}</dt>
           <dd>
@@ -25,7 +25,7 @@ function Value({ value }: { value: unknown }) {
           </dd>
         </div>
       ))}
-      {entries.length > MOST_ENTRIES && <p>{about.more(entries.length - MOST_ENTRIES)}</p>}
+      {entries.length > MAX_ENTRIES && <p>{about.more(entries.length - MAX_ENTRIES)}</p>}
     </dl>
   );
 }

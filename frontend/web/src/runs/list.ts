@@ -5,7 +5,7 @@ import type { RunList, RunPatch, RunSummary } from "../api/types";
 import { attempt } from "./problem";
 
 export const PAGE_SIZE = 20;
-export const MOST_CHOSEN = 6;
+export const MAX_CHOSEN = 6;
 
 export const FILTERS = ["law", "load", "figure", "plant", "tag"] as const;
 export type Filter = (typeof FILTERS)[number];

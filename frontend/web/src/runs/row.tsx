@@ -5,7 +5,7 @@ import { text } from "../text/en";
 import { PlantMark } from "../widgets/plantmark";
 import { COLUMNS } from "./columns";
 import { excerpt, searchedWords } from "./found";
-import { chosen, MOST_CHOSEN, putIntoTrash, takeBack, toggleChosen } from "./list";
+import { chosen, MAX_CHOSEN, putIntoTrash, takeBack, toggleChosen } from "./list";
 import { Marked } from "./marked";
 import { OriginLink } from "./originlink";
 import { PlaceLink } from "./placelink";
@@ -55,7 +55,7 @@ function Choose({ run }: { run: RunSummary }) {
       class="run-choose"
       aria-label={words.choose(run.title)}
       checked={isChosen}
-      disabled={run.ticks === 0 || (!isChosen && chosen.value.length >= MOST_CHOSEN)}
+      disabled={run.ticks === 0 || (!isChosen && chosen.value.length >= MAX_CHOSEN)}
       onChange={() => toggleChosen(run.id)}
     />
   );

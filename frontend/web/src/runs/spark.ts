@@ -62,7 +62,7 @@ export function drawSpark(
   return { paths, zero: down(0), peak };
 }
 
-const MOST_KEPT = 200;
+const MAX_KEPT = 200;
 const kept = new Map<string, Promise<Glance>>();
 
 async function readGlance(run: string): Promise<Glance> {
@@ -80,6 +80,6 @@ export function keepGlance(run: string, ticks: number): Promise<Glance> {
   made.catch(() => kept.delete(key));
   kept.set(key, made);
   const oldest = kept.keys().next().value;
-  if (kept.size > MOST_KEPT && oldest !== undefined) kept.delete(oldest);
+  if (kept.size > MAX_KEPT && oldest !== undefined) kept.delete(oldest);
   return made;
 }

@@ -15,14 +15,14 @@ const LOOK_MS = 60;
 const TELL_MS = 200;
 const SILENCE_S = 0.8;
 const LEAST_HOLD_S = 0.02;
-const MOST_HOLD_S = 60;
+const MAX_HOLD_S = 60;
 
 type Pace = Pick<SessionState, "speed" | "real_time_factor">;
 
 /** Session time in which the page is heard again however fast the session goes, s. */
 export function holdOf({ speed, real_time_factor: factor }: Pace): number {
   const pace = speed === "max" ? factor : speed;
-  return Math.min(MOST_HOLD_S, Math.max(LEAST_HOLD_S, SILENCE_S * pace));
+  return Math.min(MAX_HOLD_S, Math.max(LEAST_HOLD_S, SILENCE_S * pace));
 }
 
 /** Whether a torque is told: it begins a push, it differs, or it is time to be heard of. */

@@ -47,10 +47,10 @@ export function angleSeen(camera: Camera, right: number, up: number): number | n
 export const wrap = (angle: number): number => Math.atan2(Math.sin(angle), Math.cos(angle));
 
 const SPRING_NM_PER_RAD = 2.5;
-const MOST_NM = 1.5;
+const MAX_NM = 1.5;
 
 /** What the spring between the pointer and the point where the link was taken pulls with, N·m. */
 export function pullOf(pointer: number, link: number, taken: number): number {
   const torque = SPRING_NM_PER_RAD * wrap(pointer - link - taken);
-  return Math.max(-MOST_NM, Math.min(MOST_NM, torque));
+  return Math.max(-MAX_NM, Math.min(MAX_NM, torque));
 }

@@ -8,7 +8,7 @@ Source: RoboModule RMDS CAN manual, edition of July 2018. Standard identifiers
 from operator import index
 from typing import Any
 
-from svsa.bench.drives.robomodule.layouts import LAYOUTS, MOST_PWM, Field, Layout
+from svsa.bench.drives.robomodule.layouts import LAYOUTS, MAX_PWM, Field, Layout
 from svsa.bench.drives.robomodule.messages import (
     BROADCAST,
     STALL_PROTECTION,
@@ -39,7 +39,7 @@ __all__ = [
     "FILLER",
     "LAYOUTS",
     "LENGTH",
-    "MOST_PWM",
+    "MAX_PWM",
     "STALL_PROTECTION",
     "Address",
     "Command",

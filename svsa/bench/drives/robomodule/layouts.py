@@ -25,7 +25,7 @@ from svsa.bench.drives.robomodule.messages import (
     VelocityPosition,
 )
 
-MOST_PWM = 5000
+MAX_PWM = 5000
 
 
 class Field(NamedTuple):
@@ -65,7 +65,7 @@ def _byte(name: str, unit: str, start: int) -> Field:
     return Field(name, unit, start, _U8, 0, 255)
 
 
-_PWM_LIMIT = Field("pwm_limit", "", 0, _I16, 0, MOST_PWM)
+_PWM_LIMIT = Field("pwm_limit", "", 0, _I16, 0, MAX_PWM)
 _CURRENT_LIMIT = _limit("current_limit_ma", "mA", 0)
 _SPEED_LIMIT = _limit("velocity_rpm", "rpm", 2)
 _VELOCITY = _signed("velocity_rpm", "rpm", 2)
@@ -75,7 +75,7 @@ LAYOUTS: dict[Command, Layout] = {
     for layout in (
         Layout(Reset, ()),
         Layout(SetMode, (Field("mode", "", 0, _U8, 1, 8),)),
-        Layout(OpenLoop, (Field("pwm", "", 0, _I16, -MOST_PWM, MOST_PWM),)),
+        Layout(OpenLoop, (Field("pwm", "", 0, _I16, -MAX_PWM, MAX_PWM),)),
         Layout(Current, (_PWM_LIMIT, _signed("current_ma", "mA", 2))),
         Layout(Velocity, (_PWM_LIMIT, _VELOCITY)),
         Layout(Position, (_PWM_LIMIT, _counts(4))),
