@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 
 import svsa
+from svsa.control.installed import list_law_names
 from svsa.run.command import SetLaw, read_command
 from svsa.run.configuration import Configuration
 from svsa.run.replay import replay, simulate_again
@@ -122,6 +123,7 @@ def test_a_configuration_survives_json(argument):
 
 
 PAPER = {"kind": "paper"}
+LAWS = ", ".join(list_law_names())
 GARBAGE = {
     "nothing": ({}, "is missing"),
     "no kind": ({"tick": 3, "argument": "fl"}, "kind"),
@@ -134,7 +136,7 @@ GARBAGE = {
     "no argument": ({"tick": 3, "kind": "load"}, "load"),
     "an unknown load": ({"tick": 3, "kind": "load", "argument": {"kind": "wind"}}, "kind"),
     "a field too much": ({"tick": 3, "kind": "load", "argument": PAPER | {"x": 1}}, "x is 1"),
-    "no name of a law": ({"tick": 3, "kind": "law", "argument": "P I D"}, "here: ndobc, fl"),
+    "no name of a law": ({"tick": 3, "kind": "law", "argument": "P I D"}, f"here: {LAWS}."),
     "a number as a text": ({"tick": 3, "kind": "unload", "argument": "1"}, "whole number"),
     "a list": ([], "command"),
     "null": (None, "command"),
