@@ -16,18 +16,20 @@ from svsa.errors import ParameterError, Violation
 
 GROUP = "svsa.laws"
 PAPERS_LAW = "ndobc"
+BASELINE = "fl"
+"""What the paper compares its law with."""
 
 
 @cache
 def _find_entries() -> dict[str, EntryPoint]:
-    """By name, the paper's law first, the others in the order of the alphabet."""
+    """By name, the paper's laws first, the others in the order of the alphabet."""
     entries = entry_points(group=GROUP)
-    names = sorted(entries.names, key=lambda name: (name != PAPERS_LAW, name))
+    names = sorted(entries.names, key=lambda name: (name != PAPERS_LAW, name != BASELINE, name))
     return {name: next(iter(entries.select(name=name))) for name in names}
 
 
 def list_law_names() -> tuple[str, ...]:
-    """The names of the laws that are installed, the paper's first."""
+    """The names of the laws that are installed: the paper's, its baseline, then the others."""
     return tuple(_find_entries())
 
 
