@@ -69,7 +69,7 @@ class BenchLoop:
         self.run = Run(configuration, start=Start(self._mu0, AT_REST))
         self._scratch = np.empty(len(CHANNELS))
         self._carried = _NOTHING.copy()
-        self._known, self._estimate, self._asked, self._foreseen, self._measured, self._ages = (
+        self._known, self._estimate, self._asked, self._expected, self._measured, self._ages = (
             view_field(self._carried, name)
             for name in ("known", "estimate", "asked", "expected", "measured", "ages_s")
         )
@@ -130,7 +130,7 @@ class BenchLoop:
         plant = self.plant
         if missed and self._is_known:
             pass_ticks(self._constants, self._carried, missed)
-        reading = self.reading = plant.read(now, State(*self._foreseen.tolist()))
+        reading = self.reading = plant.read(now, State(*self._expected.tolist()))
         measurement = reading.measurement
         if measurement is None:
             self._forget()
