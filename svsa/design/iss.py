@@ -18,6 +18,7 @@ from svsa.signals import CHANNEL_INDEX, CHANNELS
 RAMPS_NM_PER_S = (0.2, 1.0)
 RAMP_S = 1.0
 _SETTLED = 1e-9
+_LEAST_RATE = 1e-6
 _LONGEST_S = 20.0
 _POINTS = 4000
 
@@ -36,7 +37,7 @@ class RateGain(NamedTuple):
 
 def compute_rate_gain(loop: ClosedLoop) -> RateGain:
     """From the linear loop: |C A⁻² B| and ∫|C A⁻¹ e^{At} B| dt, for w2 and the position."""
-    if not loop.is_hurwitz:
+    if loop.slowest > -_LEAST_RATE:
         return RateGain(math.inf, math.inf)
     A, b, c = loop.A, loop.B[:, 0], loop.C[0]
     from scipy.linalg import expm  # late: it takes a while
@@ -64,9 +65,9 @@ def compute_formula(configuration: Configuration, sigma: float) -> float | None:
     from the error dynamics (Eq 23, 24) under a ramp, where ŵ2 lags by ẇ2/β2. As β → ∞ the floor
     (c3 − D/M)/(M c0) is left: ŵ is held while the error's third derivative is computed.
     """
-    if configuration.law != "ndobc":
-        return None
     gains = build_gains(configuration.gains)
+    if configuration.law != "ndobc" or gains.p0 <= 0.0:
+        return None
     M, D = (
         configuration.nominal.link_inertia_kg_m2,
         configuration.nominal.link_damping_nms_per_rad,
@@ -78,9 +79,9 @@ def compute_formula(configuration: Configuration, sigma: float) -> float | None:
 
 def compute_floor(configuration: Configuration) -> float | None:
     """What `compute_formula` tends to as β → ∞."""
-    if configuration.law != "ndobc":
-        return None
     gains = build_gains(configuration.gains)
+    if configuration.law != "ndobc" or gains.p0 <= 0.0:
+        return None
     M = configuration.nominal.link_inertia_kg_m2
     D = configuration.nominal.link_damping_nms_per_rad
     return abs(gains.p3 - D / M) / (M * gains.p0)

@@ -55,6 +55,13 @@ def test_poles_right_of_the_axis_are_shown_to_fail(lab: Lab) -> None:
     assert shown["largest_pole"] > 1.0
 
 
+def test_gains_that_are_all_zero_are_shown_too(lab: Lab) -> None:
+    zero = {"position_coefficients": [0, 0, 0, 0], "stiffness_coefficients": [0, 0]}
+    found = ask(lab, "stability", gains=zero, law="ndobc")
+    assert found["formula_rad_s_per_nm"] is found["ramp_gain_rad_s_per_nm"] is None
+    assert ask(lab, "response", gains=zero)["load"]["time_s"]
+
+
 def test_the_map_comes_in_parts_from_coarse_to_fine(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     first = ask(lab, "region", starts=5, count=9)
