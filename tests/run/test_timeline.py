@@ -3,6 +3,7 @@
 import pytest
 
 import svsa
+from svsa.control.installed import list_law_names
 from svsa.run.controllers import name_controllers
 from svsa.run.timeline import Timeline, Window, read_timeline
 from tests.session.scripts import play_busy_session
@@ -30,7 +31,8 @@ def test_laws_that_change_places_leave_the_past_its_names():
         [("FL", 0, 30), ("NDOBC", 30, None)],
     ]
     inks = [[one.ink for one in lane] for lane in session.journal.timeline.list_stretches()]
-    assert inks == [[0, 1], [1, 0]]
+    first, other = (list_law_names().index(law) for law in ("ndobc", "fl"))
+    assert inks == [[first, other], [other, first]]
 
 
 def test_a_rival_begins_where_it_began_and_takes_nobodys_past():
