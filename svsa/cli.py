@@ -151,15 +151,17 @@ def prepare(laws: Iterable[str] | None = None) -> None:
     from svsa.experiment.simulate import simulate
     from svsa.loop.loop import advance
 
+    names = list_law_names() if laws is None else tuple(laws)
     if is_compiled_before(advance):
         text = "Loading the compiled control loop …"
     else:
-        text = "First start: compiling the control loop (about 15 s, once), then each law (3 s) …"
+        law = "1 law" if len(names) == 1 else f"{len(names)} laws"
+        text = f"First start: compiling the control loop (about 10 s, once) and {law} (3 s each) …"
         _messages.print(text)
     with _messages.status(text):
-        for law in list_law_names() if laws is None else laws:
+        for name in names:
             try:
-                simulate("4a", law, duration_s=0.01)
+                simulate("4a", name, duration_s=0.01)
             except LawError as error:
                 _messages.print(f"[bold red]{escape(str(error))}[/]", highlight=False)
 

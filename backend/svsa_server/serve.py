@@ -7,8 +7,10 @@ import uvicorn
 from rich.console import Console
 
 from svsa.cli import prepare
+from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.run.configuration import read_design
+from svsa_server.compiling import compile_laws
 from svsa_server.config import Settings
 from svsa_server.console import HINT, watch_keyboard
 
@@ -66,7 +68,8 @@ def run_server(host: str, port: int, bench: Path | None, parameters: Path | None
     chosen = config.choose_host(host)
     config.check_exposure(chosen)
     listener = bind(chosen, port)
-    prepare()
+    # A bench's loop cannot wait for a compiler: it has every law before it begins.
+    prepare((PAPERS_LAW, BASELINE) if bench is None else None)
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
     from svsa_server.laboratory import build_shared_session
 
@@ -81,7 +84,7 @@ def run_server(host: str, port: int, bench: Path | None, parameters: Path | None
         )
     )
     server.announcement = describe_address(host, chosen, listener.getsockname()[1])
-    with watch_keyboard(shared.stop_from_keyboard) as watched:
+    with compile_laws(), watch_keyboard(shared.stop_from_keyboard) as watched:
         if watched and bench:
             server.announcement += f"\n{HINT}"
         server.run(sockets=[listener])

@@ -20,6 +20,7 @@ import numpy as np
 
 from svsa.control.call import build_call
 from svsa.control.feedback_linearization import build_gains
+from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.experiment.simulate import simulate
 from svsa.loop.batch import run_batch
 from svsa.loop.loop import advance
@@ -44,7 +45,8 @@ LANES = 32
 REPEATS = 15
 BENCH_TICKS = 1000
 FIGURE, LAW = "4a", "ndobc"
-COMPILE = ("from svsa.cli import main; main()", "compile")
+COMPILE = (f"from svsa.cli import prepare; prepare({(PAPERS_LAW, BASELINE)!r})",)
+"""What `make run` waits for at its first start."""
 FIRST_RUN = (f"import svsa; svsa.simulate({FIGURE!r}, {LAW!r})",)
 
 
