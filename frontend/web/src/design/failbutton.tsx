@@ -11,7 +11,7 @@ const words = text.stability;
 const wouldFail = () =>
   expected.value?.verdict === "refuse" ||
   expected.value?.reasons.some(({ code }) => code === "unstable_loop") === true ||
-  (stability.value?.slowest_rad_per_s ?? -1) >= 0 ||
+  (stability.value?.largest_pole ?? 0) >= 1 ||
   (tried.value?.load.fault ?? null) !== null;
 
 /** What must not be applied may be seen to fail: in a private simulation, never on a bench. */
