@@ -18,6 +18,7 @@ from svsa.control.installed import get_law
 from svsa.control.law import Setting
 from svsa.design.differences import differentiate
 from svsa.design.linear_model import linearize_at
+from svsa.design.sampled_loop import find_rest
 from svsa.loop.loop import decide
 from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.parameters import ActuatorParameters
@@ -137,7 +138,7 @@ def linearize_law(configuration: Configuration, sigma: float) -> LawDerivatives:
     installed = get_law(c.law)
     setting = Setting(b.nominal, b.domain, math.inf, math.inf, b.period)
     law = installed.bind(c.get_parameters(c.lanes[0]), setting)
-    start = installed.start_memory()
+    start = find_rest(run).memory
 
     def respond(z: np.ndarray) -> np.ndarray:
         memory = z[11:].copy()

@@ -18,6 +18,7 @@ from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
 
 TORQUES = slice(15, 17)
 _PUSH_NM = 1e-3
+_BEGINNING_S = 0.05
 
 
 class SampledLoop(NamedTuple):
@@ -57,7 +58,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
         )
     )
     blocks, law = run.blocks[0], run.laws[0]
-    rest, sample = run.lanes[0], np.empty(len(CHANNELS))
+    rest, sample = find_rest(run), np.empty(len(CHANNELS))
 
     def tick(z: np.ndarray, inputs: Inputs = run.inputs) -> np.ndarray:
         lane = _unpack(z)
@@ -84,6 +85,12 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
     is_fixed = np.all(is_same, axis=1) & np.all(B == 0.0, axis=1)
     moving = np.flatnonzero(~is_fixed)
     return SampledLoop(A[np.ix_(moving, moving)], B[moving], W[moving])
+
+
+def find_rest(run: Run) -> LaneState:
+    """The first lane of a run at rest, once its law has begun: many do otherwise at first."""
+    run.advance(np.empty((1, round(_BEGINNING_S / run.period_s), len(CHANNELS))))
+    return run.lanes[0]
 
 
 def _pack(lane: LaneState) -> np.ndarray:

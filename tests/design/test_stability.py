@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.control.installed import get_law
 from svsa.design.closed_loop import connect, linearize_law, linearize_loop
 from svsa.design.iss import (
     compute_floor,
@@ -16,6 +17,7 @@ from svsa.design.iss import (
 from svsa.design.robustness import find_stable_ranges
 from svsa.design.sampled_loop import linearize_tick
 from svsa.design.sampling import find_fastest_observer
+from svsa.design.stability import assess
 from svsa.run.configuration import Configuration
 
 
@@ -46,7 +48,7 @@ def test_with_the_exact_model_the_poles_are_those_that_were_placed():
     assert found == pytest.approx(placed, rel=1e-3)
 
 
-@pytest.mark.parametrize("law", ["ndobc", "fl", "fl_integral"])
+@pytest.mark.parametrize("law", ["ndobc", "fl", "fl_integral", "pi_observer", "lqi", "pid"])
 @pytest.mark.parametrize("sigma", [15.0, 60.0])
 def test_the_continuous_loop_is_the_sampled_one_at_short_periods(law, sigma):
     """Any law, with what it remembers: ln z / T of the loop at 10 kHz, its slow poles to 2 %."""
@@ -57,6 +59,27 @@ def test_the_continuous_loop_is_the_sampled_one_at_short_periods(law, sigma):
     s = np.log(z[np.abs(z) > 0.5]) / 1e-4
     for pole in loop.poles[np.abs(loop.poles) < 120.0]:
         assert np.min(np.abs(s - pole)) < 0.02 * abs(pole)
+
+
+@pytest.mark.parametrize("law", ["pi_observer", "adrc", "linear_dob", "ndobc_w", "nmpc", "esp"])
+def test_a_law_is_linearized_once_it_has_begun(law):
+    """Observers of their own start from the first measurement; at rest they leave no error."""
+    loop = linearize_tick(build(law), 15.0)
+    assert loop.radius < 1.0 + 1e-9
+    still, *_ = np.linalg.lstsq(np.eye(len(loop.A)) - loop.A, loop.W)
+    assert abs(still[0]) < 1e-6
+
+
+@pytest.mark.parametrize("law", ["ndobc_w", "adrc", "linear_dob"])
+def test_a_law_that_continuous_time_does_not_describe_is_refused_by_name(law):
+    title = get_law(law).title
+    with pytest.raises(svsa.ParameterError, match=f"law is '{title}': it must be one whose cont"):
+        assess(build(law), 15.0)
+
+
+def test_an_unstable_rest_is_told_as_the_cycle_that_a_run_shows():
+    """Super-twisting's boundary layer: a nudge grows to 0.0065° and stays there."""
+    assert assess(build("super_twisting"), 15.0).loop.slowest > 0.0
 
 
 def test_each_parameter_has_its_range():

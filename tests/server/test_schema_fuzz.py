@@ -44,6 +44,7 @@ CLIENT = {"SVSA-Client": "fuzz"}
 """Known to the server, which asks of the text what percent-encoding hides from a schema."""
 
 HURWITZ = "gains must be Hurwitz: every root of their polynomial left of the imaginary axis"
+INSTALLED = "laws and parameters are those of GET /laws here"
 RANGE = "the whole course must stay in the stiffness range of the lab's own parameter file"
 PAIRS = "complex poles must come in conjugate pairs, none faster than 1000 rad/s"
 COURSE = "times must grow, tapers fit into the duration, and speeds stay below a bound"
@@ -51,8 +52,9 @@ MAY_BE_REFUSED = {
     "POST /api/v1/sessions": HURWITZ,
     "POST /api/v1/sessions/{session}/experiment": HURWITZ,
     "PUT /api/v1/sessions/{session}/lanes": HURWITZ,
+    "PUT /api/v1/sessions/{session}/lanes/{lane}": f"{HURWITZ}; {INSTALLED}; the lane exists",
     "PUT /api/v1/sessions/{session}/gains": HURWITZ,
-    "PUT /api/v1/sessions/{session}/parameters": "laws and parameters are those of GET /laws here",
+    "PUT /api/v1/sessions/{session}/parameters": INSTALLED,
     "PUT /api/v1/sessions/{session}/law": "no more laws than the session has lanes",
     "POST /api/v1/sessions/{session}/predict": PAIRS,
     "POST /api/v1/sessions/{session}/design/response": f"{PAIRS}; {RANGE}",
