@@ -39,7 +39,7 @@ SLOW_AFTER_S = 0.5
 # Faster than so many times, samples do not lie further apart: of each batch only the newest are
 # sent, and between them is a gap. A line from sample to sample over seconds would be a guess.
 MAX_THINNING = 5
-MAX_FAST_ROWS = 400
+MAX_FAST_ROWS = 32
 
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:

@@ -80,7 +80,7 @@ def _tell_by_lanes(rivals: Any, commands: Commands) -> Commands:
             split += [(tick, {"kind": "law", "argument": laws[0]})]
             split += [(tick, {"kind": "rivals", "argument": rivals})]
         elif one and lanes is not None and one.lane <= len(lanes) + 1:
-            rivals = (*lanes[: one.lane - 2], one.controller, *lanes[one.lane - 1 :])
+            rivals = (*lanes[: one.lane - 2], one.setting, *lanes[one.lane - 1 :])
             split.append((tick, {"kind": "rivals", "argument": rivals}))
         else:
             split.append((tick, command))

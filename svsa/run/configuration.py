@@ -88,7 +88,7 @@ class LaneSetting(Checked):
     """What controls a lane beside the first."""
 
     lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MAX_LANES)
-    controller: Lane
+    setting: Lane
 
 
 class Configuration(Design):
@@ -160,7 +160,7 @@ class Configuration(Design):
             bound = f"2 to {lanes}, of the lanes that run" if lanes > 1 else "none: one lane runs"
             raise ParameterError(Violation("lane", setting.lane, "", bound))
         at = setting.lane - 2
-        rivals = (*self.rivals[:at], setting.controller, *self.rivals[at + 1 :])
+        rivals = (*self.rivals[:at], setting.setting, *self.rivals[at + 1 :])
         return self.changed(rivals=rivals)
 
 

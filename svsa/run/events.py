@@ -64,7 +64,7 @@ def describe_change(command: Command, law: LawName) -> str:
     if given is not None and given != law:
         return f"{get_title(law)} → {get_title(given)}"
     if isinstance(command, SetLane):
-        return f"{get_title(command.argument.controller.law)} set beside"
+        return f"{get_title(command.argument.setting.law)} set beside"
     return command.label
 
 

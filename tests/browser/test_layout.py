@@ -124,6 +124,7 @@ def test_a_list_of_plots_shows_whole_ones_where_legends_have_two_rows(
         lab.jump(1)
     entries = visited.locator(".plot").first.locator(".legend-entry")
     expect(entries).to_have_count(6)
+    visited.locator(".plots-scroll").evaluate("part => part.scrollTo({ top: 0 })")
     foot = get_box(visited.locator(".plots-foot"))["y"]
     plots = [get_box(one) for one in visited.locator(".plots-stage > .plot").all()]
     seen = [one for one in plots if one["y"] < foot - 1]

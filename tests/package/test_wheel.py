@@ -8,6 +8,7 @@ from email.parser import Parser
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 
 import svsa
 from svsa.extras import DISTRIBUTION, MODULES
@@ -50,7 +51,7 @@ def test_types_parameters_page_and_rig_are_in_it(wheel):
 
 def test_only_the_library_s_packages_come_without_an_extra(metadata):
     asked = metadata.get_all("Requires-Dist")
-    always = {line.split(">")[0] for line in asked if "extra ==" not in line}
+    always = {Requirement(line).name for line in asked if "extra ==" not in line}
     assert {"numpy", "scipy", "numba", "pyarrow"} <= always
     assert not always & {"fastapi", "uvicorn", "viser", "python-can", "matplotlib", "nidaqmx"}
     assert set(metadata.get_all("Provides-Extra")) == set(MODULES)

@@ -177,7 +177,7 @@ def test_laws_that_changed_places_are_told_of_every_lane() -> None:
 
 
 def test_a_lane_that_was_set_otherwise_is_told_as_one_beside() -> None:
-    setting = LaneSetting(lane=2, controller=Lane(law="fl_integral"))
+    setting = LaneSetting(lane=2, setting=Lane(law="fl_integral"))
     assert (
         describe((3000, "lane", setting), rivals=(Lane(law="fl"),)).laws == "NDOBC vs FL → FL + I"
     )

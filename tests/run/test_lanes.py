@@ -224,7 +224,7 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
     run = Run(build_configuration(PULSE, rivals=(build_integral(40.0), FL), **NOISY))
     advance(run, 90)
     before = list(run.lanes)
-    run.set_lane(LaneSetting(lane=2, controller=build_integral(60.0)))
+    run.set_lane(LaneSetting(lane=2, setting=build_integral(60.0)))
     assert run.lanes == before
     assert np.any(before[1].memory != 0.0), "the law has something to remember"
     alone = Run(
@@ -236,7 +236,7 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
     alone.set_parameters({"fl_integral": build_integral(60.0).parameters})
     samples = advance(run, 100)
     np.testing.assert_array_equal(samples[1], advance(alone, 100)[0])
-    run.set_lane(LaneSetting(lane=3, controller=build_integral(60.0)))
+    run.set_lane(LaneSetting(lane=3, setting=build_integral(60.0)))
     assert not np.any(run.lanes[2].memory), "another law begins without a past"
 
 
@@ -246,9 +246,9 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
 def test_only_a_lane_that_runs_is_set_otherwise(rivals, lane, bound):
     run = Run(build_configuration(rivals=rivals))
     with pytest.raises(svsa.ParameterError, match=f"lane is {lane}: it must be {bound}"):
-        run.set_lane(LaneSetting(lane=lane, controller=NDOBC))
+        run.set_lane(LaneSetting(lane=lane, setting=NDOBC))
     with pytest.raises(svsa.ParameterError, match="lane"):
-        LaneSetting(lane=1, controller=NDOBC)
+        LaneSetting(lane=1, setting=NDOBC)
 
 
 def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
@@ -256,7 +256,7 @@ def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
     session = build_session(PULSE, law="fl_integral", rivals=(Lane(law="fl_integral"),))
     session.step(60)
     (second_id,) = session.journal.timeline.lane_ids[1:]
-    session.change("lane", LaneSetting(lane=2, controller=build_integral(40.0)))
+    session.change("lane", LaneSetting(lane=2, setting=build_integral(40.0)))
     session.step(40)
     assert session.journal.timeline.lane_ids[1] == second_id
     assert np.all(np.isfinite(read_samples(session, 1)))

@@ -86,7 +86,7 @@ ARGUMENTS = {
     "nominal": actuators,
     "effects": effects,
     "rivals": rivals,
-    "lane": st.builds(LaneSetting, lane=st.integers(2, 4), controller=lanes),
+    "lane": st.builds(LaneSetting, lane=st.integers(2, 4), setting=lanes),
     "load": loads,
     "unload": st.sampled_from([1, 2, 3]),
 }
@@ -122,7 +122,7 @@ BUSY = [
     (11, ("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))),
     (5, ("law", "ndobc")),
     (25, ("rivals", (svsa.Lane(law="fl"),))),
-    (9, ("lane", LaneSetting(lane=2, controller=svsa.Lane(law="fl_integral")))),
+    (9, ("lane", LaneSetting(lane=2, setting=svsa.Lane(law="fl_integral")))),
 ]
 
 

@@ -198,7 +198,7 @@ def set_lane(
 
     What is left out is the session's. The same law goes on with what it remembers.
     """
-    hosted.session.change("lane", LaneSetting(lane=lane, controller=request))
+    hosted.session.change("lane", LaneSetting(lane=lane, setting=request))
     return build_state(hosted)
 
 

@@ -2293,7 +2293,7 @@ export interface components {
              * @description Number of the lane; 1 is the run's own
              */
             lane: number;
-            controller: components["schemas"]["Lane"];
+            setting: components["schemas"]["Lane"];
         };
         /**
          * LaneState

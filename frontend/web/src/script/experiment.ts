@@ -37,8 +37,8 @@ export function stepOf(kind: CommandKind, argument: unknown): Step {
     case "rivals":
       return { method: "PUT", path: "/lanes", body: { rivals: prune(argument) } };
     case "lane": {
-      const { lane, controller } = argument as { lane: number; controller: unknown };
-      return { method: "PUT", path: `/lanes/${lane}`, body: prune(controller) };
+      const { lane, setting } = argument as { lane: number; setting: unknown };
+      return { method: "PUT", path: `/lanes/${lane}`, body: prune(setting) };
     }
     case "actuator":
     case "nominal":
