@@ -53,7 +53,8 @@ def assess(configuration: Configuration, sigma: float) -> Stability:
     """
     law = linearize_law(configuration, sigma)
     loop = connect(configuration, sigma, law)
-    _check_continuous(configuration, sigma, loop)
+    if len(law.rate):
+        _check_continuous(configuration, sigma, loop)
     sensing = configuration.changed(effects=choose_sensing(configuration.effects))
     return Stability(
         loop=loop,

@@ -69,6 +69,10 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         lab.client.post(lab.session + "/recording", json={"name": "Cut"}).raise_for_status()
         lab.jump(8)
         wait_for_samples(page, after_s=7.9)
+        for _ in range(PATIENCE_MS // 100):
+            if lab.read()["recording"]["ticks"] > 7000:
+                break
+            page.wait_for_timeout(100)
         end = page.evaluate(LAST_TIME)
         lab.process.kill()
         lost = page.get_by_role("alert").get_by_text("connection is lost")

@@ -62,7 +62,7 @@ def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
 def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
     """Refused before the loop hears of it: it would control its own twin otherwise."""
     told = len(session.loop.processes.told)  # pyright: ignore[reportAttributeAccessIssue]
-    setting = {"lane": 2, "controller": {"law": "ndobc", "observer": None}}
+    setting = {"lane": 2, "setting": {"law": "ndobc", "observer": None}}
     with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
         session.change("lane", setting)
     assert len(session.loop.processes.told) == told  # pyright: ignore[reportAttributeAccessIssue]

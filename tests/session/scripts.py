@@ -95,7 +95,7 @@ REFUSED = [
     ("law", "no_law"),
     ("gains", {"position_coefficients": (1.0, 1.0, 1.0, 1.0)}),
     ("rivals", (svsa.Lane(law="fl"),) * 4),
-    ("lane", {"lane": 1, "controller": {"law": "fl"}}),
+    ("lane", {"lane": 1, "setting": {"law": "fl"}}),
     ("unload", 99),
     ("unload", 0),
 ]

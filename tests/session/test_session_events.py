@@ -144,7 +144,7 @@ def test_every_command_is_logged_with_its_tick():
     session.change("nominal", design.nominal)
     session.change("effects", svsa.RIG)
     session.change("rivals", (svsa.Lane(law="ndobc"),))
-    session.change("lane", {"lane": 2, "controller": {"law": "fl"}})
+    session.change("lane", {"lane": 2, "setting": {"law": "fl"}})
     changed = [kind for kind in COMMANDS if kind not in ("load", "unload")]
     events = [kind for _, kind in list_events(session)]
     assert sorted(events) == sorted(changed)
