@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.bench_fixture import PatchedBench
-from tests.browser.test_page import choose, come_back, open_page, unfold
+from tests.browser.test_page import choose, come_back, open_page, unfold, wait_for_samples
 from tests.browser.test_replay import open_file, write_page
 from tests.lab import Lab, run_lab
 
@@ -141,6 +141,7 @@ def open_private(page: Page, lab: Lab) -> None:
     come_back(page, lab)
     page.goto(f"{lab.url}/?session={name}")
     expect(page.get_by_text("Private session.")).to_be_visible()
+    wait_for_samples(page)
 
 
 @pytest.mark.parametrize(
@@ -189,6 +190,13 @@ def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
 def test_a_bench_has_no_violation(own_page: Page, lab: Lab, status: str) -> None:
     PatchedBench(own_page, status=status, dead_man=True)
     open_lab(own_page, lab)
+    expect_no_violation(own_page, WIDE, PHONE)
+
+
+def test_a_page_that_waits_for_the_lab_has_no_violation(own_page: Page, lab: Lab) -> None:
+    own_page.route_web_socket(re.compile("/stream"), lambda silent: None)
+    own_page.goto(lab.url)
+    expect(own_page.get_by_text("Waiting for the lab")).to_be_visible()
     expect_no_violation(own_page, WIDE, PHONE)
 
 

@@ -144,7 +144,7 @@ describe("an experiment as a script", () => {
 
   it("knows the call of every kind of command", () => {
     expect(stepOf("rivals", [])).toEqual({ method: "PUT", path: "/lanes", body: { rivals: [] } });
-    const setting = { lane: 3, controller: { law: "fl", gains: null } };
+    const setting = { lane: 3, setting: { law: "fl", gains: null } };
     expect(stepOf("lane", setting)).toEqual({
       ...{ method: "PUT", path: "/lanes/3" },
       body: { law: "fl" },

@@ -25,7 +25,7 @@ export function App() {
   const at = place.value;
   return (
     <>
-      {at.kind === "lab" && (
+      {at.kind === "lab" && state !== null && (
         <a class="skip" href="#plots">
           {text.skip}
         </a>
@@ -41,7 +41,7 @@ export function App() {
       {at.kind !== "lab" ? (
         <Runs at={at} />
       ) : state === null ? (
-        phase.value !== "ended" && <p class="waiting-page">{text.connection.waiting}</p>
+        phase.value !== "ended" && <main class="waiting-page">{text.connection.waiting}</main>
       ) : (
         <main class="lab">
           <View />
