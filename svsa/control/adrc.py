@@ -12,7 +12,6 @@ import numpy as np
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
-from svsa.control.linear_dob import compute_stiffness_slope
 from svsa.control.parameters import LawParameters
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import (
@@ -20,7 +19,7 @@ from svsa.model.lever import (
     compute_lever_ratio_for_stiffness,
     compute_lever_ratio_slope,
 )
-from svsa.model.spring import compute_stiffness
+from svsa.model.spring import compute_stiffness, compute_stiffness_slope
 from svsa.observer.extended import Extended, TriplePole, build_triple_pole, observe_extended
 from svsa.signals import Disturbance, Reference, State, Torque
 

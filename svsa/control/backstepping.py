@@ -14,9 +14,10 @@ from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
-from svsa.model.exponential import exp, expm1
+from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import compute_spring_derivatives
+from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
 
@@ -93,7 +94,7 @@ def build(parameters: Steps, setting: Setting) -> Constants:
         p.motor2_gain_per_s,
         omega=p.filter_rad_per_s,
         kept=exp(-p.filter_rad_per_s * T),
-        share=-expm1(-p.observer_rad_per_s * T),
+        share=compute_share(p.observer_rad_per_s, T),
         used=p.estimate_share,
     )
 

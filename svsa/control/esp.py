@@ -16,9 +16,9 @@ from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import greatest, least
 from svsa.model.domain import Domain, compute_deflection_limit
 from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
-from svsa.model.exponential import expm1
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import SpringDerivatives, compute_spring_derivatives
+from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
 
@@ -68,7 +68,7 @@ def build(parameters: Structure, setting: Setting) -> Constants:
         omega=parameters.motor_rad_per_s,
         zeta=parameters.motor_damping,
         p=parameters.stiffness_pole_rad_per_s,
-        share=-expm1(-parameters.observer_rad_per_s * setting.period),
+        share=compute_share(parameters.observer_rad_per_s, setting.period),
         used=parameters.estimate_share,
         domain=setting.domain,
     )

@@ -14,13 +14,13 @@ from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.model.dynamics import Actuator, InternalTorque, compute_deflection
-from svsa.model.exponential import expm1
 from svsa.model.lever import (
     compute_lever_ratio,
     compute_lever_ratio_for_stiffness,
     compute_lever_ratio_slope,
 )
-from svsa.model.spring import compute_stiffness
+from svsa.model.spring import compute_stiffness, compute_stiffness_slope
+from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_unexplained
 from svsa.signals import Disturbance, Reference, State, Torque
 
@@ -52,15 +52,8 @@ def build(parameters: PolesAndFilter, setting: Setting) -> Constants:
     return Constants(
         a=parameters.position_pole_rad_per_s,
         p=parameters.stiffness_pole_rad_per_s,
-        share=-expm1(-parameters.observer_rad_per_s * setting.period),
+        share=compute_share(parameters.observer_rad_per_s, setting.period),
     )
-
-
-@compiled
-def compute_stiffness_slope(mu: float, K: float, slope: float) -> float:
-    """G = ∂σ/∂θ2 at φ = 0: 2 K μ μ'/(1 − μ)³, N·m/rad². slope: μ', 1/rad."""
-    m = 1.0 - mu
-    return 2.0 * K * mu * slope / (m * m * m)
 
 
 @compiled

@@ -15,7 +15,6 @@ from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.flat import compute_flat
 from svsa.control.law import Law, Setting
-from svsa.control.linear_dob import compute_stiffness_slope
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import choose, greatest, least
 from svsa.model.dynamics import Actuator, compute_deflection
@@ -25,7 +24,7 @@ from svsa.model.lever import (
     compute_lever_ratio_for_stiffness,
     compute_lever_ratio_slope,
 )
-from svsa.model.spring import compute_stiffness
+from svsa.model.spring import compute_stiffness, compute_stiffness_slope
 from svsa.signals import Disturbance, Reference, State, Torque
 
 STIFFNESSES = tuple(float(sigma) for sigma in np.geomspace(3.0, 150.0, 10))

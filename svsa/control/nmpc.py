@@ -25,8 +25,8 @@ from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.lanes.choice import greatest, least
 from svsa.model.dynamics import Actuator
-from svsa.model.exponential import expm1
 from svsa.model.linearization import compute_linearization, solve_decoupling
+from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
 
@@ -139,7 +139,7 @@ def build(parameters: Horizon, setting: Setting) -> Constants:
     return Constants(
         position=condense(weights, p.snap_rad_per_s4),
         stiffness=condense((p.stiffness_nm_per_rad**-2, 0.0), p.stiffening_nm_per_rad_s2),
-        share=-expm1(-p.observer_rad_per_s * setting.period),
+        share=compute_share(p.observer_rad_per_s, setting.period),
         torque1_max=setting.torque1_max,
         torque2_max=setting.torque2_max,
     )

@@ -150,3 +150,9 @@ def compute_spring_derivatives(mu: float, phi: float, K: float) -> SpringDerivat
             - 4.0 * S * (1.0 + 2.0 * mu * c) * n1 * i5
         ),
     )
+
+
+@compiled
+def compute_stiffness_slope(mu: float, K: float, slope: float) -> float:
+    """g = ∂σ/∂θ2 at φ = 0, which is 2 K μ μ'/(1 − μ)³, N·m/rad². slope: μ', 1/rad."""
+    return compute_spring_derivatives(mu, 0.0, K).sigma_mu * slope

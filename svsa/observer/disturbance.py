@@ -21,9 +21,14 @@ class ObserverBandwidth(Checked):
     )
 
 
+def compute_share(bandwidth_rad_per_s: float, period: float) -> float:
+    """1 − e^(−βT): how much of its error an estimate loses in one sample of `period`, s."""
+    return -expm1(-bandwidth_rad_per_s * period)
+
+
 def compute_shares(observer: ObserverBandwidth, period: float) -> tuple[float, float, float]:
     """1 − e^(−βT) of the three channels: how much of the error one sample takes away."""
-    b2, b4, b6 = (-expm1(-beta * period) for beta in observer.bandwidth_rad_per_s)
+    b2, b4, b6 = (compute_share(beta, period) for beta in observer.bandwidth_rad_per_s)
     return b2, b4, b6
 
 
