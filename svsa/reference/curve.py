@@ -31,14 +31,19 @@ class Curve:
         return float(self.coefficients[0, 0])
 
     def sample(self, order: int) -> tuple[np.ndarray, np.ndarray]:
-        """Times (s) and the derivative of this order at them: 8 in each piece, and its end."""
+        """Times (s) and the derivative of this order at them.
+
+        They are 8 in each piece and its end, and the time from which the last value is held.
+        """
         widths = np.diff(self.breaks)
         local = widths[:, None] * np.linspace(0.0, 1.0, SAMPLES_A_PIECE + 1)
         rows = self.coefficients[:-1]
         values = np.zeros_like(local)
         for power in range(DEGREE, order - 1, -1):
             values = values * local + perm(power, order) * rows[:, power, None]
-        return (self.breaks[:-1, None] + local).ravel(), values.ravel()
+        times = (self.breaks[:-1, None] + local).ravel()
+        held = self.coefficients[-1, order] * perm(order)
+        return np.append(times, self.breaks[-1]), np.append(values.ravel(), held)
 
     @cached_property
     def range(self) -> tuple[float, float]:

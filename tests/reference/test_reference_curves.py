@@ -228,3 +228,9 @@ def test_steps_between_the_limits_themselves_are_in_the_range():
     steps = svsa.StepsStiffness(time_s=(0.0, 0.3, 0.7), stiffness_nm_per_rad=(1.7, 150.56, 1.7))
     assert get_range(steps) == (1.7, 150.56)
     svsa.load_prototype().limits.check_stiffness("stiffness", *get_range(steps))
+
+
+def test_steps_of_one_level_are_that_level():
+    assert get_range(svsa.StepsStiffness(time_s=(0.0,), stiffness_nm_per_rad=(20.0,))) == (20, 20)
+    stack = build_stack(svsa.StepsPosition(time_s=(1.0,), position_rad=(0.3,)))
+    assert follow(stack, (0.0, 2.0))[:, 0].tolist() == [0.3, 0.3]
