@@ -51,12 +51,14 @@ from svsa.run.configuration import (
 
 if TYPE_CHECKING:
     from svsa import design
+    from svsa.arena.tune import tune
     from svsa.experiment.recorded import export_run, open_run, resimulate, runs
     from svsa.records.catalogue.runs import Catalogue
 
 _LATE = {
     "design": "svsa.design",
     "Catalogue": "svsa.records.catalogue.runs",
+    "tune": "svsa.arena.tune",
     **dict.fromkeys(("export_run", "open_run", "resimulate", "runs"), "svsa.experiment.recorded"),
 }
 
@@ -120,5 +122,6 @@ __all__ = [
     "runs",
     "sample_reference",
     "simulate",
+    "tune",
     "write_design",
 ]

@@ -58,13 +58,17 @@ def _is_same(present: Any, new: Any) -> bool:
     return type(present) is type(new) and present == new
 
 
-def quantity(unit: str, meaning: str, *, symbol: str = "", **bounds: Any) -> Any:
+def quantity(
+    unit: str, meaning: str, *, symbol: str = "", searched: bool = True, **bounds: Any
+) -> Any:
     """A field with its unit; bounds are pydantic's gt, ge, lt, le; unit "" has none.
 
-    symbol: what it is called in short, where that is not its name.
+    symbol: what it is called in short, where that is not its name. searched: whether a tuner may
+    choose it; what says which law it is, and not how good, is left as it is.
     """
     text = f"{meaning}, {unit}" if unit else meaning
     extra: dict[str, Any] = {"unit": unit} | ({"symbol": symbol} if symbol else {})
+    extra |= {} if searched else {"searched": False}
     return Field(description=text, json_schema_extra=extra, **bounds)
 
 

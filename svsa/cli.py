@@ -18,6 +18,7 @@ from rich.table import Table
 
 import svsa
 from svsa.arena.cli import arena
+from svsa.arena.tune_cli import tune
 from svsa.bench.cli import bench_check, bench_home
 from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_title
@@ -91,6 +92,7 @@ def reproduce(
 
 
 app.add_typer(arena, name="arena")
+app.command("tune")(tune)
 app.command("rig")(rig)
 app.command("identify")(identify)
 app.command("stability")(stability)

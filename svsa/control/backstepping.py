@@ -47,8 +47,9 @@ class Steps(LawParameters):
         "rad/s", "β of its observer", symbol="β", ge=1, le=500, default=49.8
     )
     estimate_share: Number = quantity(
-        "1", "Share of ŵ2 that is compensated: 0 without ŵ2", symbol="ŵ2", ge=0, le=1, default=1.0
-    )
+        "1", "Share of ŵ2 that is compensated: 0 without ŵ2", symbol="ŵ2", ge=0, le=1, default=1.0,
+        searched=False,
+    )  # fmt: skip
 
 
 class Constants(NamedTuple):

@@ -33,8 +33,9 @@ class Learning(LawParameters):
         "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=40.0
     )
     period_s: Number = quantity(
-        "s", "Period of the reference and of the load", symbol="P", ge=1, le=60, default=5.0
-    )
+        "s", "Period of the reference and of the load", symbol="P", ge=1, le=60, default=5.0,
+        searched=False,
+    )  # fmt: skip
     learning_share: Number = quantity(
         "1", "γ: share of an error that is learned in a period", symbol="γ", ge=0, le=1, default=0.9
     )

@@ -1,6 +1,6 @@
 """A run as a value: parameters, design, references and loads; TOML files in and out."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, Self
@@ -201,11 +201,20 @@ def _check_law(law: str) -> None:
 
 def write_design(path: Path | str, design: Design, source: str) -> None:
     """Write a parameter file in which every value has `source` as its source."""
+    Path(path).write_text(format_design(design, lambda _: source), encoding="utf-8")
+
+
+def format_design(design: Design, tell_source: Callable[[str], str]) -> str:
+    """The text of a parameter file. tell_source: what stands as the source of a section's values,
+    of a name as "gains" or "parameters.esp".
+    """
     sections = design.model_dump(mode="json")
-    laws = {law: _add_source(table, source) for law, table in sections.pop("parameters").items()}
-    written = {name: _add_source(section, source) for name, section in sections.items()}
-    written |= {"parameters": laws} if laws else {}
-    Path(path).write_text(tomli_w.dumps(written), encoding="utf-8")
+    laws = {
+        law: _add_source(table, tell_source(f"parameters.{law}"))
+        for law, table in sections.pop("parameters").items()
+    }
+    written = {name: _add_source(table, tell_source(name)) for name, table in sections.items()}
+    return tomli_w.dumps(written | ({"parameters": laws} if laws else {}))
 
 
 @cache
