@@ -34,7 +34,7 @@ def run_arena(
                 measure_law(Entry(name), lambda done, t=task: bar.update(t, completed=done))
             )
     if as_json:
-        print(json.dumps({"laws": rows}, indent=2))
+        print(json.dumps({"laws": [row.to_json() for row in rows]}, indent=2))
     elif markdown:
         print(format_markdown(rows))
     else:

@@ -1,22 +1,32 @@
 """What a law shows in the scenarios: one row of the arena's table."""
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from statistics import median
+from typing import NamedTuple
 
+import numpy as np
+
+from svsa.arena.draws import build_draws
+from svsa.arena.row import FigureErrors, Outcome, RigErrors, Row, SweepOutcome
 from svsa.arena.scenarios import (
+    CORNERS,
     IDEAL_4A,
     MASS,
     MAX_STEP_NM,
     OFF_S,
     RIG_4A,
     SINE_2HZ,
+    SINGLE,
     STEP_NM,
     UNLOADING,
     UNLOADINGS,
     Scenario,
     build_link_step,
 )
+from svsa.arena.score import build_parts, compute_score
+from svsa.arena.seeds import PUBLIC_SEED
+from svsa.arena.sweeps import Sweep, build_sweeps
 from svsa.control.parameters import LawParameters
 from svsa.experiment.reproduce import compute_table_row
 from svsa.experiment.result import Result
@@ -24,6 +34,7 @@ from svsa.experiment.simulate import simulate
 from svsa.paper import STEADY_S
 
 SETTLED_DEG = 1.0
+LAST_S = 1.0
 _FIGURE = {
     "before_deg": "rms_position_before_deg",
     "peak_deg": "peak_position_deg",
@@ -38,6 +49,9 @@ class Entry(NamedTuple):
     parameters: LawParameters | None = None
 
 
+Tell = Callable[[float], None]
+
+
 def run_scenario(scenario: Scenario, entry: Entry) -> Result:
     """The run of a scenario under a law."""
     configuration = scenario.build_configuration(entry.law)
@@ -46,50 +60,92 @@ def run_scenario(scenario: Scenario, entry: Entry) -> Result:
     return simulate(configuration, duration_s=scenario.duration_s)
 
 
-def measure_law(entry: Entry, progress: Callable[[float], None] = lambda _: None) -> dict[str, Any]:
-    """The row of a law: errors in degrees, rms but for peaks; None where the run ended early.
+def measure_law(entry: Entry, tell: Tell = lambda done: None, seed: int = PUBLIC_SEED) -> Row:
+    """The row of a law. tell: is given the share that is done. seed: of the draws' season."""
+    results = {scenario.name: run_scenario(scenario, entry) for scenario in SINGLE}
+    tell(0.15)
+    unloading_faults = sum(run_scenario(one, entry).fault is not None for one in UNLOADINGS)
+    tell(0.3)
+    largest_step = find_largest_step(entry)
+    tell(0.4)
+    draws = [(one, run_scenario(one, entry)) for one in build_draws(seed)]
+    errors = [measure_rms(result, one.measured_s, one.duration_s) for one, result in draws]
+    middle = median(math.inf if error is None else error for error in errors)
+    fails = sum(not has_held(result, one) for one, result in draws)
+    tell(0.65)
+    sweeps = tuple(run_sweep(sweep, entry) for sweep in build_sweeps())
+    tell(0.95)
+    outcomes = tuple(build_outcome(scenario, results[scenario.name]) for scenario in SINGLE)
+    parts = build_parts(sweeps, len(draws), fails, outcomes)
+    ideal, rig = results[IDEAL_4A.name], results[RIG_4A.name]
+    return Row(
+        law=entry.law,
+        ideal_4a=FigureErrors(**_measure_figure(ideal)),
+        rig_4a=RigErrors(**_measure_figure(rig), recovery_s=_find_recovery(rig)),
+        unloading_peak_deg=measure_peak(results[UNLOADING.name], OFF_S, UNLOADING.duration_s),
+        unloading_faults_of_48=unloading_faults,
+        sine_2hz_rms_deg=measure_rms(results[SINE_2HZ.name], *STEADY_S),
+        mass_rms_deg=measure_rms(results[MASS.name], *STEADY_S),
+        draws_median_deg=middle if math.isfinite(middle) else None,
+        draws_faults=sum(result.fault is not None for _, result in draws),
+        draws_fails=fails,
+        largest_link_step_nm=largest_step,
+        score=compute_score(parts),
+        parts=parts,
+        sweeps=sweeps,
+        outcomes=outcomes,
+        corners_fails_of_8=sum(not has_held(run_scenario(one, entry), one) for one in CORNERS),
+    )
 
-    ideal_4a, rig_4a: before the load 1–5 s, peak 5–7 s, steady 8–20 s, on the rig with the time
-    until the error stays within 2 % of its peak, s. unloading_peak_deg: after 8 s.
-    unloading_faults_of_48: how many of `UNLOADINGS` left the domain. sine_2hz_rms_deg,
-    mass_rms_deg: 8–20 s. largest_link_step_nm: see `find_largest_step`. faults: why a scenario
-    ended early, by its name. progress: told the share done.
-    """
-    single = (IDEAL_4A, RIG_4A, UNLOADING, SINE_2HZ, MASS)
-    results = {scenario.name: run_scenario(scenario, entry) for scenario in single}
-    progress(0.2)
-    row = {
-        "law": entry.law,
-        "ideal_4a": _measure_figure(results["ideal_4a"]),
-        "rig_4a": _measure_figure(results["rig_4a"], recovery=True),
-        "unloading_peak_deg": measure_peak(results["unloading"], OFF_S, UNLOADING.duration_s),
-        "unloading_faults_of_48": sum(
-            run_scenario(scenario, entry).fault is not None for scenario in UNLOADINGS
-        ),
-        "sine_2hz_rms_deg": measure_rms(results["sine_2hz"], *STEADY_S),
-        "mass_rms_deg": measure_rms(results["mass"], *STEADY_S),
-    }
-    progress(0.8)
-    row["largest_link_step_nm"] = find_largest_step(entry)
-    faults = {name: result.fault.code for name, result in results.items() if result.fault}
-    progress(1.0)
-    return row | {"faults": faults}
+
+def has_held(result: Result, scenario: Scenario) -> bool:
+    """No fault, and in the last second an rms error of at most 1°."""
+    end = scenario.duration_s
+    error = measure_rms(result, end - LAST_S, end)
+    return error is not None and error <= SETTLED_DEG
+
+
+def run_sweep(sweep: Sweep, entry: Entry) -> SweepOutcome:
+    """How far a law holds as one thing gets worse."""
+    held = [[has_held(run_scenario(run, entry), run) for run in runs] for runs in sweep.runs]
+    passed = tuple(sum(one) / len(one) for one in held)
+    return SweepOutcome(
+        sweep=sweep.name,
+        title=sweep.title,
+        unit=sweep.unit,
+        values=sweep.values,
+        passed=passed,
+        share=sum(passed) / len(passed),
+    )
 
 
 def find_largest_step(entry: Entry) -> float:
-    """The largest step of torque on the link, N·m, up to which every one is survived, by 0.5.
+    """The largest step of torque on the link, N·m, up to which every one is held, by 0.5.
 
-    Survived: no fault, and in the last second of three an rms error below 1°. 0 where not even
-    the smallest is.
+    0 where not even the smallest is; see `has_held`.
     """
     count = 0
     while (count + 1) * STEP_NM <= MAX_STEP_NM:
         step = build_link_step((count + 1) * STEP_NM)
-        error = measure_rms(run_scenario(step, entry), step.duration_s - 1.0, step.duration_s)
-        if error is None or error > SETTLED_DEG:
+        if not has_held(run_scenario(step, entry), step):
             break
         count += 1
     return count * STEP_NM
+
+
+def build_outcome(scenario: Scenario, result: Result) -> Outcome:
+    """How a run of a scenario went, from `measured_s` on."""
+    window = scenario.measured_s, scenario.duration_s
+    fault = result.fault.code if result.fault else None
+    change = None if fault else _measure_torque_change(result.torque1_nm, result, window)
+    return Outcome(
+        scenario=scenario.name,
+        title=scenario.title,
+        rms_deg=measure_rms(result, *window),
+        peak_deg=measure_peak(result, *window),
+        torque_change_nm=change,
+        fault=fault,
+    )
 
 
 def measure_rms(result: Result, start_s: float, end_s: float) -> float | None:
@@ -106,7 +162,16 @@ def measure_peak(result: Result, start_s: float, end_s: float) -> float | None:
     return math.degrees(result.measure(start_s, end_s).peak_position_error_rad)
 
 
-def _measure_figure(result: Result, recovery: bool = False) -> dict[str, float | None]:
+def _measure_torque_change(torque: np.ndarray, result: Result, window: Sequence[float]) -> float:
+    period = result.configuration.sampling.period_s
+    begin, end = (round(time / period) for time in window)
+    return float(np.sqrt(np.mean(np.diff(torque[begin:end]) ** 2)))
+
+
+def _measure_figure(result: Result) -> dict[str, float | None]:
     numbers = {} if result.fault is not None else compute_table_row(result)
-    row = {name: numbers.get(key) for name, key in _FIGURE.items()}
-    return row | ({"recovery_s": numbers.get("recovery_s")} if recovery else {})
+    return {name: numbers.get(key) for name, key in _FIGURE.items()}
+
+
+def _find_recovery(result: Result) -> float | None:
+    return None if result.fault is not None else compute_table_row(result)["recovery_s"]

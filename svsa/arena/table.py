@@ -1,47 +1,53 @@
 """The arena's table as text: one row a law, as measured."""
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
+from svsa.arena.row import Row
 from svsa.control.installed import get_title
 
 HEADINGS = (
     "law",
+    "score",
     "4A ideal: before / peak / steady",
     "4A rig: peak / steady / recovery s",
     "unloading",
     "faults of 48",
     "2 Hz",
     "3 kg",
+    "draws: median / faults / fails",
     "largest step N·m",
 )
 
 
-def build_cells(row: dict[str, Any]) -> tuple[str, ...]:
-    """The cells of a row of `svsa.arena.measure.measure_law`, errors in degrees.
+def build_cells(row: Row) -> tuple[str, ...]:
+    """The cells of a row, errors in degrees.
 
     Where a run ended early its fault stands; "never" where an error did not settle.
     """
-    ideal, rig, faults = row["ideal_4a"], row["rig_4a"], row["faults"]
+    ideal, rig, faults = row.ideal_4a, row.rig_4a, row.faults
 
     def tell(name: str, numbers: Sequence[float | None]) -> str:
         if name in faults:
-            return str(faults[name])
+            return faults[name]
         return " / ".join("never" if number is None else f"{number:.3g}" for number in numbers)
 
+    middle = row.draws_median_deg
     return (
-        get_title(row["law"]),
-        tell("ideal_4a", (ideal["before_deg"], ideal["peak_deg"], ideal["steady_deg"])),
-        tell("rig_4a", (rig["peak_deg"], rig["steady_deg"], rig["recovery_s"])),
-        tell("unloading", (row["unloading_peak_deg"],)),
-        str(row["unloading_faults_of_48"]),
-        tell("sine_2hz", (row["sine_2hz_rms_deg"],)),
-        tell("mass", (row["mass_rms_deg"],)),
-        f"{row['largest_link_step_nm']:g}",
+        get_title(row.law),
+        f"{row.score:.2f}",
+        tell("ideal_4a", (ideal.before_deg, ideal.peak_deg, ideal.steady_deg)),
+        tell("rig_4a", (rig.peak_deg, rig.steady_deg, rig.recovery_s)),
+        tell("unloading", (row.unloading_peak_deg,)),
+        str(row.unloading_faults_of_48),
+        tell("sine_2hz", (row.sine_2hz_rms_deg,)),
+        tell("mass", (row.mass_rms_deg,)),
+        f"{'fault' if middle is None else format(middle, '.3g')}"
+        f" / {row.draws_faults} / {row.draws_fails}",
+        f"{row.largest_link_step_nm:g}",
     )
 
 
-def format_markdown(rows: Iterable[dict[str, Any]]) -> str:
+def format_markdown(rows: Iterable[Row]) -> str:
     """The table as Markdown."""
     lines = [HEADINGS, ("---",) * len(HEADINGS), *map(build_cells, rows)]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

@@ -8,11 +8,12 @@ ideal: figure 4A, rms before the load, peak, steady. rig: its peak, steady, and 
 
 import math
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
 from svsa.arena.measure import Entry, measure_law, measure_rms, run_scenario
+from svsa.arena.row import Row
 from svsa.arena.scenarios import IDEAL_4A, RIG_4A
 from svsa.control.installed import get_law
 
@@ -56,62 +57,65 @@ N·m (2).
 
 
 @cache
-def measure(law: str) -> dict[str, Any]:
+def measure(law: str) -> Row:
     return measure_law(Entry(law))
 
 
 @pytest.mark.parametrize("law", MARKS)
 def test_a_law_is_as_good_as_its_prototype(law):
     row, mark = measure(law), MARKS[law]
-    ideal, rig = row["ideal_4a"], row["rig_4a"]
+    ideal, rig = row.ideal_4a, row.rig_4a
     for column, figure in zip(("before_deg", "peak_deg", "steady_deg"), mark.ideal, strict=True):
-        assert ideal[column] <= NEAR * figure, column
+        assert getattr(ideal, column) <= NEAR * figure, column
     for column, figure, near in zip(
         ("peak_deg", "steady_deg"), mark.rig, (NEAR, COUNTS), strict=False
     ):
-        assert rig[column] <= near * figure, column
-    recovery = math.inf if rig["recovery_s"] is None else rig["recovery_s"]
+        assert getattr(rig, column) <= near * figure, column
+    recovery = math.inf if rig.recovery_s is None else rig.recovery_s
     assert recovery <= RECOVERY * mark.rig[2]
-    assert row["unloading_faults_of_48"] <= mark.u48
-    assert row["sine_2hz_rms_deg"] <= NEAR * mark.sine
-    assert row["largest_link_step_nm"] >= mark.step
+    assert row.unloading_faults_of_48 <= mark.u48
+    assert row.sine_2hz_rms_deg <= NEAR * mark.sine
+    assert row.largest_link_step_nm >= mark.step
     for name, column, figure in (
         ("unloading", "unloading_peak_deg", mark.off),
         ("mass", "mass_rms_deg", mark.mass),
     ):
         if figure == "fault":
-            assert row["faults"].get(name) == "deflection_limit"
+            assert row.faults.get(name) == "deflection_limit"
         else:
-            assert row[column] <= NEAR * figure
+            assert getattr(row, column) <= NEAR * figure
 
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
 def test_the_papers_laws_give_their_rows_and_no_better(law):
     """The scenarios are those of the figures: from both sides within 5 %."""
     row, mark = measure(law), MARKS[law]
-    found = (*row["ideal_4a"].values(), row["sine_2hz_rms_deg"], row["mass_rms_deg"])
+    found = (*dict(row.ideal_4a).values(), row.sine_2hz_rms_deg, row.mass_rms_deg)
     assert found == pytest.approx((*mark.ideal, mark.sine, mark.mass), rel=0.05)
-    assert row["rig_4a"]["peak_deg"] == pytest.approx(mark.rig[0], rel=0.05)
-    assert row["unloading_faults_of_48"] == mark.u48
-    assert row["largest_link_step_nm"] == mark.step
+    assert row.rig_4a.peak_deg == pytest.approx(mark.rig[0], rel=0.05)
+    assert row.unloading_faults_of_48 == mark.u48
+    assert row.largest_link_step_nm == mark.step
 
 
 def test_ndobc_w_answers_the_open_question():
     """The paper leaves saturation open: no unloading is a fault, and 8 N·m are held at σ = 15."""
     row = measure("ndobc_w")
-    assert row["faults"] == {}
-    assert row["unloading_faults_of_48"] == 0
-    assert row["largest_link_step_nm"] >= 8.0
+    assert row.faults == {}
+    assert row.unloading_faults_of_48 == 0
+    assert row.largest_link_step_nm >= 8.0
     for column in ("sine_2hz_rms_deg", "mass_rms_deg"):
-        assert row[column] < 0.5 * measure("ndobc")[column]
+        assert getattr(row, column) < 0.5 * getattr(measure("ndobc"), column)
 
 
 def test_a_pd_on_the_motors_knows_nothing_of_a_load_on_the_link():
-    """The spring bends by 2 N·m at 15 N·m/rad, and a PD leaves it so: 8.5°, for ever."""
+    """The spring bends by 2 N·m at 15 N·m/rad, and a PD leaves it so: 8.5°, for ever.
+
+    A blow of 3 N·m bends it too far, and a half turn in 0.2 s has no flat feedforward.
+    """
     row = measure("pd")
-    assert row["faults"] == {}
-    assert row["ideal_4a"]["steady_deg"] == pytest.approx(8.52, rel=0.05)
-    assert row["rig_4a"]["recovery_s"] is None
+    assert row.faults == {"pulses": "deflection_limit", "turn_180": "not_finite"}
+    assert row.ideal_4a.steady_deg == pytest.approx(8.52, rel=0.05)
+    assert row.rig_4a.recovery_s is None
 
 
 @pytest.mark.parametrize(("law", "error"), [("esp", 13.2), ("backstepping", 11.0)])
@@ -121,7 +125,7 @@ def test_without_its_estimate_a_load_stays(law, error):
     result = run_scenario(IDEAL_4A, Entry(law, without))
     assert result.fault is None
     assert measure_rms(result, 8.0, 20.0) == pytest.approx(error, rel=0.05)
-    assert measure(law)["ideal_4a"]["steady_deg"] < 0.01
+    assert measure(law).ideal_4a.steady_deg < 0.01
 
 
 @pytest.mark.parametrize(
@@ -136,3 +140,42 @@ def test_what_works_in_the_ideal_loop_only_is_shown_so(law, before, steady):
     assert measure_rms(ideal, 8.0, 20.0) < steady
     error = measure_rms(rig, 8.0, 20.0)
     assert error is None or error > 1.0
+
+
+DRAWN = {
+    "fl": (3.22, 70),
+    "ndobc": (0.42, 7),
+    "linear_dob": (0.43, 7),
+    "fl_integral": (0.49, 18),
+    "lqi": (0.44, 18),
+    "esp": (0.30, 12),
+    "backstepping": (0.37, 12),
+}
+"""A hundred draws of the prototypes, by another draw: median rms, °, and how many failed."""
+
+
+@pytest.mark.parametrize("law", DRAWN)
+def test_a_hundred_draws_are_about_as_hard_as_those_of_the_prototypes(law):
+    """Another hundred of the same kind differ by as much (seeds 1 and 2: NDOBC 9 and 12 fail)."""
+    row, (middle, fails) = measure(law), DRAWN[law]
+    assert row.draws_median_deg == pytest.approx(middle, rel=0.4)
+    assert abs(row.draws_fails - fails) <= 8
+    assert row.draws_faults <= row.draws_fails
+
+
+def test_five_times_the_noise_is_where_ndobc_w_loses():
+    """0.022° and changes of 1.8 N·m a tick, against 0.11° and 2.5; prototypes 0.024° and 1.95."""
+    ndobc, ndobc_w = (measure(law).get_outcome("noise_5") for law in ("ndobc", "ndobc_w"))
+    assert ndobc.rms_deg == pytest.approx(0.024, rel=0.15)
+    assert ndobc.torque_change_nm == pytest.approx(1.95, rel=0.15)
+    assert ndobc_w.rms_deg > 2.0 * ndobc.rms_deg
+    assert ndobc_w.torque_change_nm > ndobc.torque_change_nm
+
+
+def test_sweeps_and_draws_tell_laws_apart():
+    """FL holds nowhere under the load; NDOBC-W bears later, more perturbed and noisier loops."""
+    fl, ndobc, ndobc_w = (measure(law) for law in ("fl", "ndobc", "ndobc_w"))
+    assert fl.parts.robustness == 0.0
+    for one, other in zip(ndobc_w.sweeps, ndobc.sweeps, strict=True):
+        assert (one.share > other.share) == (one.sweep != "model")
+    assert 0.0 < fl.score < ndobc.score < ndobc_w.score < 1.0

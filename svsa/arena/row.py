@@ -1,0 +1,101 @@
+"""A law's row of the arena's table, and what stands behind it."""
+
+from typing import Any
+
+from svsa.checked import Checked, Number, Whole, quantity
+
+TABLE = (
+    "law",
+    "ideal_4a",
+    "rig_4a",
+    "unloading_peak_deg",
+    "unloading_faults_of_48",
+    "sine_2hz_rms_deg",
+    "mass_rms_deg",
+    "draws_median_deg",
+    "draws_faults",
+    "draws_fails",
+    "largest_link_step_nm",
+    "score",
+)
+"""What `svsa arena run --json` prints of a row."""
+
+
+class FigureErrors(Checked):
+    """Position errors under the paper's load; None where the run ended early."""
+
+    before_deg: Number | None = quantity("°", "rms before the load, 1–5 s")
+    peak_deg: Number | None = quantity("°", "Peak, 5–7 s")
+    steady_deg: Number | None = quantity("°", "rms after it, 8–20 s")
+
+
+class RigErrors(FigureErrors):
+    """With the time until the error stays within 2 % of its peak."""
+
+    recovery_s: Number | None = quantity("s", "Recovery; None if it does not settle")
+
+
+class Outcome(Checked):
+    """How a law went through one scenario, from the load on; numbers None where it ended early."""
+
+    scenario: str = quantity("", "Name of the scenario")
+    title: str = quantity("", "The scenario in words")
+    rms_deg: Number | None = quantity("°", "rms position error")
+    peak_deg: Number | None = quantity("°", "Greatest position error")
+    torque_change_nm: Number | None = quantity("N·m", "rms change of u1 from tick to tick")
+    fault: str | None = quantity("", "Code of the fault that ended the run")
+
+
+class SweepOutcome(Checked):
+    """How far one thing may be wrong."""
+
+    sweep: str = quantity("", "Name of the sweep")
+    title: str = quantity("", "What is varied")
+    unit: str = quantity("", "Unit of the values, 1 for a ratio")
+    values: tuple[Number, ...] = quantity("", "What was tried")
+    passed: tuple[Number, ...] = quantity("1", "Share of the runs that held, for each value")
+    share: Number = quantity("1", "Share of all runs that held", ge=0, le=1)
+
+
+class ScoreParts(Checked):
+    """What the score is made of: 0.5 robustness + 0.3 draws + 0.2 accuracy."""
+
+    robustness: Number = quantity("1", "Mean of the six sweeps' shares", ge=0, le=1)
+    draws: Number = quantity("1", "Share of the draws that held", ge=0, le=1)
+    accuracy: Number = quantity("1", "Mean of 1 − tanh(rms / 1°), 0 for a fault", ge=0, le=1)
+
+
+class Row(Checked):
+    """What a law shows, errors in degrees, rms but for peaks."""
+
+    law: str = quantity("", "Name of the law")
+    ideal_4a: FigureErrors = quantity("", "Figure 4A, ideal")
+    rig_4a: RigErrors = quantity("", "Figure 4A on the rig")
+    unloading_peak_deg: Number | None = quantity("°", "Peak after the load is taken off")
+    unloading_faults_of_48: Whole = quantity("", "Unloadings that ended in a fault", ge=0)
+    sine_2hz_rms_deg: Number | None = quantity("°", "rms under 1.5 N·m at 2 Hz")
+    mass_rms_deg: Number | None = quantity("°", "rms under 3 kg")
+    draws_median_deg: Number | None = quantity("°", "Median of the draws' rms, None if a fault")
+    draws_faults: Whole = quantity("", "Draws that ended in a fault", ge=0)
+    draws_fails: Whole = quantity(
+        "", "Draws that ended in a fault, or with more than 1° in the last second", ge=0
+    )
+    largest_link_step_nm: Number = quantity("N·m", "Largest step on the link that is survived")
+    score: Number = quantity("1", "0.5 robustness + 0.3 draws + 0.2 accuracy", ge=0, le=1)
+    parts: ScoreParts = quantity("", "Parts of the score")
+    sweeps: tuple[SweepOutcome, ...] = quantity("", "The six sweeps of robustness")
+    outcomes: tuple[Outcome, ...] = quantity("", "Every scenario that is told by itself")
+    corners_fails_of_8: Whole = quantity("", "±50 % corners that ended in a fault or above 1°")
+
+    @property
+    def faults(self) -> dict[str, str]:
+        """Why a scenario ended early, by its name."""
+        return {one.scenario: one.fault for one in self.outcomes if one.fault}
+
+    def get_outcome(self, scenario: str) -> Outcome:
+        """How it went through the scenario of this name."""
+        return next(one for one in self.outcomes if one.scenario == scenario)
+
+    def to_json(self) -> dict[str, Any]:
+        """The row as `svsa arena run --json` prints it: `TABLE`, and nothing else."""
+        return {name: value for name, value in self.model_dump().items() if name in TABLE}

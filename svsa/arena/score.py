@@ -1,0 +1,38 @@
+"""The score: one number of what a law bears, in the manner of the double pendulum's benchmark.
+
+score = 0.5 robustness + 0.3 share of draws that held + 0.2 accuracy. It says nothing of faults,
+which therefore stand beside it: a law that ends in a fault and one that is a degree off both fail.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from statistics import mean
+
+from svsa.arena.row import Outcome, ScoreParts, SweepOutcome
+
+ROBUSTNESS, DRAWS, ACCURACY = 0.5, 0.3, 0.2
+REFERENCE_DEG = 1.0
+
+
+def compute_accuracy(outcomes: Iterable[Outcome]) -> float:
+    """The mean of 1 − tanh(rms / 1°) over scenarios; a run that ended early counts 0."""
+    return mean(
+        0.0 if one.rms_deg is None else 1.0 - math.tanh(one.rms_deg / REFERENCE_DEG)
+        for one in outcomes
+    )
+
+
+def build_parts(
+    sweeps: Sequence[SweepOutcome], draws: int, fails: int, outcomes: Iterable[Outcome]
+) -> ScoreParts:
+    """The parts of a law's score. draws: how many were made, fails: of them did not hold."""
+    return ScoreParts(
+        robustness=mean(sweep.share for sweep in sweeps),
+        draws=1.0 - fails / draws,
+        accuracy=compute_accuracy(outcomes),
+    )
+
+
+def compute_score(parts: ScoreParts) -> float:
+    """0.5 robustness + 0.3 draws + 0.2 accuracy, from 0 to 1."""
+    return ROBUSTNESS * parts.robustness + DRAWS * parts.draws + ACCURACY * parts.accuracy
