@@ -8,7 +8,7 @@ PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type
 # Each module in one of three processes, of which one waits for something most of the time: in the
 # order of the folders, the browser last, since its driver keeps an event loop running.
 SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
-SERVED := package rig hardware scene server browser
+SERVED := package rig hardware scene server client browser
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 
 .PHONY: help run dev bench-demo test quick check hooks format page schema lock screenshots bench clean

@@ -52,11 +52,13 @@ from svsa.run.configuration import (
 if TYPE_CHECKING:
     from svsa import design
     from svsa.arena.tune import tune
+    from svsa.client import connect
     from svsa.experiment.recorded import export_run, open_run, resimulate, runs
     from svsa.records.catalogue.runs import Catalogue
 
 _LATE = {
     "design": "svsa.design",
+    "connect": "svsa.client",
     "Catalogue": "svsa.records.catalogue.runs",
     "tune": "svsa.arena.tune",
     **dict.fromkeys(("export_run", "open_run", "resimulate", "runs"), "svsa.experiment.recorded"),
@@ -110,6 +112,7 @@ __all__ = [
     "StepsPosition",
     "StepsStiffness",
     "SvsaError",
+    "connect",
     "design",
     "export_run",
     "load_prototype",

@@ -11,12 +11,13 @@ from typing import Literal
 from svsa.errors import SvsaError
 
 DISTRIBUTION = "svsa-lab"
-Extra = Literal["server", "bench", "plot", "nidaqmx"]
+Extra = Literal["server", "client", "bench", "plot", "nidaqmx"]
 MODULES: dict[Extra, tuple[str, ...]] = {
     "server": (
         *("fastapi", "pydantic_settings", "uvicorn", "websockets", "httpx"),
         *("viser", "trimesh", "zstandard"),
     ),
+    "client": ("httpx", "websockets"),
     "bench": ("can", "serial", "cantools"),
     "plot": ("matplotlib",),
     "nidaqmx": ("nidaqmx",),

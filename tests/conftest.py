@@ -13,7 +13,7 @@ COMPILED = "compiled"
 ORDER = (
     *("package", "", "lanes", "model", "reference", "control", "observer", "plant", "loop", "run"),
     *("session", "records", "export", "design", "identification", "experiment", "arena"),
-    *("rig", "hardware", "scene", "server", "browser"),
+    *("rig", "hardware", "scene", "server", "client", "browser"),
 )
 """Of the folders; what stands in none is \"\"."""
 

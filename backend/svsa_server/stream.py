@@ -16,6 +16,7 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from svsa.errors import ParameterError, Violation
+from svsa.session.batch import pack_batch
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.control import asking, read_client
@@ -23,14 +24,11 @@ from svsa_server.hosted import HostedSession
 from svsa_server.session_schemas import SessionProgress, SessionState
 from svsa_server.state import build_progress, build_state
 from svsa_server.stream_schemas import (
-    HEADER,
-    MAGIC,
     Hello,
     StateMessage,
     StreamChannel,
     StreamError,
     StreamRequest,
-    pack_lane_ids,
 )
 
 BATCH_PERIOD_S = 1.0 / 30.0
@@ -107,10 +105,9 @@ class SampleCursor:
         rows = history.read(self._next, stride, self._columns, lanes)
         if not len(rows):
             return None
-        header = HEADER.pack(MAGIC, self._run, self._next, stride, len(rows), missed, len(lanes))
-        ids = pack_lane_ids(session.journal.timeline.lane_ids[lane] for lane in lanes)
-        self._next += stride * len(rows)
-        return header + ids + rows.astype("<f4").tobytes()
+        ids = (session.journal.timeline.lane_ids[lane] for lane in lanes)
+        first, self._next = self._next, self._next + stride * len(rows)
+        return pack_batch(self._run, first, stride, missed, ids, rows)
 
     def read_lanes(self) -> list[int]:
         """The lanes of the next batch, counted from 0: those asked for that there are."""

@@ -1,7 +1,6 @@
-"""What a stream sends: its messages, and the header of a binary batch of samples."""
+"""What a stream sends: its messages, and in words the layout of `svsa.session.batch`."""
 
 import struct
-from collections.abc import Iterable
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field
@@ -9,22 +8,9 @@ from pydantic import BaseModel, Field
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.experiment.channels import ChannelName
 from svsa.run.configuration import MAX_LANES
+from svsa.session.batch import HEADER, HEADER_FIELDS, LANE_ID, TYPES
 from svsa.signals import PLOTTED
 from svsa_server.session_schemas import SessionProgress, SessionState
-
-MAGIC = b"SVSA"
-HEADER_FIELDS = (
-    ("magic", "4s", f"the text {MAGIC.decode()}"),
-    ("run", "I", "number of the run; a new run begins at tick 0 again"),
-    ("first tick", "Q", "tick of the first sample"),
-    ("stride", "I", "ticks from one sample to the next"),
-    ("count", "I", "samples in this batch"),
-    ("missed", "I", "samples left out before it, for a client that was too slow"),
-    ("lanes", "I", "lanes in each sample"),
-)
-HEADER = struct.Struct("<" + "".join(code for _, code, _ in HEADER_FIELDS))
-LANE_ID = "I"
-_TYPES = {"4s": "4 bytes", "I": "uint32", "Q": "uint64"}
 
 
 class StreamRequest(Checked):
@@ -74,17 +60,11 @@ class StreamError(BaseModel):
 StreamMessage = Hello | StateMessage | StreamError
 
 
-def pack_lane_ids(ids: Iterable[int]) -> bytes:
-    """The identities of the lanes of a batch, which follow its header."""
-    every = list(ids)
-    return struct.pack(f"<{len(every)}{LANE_ID}", *every)
-
-
 def describe_stream(batch_period_s: float) -> str:
     """The stream in words (Markdown), with the layout of a batch as it is packed."""
     rows, offset = [], 0
     for name, code, meaning in HEADER_FIELDS:
-        rows.append(f"| {offset} | {_TYPES[code]} | {name} | {meaning} |")
+        rows.append(f"| {offset} | {TYPES[code]} | {name} | {meaning} |")
         offset += struct.calcsize("<" + code)
     return "\n".join(
         [
@@ -102,7 +82,7 @@ def describe_stream(batch_period_s: float) -> str:
             "|---|---|---|---|",
             *rows,
             "",
-            f"then `{_TYPES[LANE_ID]}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
+            f"then `{TYPES[LANE_ID]}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
             " that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come"
             " and go beside it; its place among them, which `hello.lanes` tells of the first batch,"
             " may change.",

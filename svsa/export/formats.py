@@ -24,7 +24,8 @@ class ExportKind(NamedTuple):
 
 
 def _write_parquet(record: Record, stream: IO[bytes]) -> None:
-    write_parquet(stream, record.header, record.commands, record.iterate_batches())
+    batches = record.iterate_batches()
+    write_parquet(stream, record.header, record.commands, batches, record.fault)
 
 
 EXPORT_KINDS: dict[str, ExportKind] = {

@@ -16,7 +16,12 @@ def write_fault(folder: Path, fault: Fault | None) -> None:
     if fault is None:
         (folder / FAULT_FILE).unlink(missing_ok=True)
     else:
-        replace_file(folder / FAULT_FILE, _FAULT.dump_json(fault))
+        replace_file(folder / FAULT_FILE, dump_fault(fault))
+
+
+def dump_fault(fault: Fault) -> bytes:
+    """The fault as JSON."""
+    return _FAULT.dump_json(fault)
 
 
 def read_fault(folder: Path) -> Fault | None:

@@ -1,6 +1,7 @@
 """The finished samples: one Parquet file that says by itself what it holds."""
 
 import contextlib
+import io
 import json
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -10,17 +11,22 @@ from typing import IO, Any, NamedTuple
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from svsa.errors import Fault
+from svsa.records.fault import FAULT_FILE, dump_fault
 from svsa.records.header import (
     COMMANDS_FILE,
     PARQUET_FILE,
     STREAM_FILE,
     RecordError,
     RecordHeader,
+    parse_header,
     read_header,
+    write_header,
 )
-from svsa.records.stream import build_schema, read_stream
+from svsa.records.stream import HEADER_KEY, build_schema, read_stream
 
 COMMANDS_KEY = b"svsa.commands"
+FAULT_KEY = b"svsa.fault"
 ROWS_A_GROUP = 65_536
 
 FORMER_KINDS = {"controller": "law"}
@@ -69,17 +75,46 @@ def finish(folder: Path) -> Finished:
 
 
 def write_parquet(
-    sink: IO[bytes], header: RecordHeader, commands: Commands, batches: Batches
+    sink: IO[bytes],
+    header: RecordHeader,
+    commands: Commands,
+    batches: Batches,
+    fault: Fault | None = None,
 ) -> None:
-    """Write samples as Parquet: float64 exact, zstd, checksums, header and commands inside."""
+    """Write samples as Parquet: float64 exact, zstd, checksums; all else of the record inside."""
     schema = build_schema(header)
     lines = [{"tick": tick, "command": command} for tick, command in commands]
-    schema = schema.with_metadata({**schema.metadata, COMMANDS_KEY: json.dumps(lines).encode()})
+    inside = {**schema.metadata, COMMANDS_KEY: json.dumps(lines).encode()}
+    if fault is not None:
+        inside[FAULT_KEY] = dump_fault(fault)
+    schema = schema.with_metadata(inside)
     with pq.ParquetWriter(
         sink, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
     ) as writer:
         for group in _group(batches):
             writer.write_table(pa.Table.from_batches(group, schema), row_group_size=ROWS_A_GROUP)
+
+
+def unpack_parquet(content: bytes, folder: Path) -> None:
+    """Make a record's folder from a file of `write_parquet`, such as an export.
+
+    Raises `RecordError` where it is none; the folder is there only when it is whole.
+    """
+    try:
+        inside = pq.read_metadata(io.BytesIO(content)).metadata or {}
+        header = parse_header(inside[HEADER_KEY].decode())
+        lines = json.loads(inside[COMMANDS_KEY])
+        commands = b"".join(write_command(line["tick"], line["command"]) for line in lines)
+    except (pa.ArrowException, KeyError, TypeError, ValueError, OSError) as error:
+        raise RecordError(f"The file is no recorded run of svsa: {error!r}.") from None
+    draft = folder.with_name(folder.name + ".tmp")
+    draft.mkdir(parents=True, exist_ok=True)
+    write_header(draft, header)
+    (draft / COMMANDS_FILE).write_bytes(commands)
+    (draft / PARQUET_FILE).write_bytes(content)
+    if FAULT_KEY in inside:
+        (draft / FAULT_FILE).write_bytes(inside[FAULT_KEY])
+    draft.rename(folder)
 
 
 def open_parquet(folder: Path) -> pq.ParquetFile:

@@ -6,9 +6,9 @@ from html.parser import HTMLParser
 import pytest
 from websockets.sync.client import connect
 
+from svsa.session.batch import HEADER, HEADER_FIELDS
 from svsa_server.app import build_app
 from svsa_server.config import Settings
-from svsa_server.stream_schemas import HEADER, HEADER_FIELDS
 from tests.lab import Lab
 
 STREAM = "/api/v1/sessions/{session}/stream"

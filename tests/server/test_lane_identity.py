@@ -5,13 +5,14 @@ import numpy as np
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.paper import get_figure
 from svsa.run.configuration import Lane
+from svsa.session.batch import HEADER
 from svsa.session.session import Session
 from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.hosted import HostedSession
 from svsa_server.state import build_state
 from svsa_server.stream import SampleCursor
-from svsa_server.stream_schemas import HEADER, StreamRequest
+from svsa_server.stream_schemas import StreamRequest
 
 FL = Lane(law="fl")
 FASTER = Lane(law="ndobc", observer=ObserverBandwidth(bandwidth_rad_per_s=(120.0, 120.0, 120.0)))

@@ -1,0 +1,47 @@
+"""A running lab from Python, over its public API, in the library's own words.
+
+    import svsa
+    with svsa.connect("http://127.0.0.1:8000") as lab:
+        session = lab.session
+        session.position = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=0.2)
+        with session.record("3 kg") as run:
+            session.loads.add(svsa.PaperLoad())
+            for block in session.stream("position_rad", duration_s=5.0):
+                print(block.time_s[-1], block["position_rad"][-1])
+        run.result.metrics.rms_position_error_rad
+
+It needs the extra `client`. What the lab refuses raises what `svsa.simulate` would raise for it.
+"""
+
+# ruff: noqa: E402
+from svsa.extras import require_extra
+
+require_extra("client")
+
+from svsa.client.connection import Connection
+from svsa.client.door import Acted
+from svsa.client.lab import Lab, connect
+from svsa.client.loads import AppliedLoad, Loads
+from svsa.client.recording import Recording
+from svsa.client.refusals import AccessError, ControlError, LabError, LostAnswerError
+from svsa.client.runs import RemoteRuns
+from svsa.client.session import RemoteBench, RemoteSession
+from svsa.client.stream import Block
+
+__all__ = [
+    "AccessError",
+    "Acted",
+    "AppliedLoad",
+    "Block",
+    "Connection",
+    "ControlError",
+    "Lab",
+    "LabError",
+    "Loads",
+    "LostAnswerError",
+    "Recording",
+    "RemoteBench",
+    "RemoteRuns",
+    "RemoteSession",
+    "connect",
+]

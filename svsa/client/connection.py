@@ -1,0 +1,134 @@
+"""Calls to a lab: answered, refused in the library's words, or asked after when lost.
+
+A changing call has a name of its own (`SVSA-Request`). Where its answer is lost, the lab is
+asked by that name whether it was carried out; it is sent again only where it never came.
+"""
+
+import time
+import uuid
+from typing import Any, Self
+from urllib.parse import quote
+
+import httpx
+
+from svsa.client.refusals import LabError, LostAnswerError, build_refusal
+
+API = "/api/v1"
+ANSWER_S = 60.0
+CONNECT_S = 5.0
+PAUSE_S = 0.2
+_NOT_SENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
+
+
+class Connection:
+    """An address of a lab, and how a script shows itself there.
+
+    secret: the lab's, or None where it has none. client: what the script is known by; the lab
+    gives control to it. patience_s: for how long a lab that does not answer, is busy or starts
+    again is asked anew, s.
+    """
+
+    def __init__(
+        self, url: str, secret: str | None = None, client: str = "", patience_s: float = 30.0
+    ) -> None:
+        self.url = url.rstrip("/")
+        self.client = client or f"script-{uuid.uuid4().hex}"
+        self.patience_s = patience_s
+        self.headers = {"SVSA-Client": quote(self.client)}
+        if secret:
+            self.headers["Authorization"] = f"Bearer {secret}"
+        timeout = httpx.Timeout(ANSWER_S, connect=CONNECT_S)
+        self._http = httpx.Client(
+            base_url=self.url + API, headers=self.headers, timeout=timeout, trust_env=False
+        )
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End it; the lab is told nothing."""
+        self._http.close()
+
+    def read(self, path: str, **query: Any) -> Any:
+        """What stands at a path, as JSON."""
+        return self._send("GET", path, None, query).json()
+
+    def download(self, path: str, **query: Any) -> bytes:
+        """What stands at a path, as it comes."""
+        return self._send("GET", path, None, query).content
+
+    def call(self, method: str, path: str, body: Any = None, *, state_at: str = "") -> Any:
+        """A changing call; what it answers, as JSON, or None for an answer without a body.
+
+        state_at: path of what it answers with, to be read where the lab has carried it out and
+        the answer was lost. Raises `LostAnswerError` where nobody knows whether it was.
+        """
+        answer = self._send(method, path, body, {})
+        if answer is None:
+            if state_at:
+                return self.read(state_at)
+            raise LostAnswerError(f"{method} {path} was carried out, but its answer was lost.")
+        return answer.json() if answer.content else None
+
+    def _send(self, method: str, path: str, body: Any, query: dict[str, Any]) -> Any:
+        """The answer; None for a changing call that was carried out and whose answer was lost."""
+        name = uuid.uuid4().hex
+        named = {"SVSA-Request": name} if method != "GET" else {}
+        until = time.monotonic() + self.patience_s
+        while True:
+            sent_at = time.monotonic()
+            try:
+                answer = self._http.request(
+                    method, path, json=body, params=query or None, headers=named
+                )
+            except httpx.TransportError as error:
+                if named and not isinstance(error, _NOT_SENT):
+                    if self._was_carried_out(name, f"{method} {path}", sent_at, until):
+                        return None
+                elif time.monotonic() > until:
+                    raise LabError(f"The lab at {self.url} does not answer: {error}.") from None
+                time.sleep(PAUSE_S)
+                continue
+            if answer.status_code == 503 and time.monotonic() < until:
+                time.sleep(float(answer.headers.get("Retry-After", PAUSE_S)))
+                continue
+            if answer.is_error:
+                raise build_refusal(answer.status_code, _read_json(answer))
+            return answer
+
+    def _was_carried_out(self, name: str, what: str, sent_at: float, until: float) -> bool:
+        """Whether the lab has carried out the call of this name; False: it never came there."""
+        while time.monotonic() < until:
+            try:
+                told = self._http.get(f"/requests/{name}").json()
+            except (httpx.TransportError, ValueError):
+                time.sleep(PAUSE_S)
+                continue
+            if told["outcome"] == "carried_out":
+                return True
+            if told["outcome"] == "refused":
+                raise LostAnswerError(
+                    f"{what} was refused with {told['status']}; the reason was lost on the way."
+                )
+            if told["outcome"] == "unknown":
+                if told["age_s"] > time.monotonic() - sent_at:
+                    return False
+                raise LostAnswerError(
+                    f"The lab began anew while {what} was under way:"
+                    " nobody knows whether it was carried out."
+                )
+            time.sleep(PAUSE_S)
+        raise LostAnswerError(
+            f"{what} was sent, and its answer did not come within {self.patience_s:g} s:"
+            " whether it was carried out is not known."
+        )
+
+
+def _read_json(answer: httpx.Response) -> Any:
+    try:
+        return answer.json()
+    except ValueError:
+        return answer.text

@@ -1,0 +1,172 @@
+"""A lab at an address: its shared session, private ones, its recorded runs."""
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, Self
+
+from svsa.checked import check_number
+from svsa.client.connection import Connection
+from svsa.client.runs import RemoteRuns
+from svsa.client.session import RemoteSession
+from svsa.errors import FaultError, ParameterError, Violation
+from svsa.experiment.result import Result
+from svsa.experiment.simulate import MAX_TICKS
+from svsa.paper import DURATION_S, Figure, get_figure
+from svsa.run.change import Change
+from svsa.run.configuration import Configuration
+
+SHARED = "lab"
+SETTINGS = ("position", "stiffness", "gains", "observer", "actuator", "nominal", "effects")
+
+
+def connect(
+    url: str = "http://127.0.0.1:8000",
+    secret: str | None = None,
+    *,
+    client: str = "",
+    patience_s: float = 30.0,
+) -> "Lab":
+    """A running lab; a context closes it. Raises `LabError` where none answers.
+
+    secret: the lab's; left out, that of the environment (SVSA_SECRET). client: what the lab knows
+    this script by, drawn at random if left out. patience_s: for how long a lab that does not
+    answer, or is busy, is asked again, s.
+    """
+    connection = Connection(url, secret or os.environ.get("SVSA_SECRET"), client, patience_s)
+    try:
+        connection.read("/laws")
+    except BaseException:
+        connection.close()
+        raise
+    return Lab(connection)
+
+
+class Lab:
+    """A running lab over its public API.
+
+    session: the one that everybody shares, with the bench where there is one. runs: what was
+    recorded there.
+    """
+
+    def __init__(self, connection: Connection) -> None:
+        self.connection = connection
+        self.runs = RemoteRuns(connection)
+        self.session = self.open_session(SHARED)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"lab at {self.connection.url}"
+
+    def close(self) -> None:
+        """End the connection; sessions and recordings of the lab go on."""
+        self.runs.close()
+        self.connection.close()
+
+    @property
+    def laws(self) -> tuple[str, ...]:
+        """Names of the laws that are installed there."""
+        return tuple(law["name"] for law in self.connection.read("/laws"))
+
+    def open_session(self, name: str) -> RemoteSession:
+        """The session of this name; whether it is there shows at the first call."""
+        return RemoteSession(self.connection, self.runs, name)
+
+    def create_session(
+        self, figure: str = "4a", law: str = "ndobc", **settings: Any
+    ) -> RemoteSession:
+        """A private simulated session, running; it ends by itself when nobody uses it.
+
+        settings: load, rivals, effects, seed, as of `POST /sessions`.
+        """
+        state = self.connection.call("POST", "/sessions", {"figure": figure, "law": law} | settings)
+        return self.open_session(state["session"])
+
+    @contextmanager
+    def private(
+        self, figure: str = "4a", law: str = "ndobc", **settings: Any
+    ) -> Iterator[RemoteSession]:
+        """A private session that ends with the block."""
+        session = self.create_session(figure, law, **settings)
+        try:
+            yield session
+        finally:
+            session.end()
+
+    def run(
+        self,
+        experiment: str | Figure | Configuration = "4a",
+        law: str | None = None,
+        *,
+        duration_s: float = DURATION_S,
+        commands: Sequence[Change] = (),
+        name: str = "",
+        **changes: Any,
+    ) -> Result:
+        """Simulate a run in the lab, record it there, and return it as `svsa.simulate` would.
+
+        experiment, law, duration_s, commands, changes: as of `svsa.simulate`. name: what the
+        recorded run is called. The samples are the same bits. Limits and sampling are the lab's
+        own: raises `ParameterError` where the experiment has others.
+        """
+        if isinstance(experiment, str):
+            experiment = get_figure(experiment)
+        if isinstance(experiment, Figure):
+            experiment = experiment.build_configuration()
+        wanted = experiment.changed(**(changes if law is None else changes | {"law": law}))
+        period = wanted.sampling.period_s
+        check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
+        rivals = [lane.model_dump(mode="json", exclude_none=True) for lane in wanted.rivals]
+        with self.private(law=wanted.law, load=False, rivals=rivals, seed=wanted.seed) as session:
+            session.pause()
+            _check_fixed(session, wanted)
+            for setting in SETTINGS:
+                setattr(session, setting, getattr(wanted, setting))
+            for owner, parameters in wanted.parameters.items():
+                session.set_parameters(owner, **parameters.model_dump(mode="json"))
+            session.reset()
+            for load in wanted.loads:
+                session.loads.add(load)
+            recording = session.record(name)
+            try:
+                for change in sorted(commands, key=lambda one: one.at_s):
+                    check_number("at_s", change.at_s, "s", 0.0, duration_s)
+                    session.run_until(change.at_s)
+                    _give(session, change)
+                session.run_until(duration_s)
+            except FaultError:
+                pass  # as of `simulate`, the result tells of it
+            finally:
+                recording.stop()
+            return recording.result
+
+
+def _check_fixed(session: RemoteSession, wanted: Configuration) -> None:
+    """Raise `ParameterError` where a run has limits or a period that the lab has not."""
+    state = session.read_state()
+    limits = wanted.limits.model_dump(mode="json")
+    for name, value in state["configuration"]["limits"].items():
+        if value != limits[name]:
+            raise ParameterError(
+                Violation(f"limits.{name}", limits[name], "", f"{value}, the lab's")
+            )
+    if abs(state["rate_hz"] * wanted.sampling.period_s - 1.0) > 1e-9:
+        period = 1.0 / state["rate_hz"]
+        bound = f"{period:g} s, the lab's"
+        raise ParameterError(Violation("sampling.period_s", wanted.sampling.period_s, "s", bound))
+
+
+def _give(session: RemoteSession, change: Change) -> None:
+    """What a change gives, as calls."""
+    if change.load is not None:
+        session.loads.add(change.load)
+    for law, parameters in (change.parameters or {}).items():
+        session.set_parameters(law, **parameters.model_dump(mode="json"))
+    for kind, value in change.list_given().items():
+        if kind not in ("load", "parameters"):
+            setattr(session, kind, value)

@@ -1,0 +1,55 @@
+"""The loads of a session over REST."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import TypeAdapter
+
+from svsa.client.door import SessionDoor
+from svsa.plant.disturbances import Load
+
+_LOAD: TypeAdapter[Load] = TypeAdapter(Load)
+
+
+@dataclass(frozen=True)
+class AppliedLoad:
+    """A load of a session: its number there, from when to when (s; None: it stays), and itself."""
+
+    number: int
+    start_s: float
+    end_s: float | None
+    active: bool
+    load: Load
+
+
+class Loads:
+    """What loads a session: iterate over them, add one, take one or all off."""
+
+    def __init__(self, session: SessionDoor) -> None:
+        self._session = session
+
+    def __iter__(self) -> Iterator[AppliedLoad]:
+        return iter([_read(told) for told in self._session.read_state()["loads"]])
+
+    def __len__(self) -> int:
+        return len(self._session.read_state()["loads"])
+
+    def add(self, load: Load) -> AppliedLoad:
+        """Apply a load, now or at its `start_s`; where it stands among those of the session."""
+        state = self._session.call("POST", "/loads", load.model_dump(mode="json"))
+        return _read(state["loads"][-1])
+
+    def remove(self, load: AppliedLoad | int) -> None:
+        """Take one off; raises `LabError` where there is none of this number."""
+        number = load if isinstance(load, int) else load.number
+        self._session.call("DELETE", f"/loads/{number}")
+
+    def clear(self) -> None:
+        """Take every load off."""
+        self._session.call("DELETE", "/loads")
+
+
+def _read(told: dict[str, Any]) -> AppliedLoad:
+    load = _LOAD.validate_python(told["load"])
+    return AppliedLoad(told["id"], told["start_s"], told["end_s"], told["active"], load)

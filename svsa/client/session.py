@@ -1,0 +1,272 @@
+"""A session of a lab: shared or private, simulated or a bench, by the same words."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal
+
+from pydantic import TypeAdapter
+
+from svsa.client.connection import Connection
+from svsa.client.door import SessionDoor
+from svsa.client.loads import Loads
+from svsa.client.recording import Recording
+from svsa.client.runs import RemoteRuns
+from svsa.client.stream import Block, stream_blocks
+from svsa.control.gains import Gains
+from svsa.errors import Fault, FaultError
+from svsa.experiment.channels import ChannelName
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.parameters import ActuatorParameters
+from svsa.plant.effects import Effects
+from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa.run.configuration import Lane
+
+MAX_STEP_TICKS = 10_000
+_POSITION: TypeAdapter[PositionReference] = TypeAdapter(PositionReference)
+_STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)
+
+
+class RemoteSession(SessionDoor):
+    """A session by its name; every property is asked of the lab when it is read.
+
+    Setting one returns when the lab has taken it, and `acted` says at which tick it holds; what
+    the lab refuses raises `ParameterError` or `StateError` and changes nothing.
+    """
+
+    def __init__(self, connection: Connection, runs: RemoteRuns, name: str) -> None:
+        super().__init__(connection, name)
+        self._runs = runs
+        self.loads = Loads(self)
+        self.bench = RemoteBench(self)
+
+    def __repr__(self) -> str:
+        state = self.read_state()
+        return (
+            f"session {self.name}: {state['status']} at {state['time_s']:.3f} s,"
+            f" {state['configuration']['law']}"
+        )
+
+    @property
+    def status(self) -> Literal["running", "paused", "fault"]:
+        """running, paused, or fault."""
+        return self.read_state()["status"]
+
+    @property
+    def tick(self) -> int:
+        """How far its run is, ticks from t = 0."""
+        return self.read_state()["tick"]
+
+    @property
+    def time_s(self) -> float:
+        """How far its run is, s."""
+        return self.read_state()["time_s"]
+
+    @property
+    def sample(self) -> Mapping[str, float | None] | None:
+        """The newest sample by channel, SI; None where a bench does not know it."""
+        return self.read_state()["sample"]
+
+    @property
+    def fault(self) -> Fault | None:
+        """What has ended the run, or stopped the bench."""
+        return read_fault(self.read_state())
+
+    def _read(self, name: str) -> Any:
+        return self.read_state()["configuration"][name]
+
+    @property
+    def position(self) -> PositionReference:
+        """What q_d follows; faded over when it is set."""
+        return _POSITION.validate_python(self._read("position"))
+
+    @position.setter
+    def position(self, reference: PositionReference) -> None:
+        self.call("PUT", "/position", reference.model_dump(mode="json"))
+
+    @property
+    def stiffness(self) -> StiffnessReference:
+        """What σ_d follows; faded over when it is set."""
+        return _STIFFNESS.validate_python(self._read("stiffness"))
+
+    @stiffness.setter
+    def stiffness(self, reference: StiffnessReference) -> None:
+        self.call("PUT", "/stiffness", reference.model_dump(mode="json"))
+
+    @property
+    def law(self) -> str:
+        """What controls its first lane."""
+        return self._read("law")
+
+    @law.setter
+    def law(self, law: str) -> None:
+        self.call("PUT", "/law", {"law": law})
+
+    @property
+    def gains(self) -> Gains:
+        """Coefficients of Eq 25, of laws that take such."""
+        told = self._read("gains")
+        return Gains(**{name: tuple(told[name]) for name in Gains.model_fields})
+
+    @gains.setter
+    def gains(self, gains: Gains) -> None:
+        self.call("PUT", "/gains", gains.model_dump(mode="json"))
+
+    @property
+    def observer(self) -> ObserverBandwidth:
+        """Bandwidths of the disturbance observer."""
+        return ObserverBandwidth.model_validate(self._read("observer"))
+
+    @observer.setter
+    def observer(self, observer: ObserverBandwidth) -> None:
+        self.call("PUT", "/observer", observer.model_dump(mode="json"))
+
+    @property
+    def effects(self) -> Effects:
+        """What separates the simulation from a bench."""
+        return Effects.model_validate(self._read("effects"))
+
+    @effects.setter
+    def effects(self, effects: Effects) -> None:
+        self.call("PUT", "/effects", effects.model_dump(mode="json"))
+
+    @property
+    def actuator(self) -> ActuatorParameters:
+        """The true plant of a simulation."""
+        return ActuatorParameters.model_validate(self._read("actuator"))
+
+    @actuator.setter
+    def actuator(self, actuator: ActuatorParameters) -> None:
+        self.call("PATCH", "/actuator", actuator.model_dump(mode="json"))
+
+    @property
+    def nominal(self) -> ActuatorParameters:
+        """The model that law and observer believe in."""
+        return ActuatorParameters.model_validate(self._read("nominal"))
+
+    @nominal.setter
+    def nominal(self, nominal: ActuatorParameters) -> None:
+        self.call("PATCH", "/nominal", nominal.model_dump(mode="json"))
+
+    @property
+    def rivals(self) -> tuple[Lane, ...]:
+        """The controllers beside the first, each on a plant of its own."""
+        return tuple(Lane.model_validate(lane) for lane in self._read("rivals"))
+
+    @rivals.setter
+    def rivals(self, rivals: tuple[Lane, ...]) -> None:
+        lanes = [lane.model_dump(mode="json", exclude_none=True) for lane in rivals]
+        self.call("PUT", "/lanes", {"rivals": lanes})
+
+    def set_parameters(self, law: str, **values: float) -> None:
+        """Parameters of a law that has its own; what is left out stays."""
+        self.call("PUT", "/parameters", {law: values})
+
+    def start(self) -> None:
+        """Run on from where it is."""
+        self.call("POST", "/start")
+
+    def pause(self) -> None:
+        """Stop time; on a bench, ramp down."""
+        self.call("POST", "/pause")
+
+    def quick_stop(self) -> None:
+        """Zero current at once on a bench, latched until cleared; a simulation pauses."""
+        self.call("POST", "/quick-stop")
+
+    def reset(self) -> None:
+        """Begin again at t = 0 with everything as it is set now."""
+        self.call("POST", "/reset")
+
+    def set_speed(self, factor: float | Literal["max"]) -> None:
+        """Session seconds a wall second, or as fast as it goes."""
+        self.call("PUT", "/speed", {"factor": factor})
+
+    def run_until(self, time_s: float) -> None:
+        """Run a paused simulation to this session time, as fast as it goes.
+
+        Raises `FaultError` where the run ends before.
+        """
+        state = self.read_state()
+        end = round(time_s * state["rate_hz"])
+        while state["tick"] < end and state["fault"] is None:
+            ticks = min(MAX_STEP_TICKS, end - state["tick"])
+            state = self.call("POST", "/step", {"ticks": ticks})
+        if fault := read_fault(state):
+            raise FaultError(fault)
+
+    def take_control(self, by: str, take_over: bool = False) -> None:
+        """Only this script may command from now on; everybody may pause and stop it.
+
+        Raises `ControlError` where somebody else is in control, unless `take_over`.
+        """
+        self.call("PUT", "/control", {"by": by, "take_over": take_over})
+
+    def give_control_back(self) -> None:
+        """Everybody may command again."""
+        self.call("DELETE", "/control")
+
+    def record(self, name: str = "", tags: tuple[str, ...] = (), notes: str = "") -> Recording:
+        """Record every sample and command from now on; a context ends it."""
+        body = {"name": name, "tags": list(tags), "notes": notes}
+        state = self.call("POST", "/recording", body)
+        return Recording(self, self._runs, state["recording"]["run_id"])
+
+    def excite(self, name: str = "Identification") -> Recording:
+        """Play the excitation that `svsa identify` takes, 32 s, which is recorded under a name."""
+        state = self.call("POST", "/excitation", {"name": name})
+        return Recording(self, self._runs, state["recording"]["run_id"])
+
+    def stream(
+        self,
+        *channels: ChannelName,
+        duration_s: float = float("inf"),
+        rate_hz: float = 200.0,
+        lanes: tuple[int, ...] | None = (1,),
+        history_s: float = 0.0,
+    ) -> Iterator[Block]:
+        """Samples as they come; channels: those of the plots if none is named.
+
+        duration_s: session time to be told. rate_hz: samples a second at speed 1. lanes: their
+        numbers, from 1; None is all there are. history_s: past to be told first, up to 20 s.
+        """
+        query = {"rate_hz": f"{rate_hz:g}", "history_s": f"{history_s:g}"}
+        query["lanes"] = "all" if lanes is None else ",".join(map(str, lanes))
+        if channels:
+            query["channels"] = ",".join(channels)
+        return stream_blocks(self.connection, self.name, query, duration_s)
+
+    def end(self) -> None:
+        """End a private session."""
+        self.connection.call("DELETE", self.path)
+
+
+class RemoteBench:
+    """What only a bench can be told; a simulated session raises `StateError`."""
+
+    def __init__(self, session: SessionDoor) -> None:
+        self._session = session
+
+    @property
+    def state(self) -> dict[str, Any] | None:
+        """All that is said of it, at this instant; None for a simulated session."""
+        return self._session.read_state()["bench"]
+
+    def arm(self) -> None:
+        """Reset the drives and bring them to current mode."""
+        self._session.call("POST", "/bench/arm")
+
+    def confirm_home(self, step: Literal["link", "motor1", "motor2"], by: str) -> None:
+        """An axis stands at its zero mark; by: who looked."""
+        self._session.call("POST", "/bench/home", {"step": step, "by": by})
+
+    def clear(self) -> None:
+        """Clear a latched fault; it must be armed again."""
+        self._session.call("POST", "/bench/clear")
+
+    def restart(self) -> None:
+        """End loop and supervisor, and start both anew."""
+        self._session.call("POST", "/bench/restart")
+
+
+def read_fault(state: dict[str, Any]) -> Fault | None:
+    """The fault in a session's state."""
+    return None if state["fault"] is None else Fault(**state["fault"])

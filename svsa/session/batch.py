@@ -1,0 +1,57 @@
+"""A batch of samples as it goes over a stream: a header, the lanes' identities, float32 values."""
+
+import struct
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.errors import SvsaError
+
+MAGIC = b"SVSA"
+HEADER_FIELDS = (
+    ("magic", "4s", f"the text {MAGIC.decode()}"),
+    ("run", "I", "number of the run; a new run begins at tick 0 again"),
+    ("first tick", "Q", "tick of the first sample"),
+    ("stride", "I", "ticks from one sample to the next"),
+    ("count", "I", "samples in this batch"),
+    ("missed", "I", "samples left out before it, for a client that was too slow"),
+    ("lanes", "I", "lanes in each sample"),
+)
+HEADER = struct.Struct("<" + "".join(code for _, code, _ in HEADER_FIELDS))
+LANE_ID = "I"
+TYPES = {"4s": "4 bytes", "I": "uint32", "Q": "uint64"}
+_LANE_ID, _VALUE = np.dtype("<u4"), np.dtype("<f4")
+
+
+class Batch(NamedTuple):
+    """ticks: (count,), of the samples. lane_ids: (lanes,). values: (count, lanes, channels)."""
+
+    run: int
+    ticks: np.ndarray
+    missed: int
+    lane_ids: tuple[int, ...]
+    values: np.ndarray
+
+
+def pack_batch(
+    run: int, first_tick: int, stride: int, missed: int, lane_ids: Iterable[int], rows: np.ndarray
+) -> bytes:
+    """Samples as bytes; stride: ticks from one to the next. rows: (count, lanes, channels)."""
+    ids = np.fromiter(lane_ids, _LANE_ID)
+    header = HEADER.pack(MAGIC, run, first_tick, stride, len(rows), missed, len(ids))
+    return header + ids.tobytes() + rows.astype(_VALUE).tobytes()
+
+
+def unpack_batch(message: bytes, channels: int) -> Batch:
+    """What `pack_batch` has packed, of so many channels; raises `SvsaError` for anything else."""
+    try:
+        magic, run, first, stride, count, missed, lanes = HEADER.unpack_from(message)
+        ids = np.frombuffer(message, _LANE_ID, lanes, HEADER.size)
+        values = np.frombuffer(message, _VALUE, -1, HEADER.size + ids.nbytes)
+        values = values.reshape(count, lanes, channels)
+    except (struct.error, ValueError) as error:
+        raise SvsaError(f"This is no batch of samples: {error}.") from None
+    if magic != MAGIC:
+        raise SvsaError(f"This is no batch of samples: it begins with {magic!r}, not {MAGIC!r}.")
+    return Batch(run, first + stride * np.arange(count), missed, tuple(ids.tolist()), values)

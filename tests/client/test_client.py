@@ -1,0 +1,159 @@
+"""A running lab from Python: settings, loads, recordings, streams, refusals, lost answers."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import svsa
+from svsa.client import AccessError, ControlError, Lab, LabError
+from tests.client.faulty_line import run_faulty_line
+from tests.lab import Lab as Server
+from tests.lab import run_lab
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    with run_lab() as running:
+        yield running
+
+
+@pytest.fixture
+def lab(server: Server) -> Iterator[Lab]:
+    with svsa.connect(server.url) as connected:
+        yield connected
+
+
+def test_what_is_set_is_what_is_read_and_says_when_it_acted(lab: Lab) -> None:
+    with lab.private(load=False) as session:
+        session.pause()
+        session.run_until(0.25)
+        for name, value in {
+            "position": svsa.SinePosition(amplitude_rad=0.5, frequency_hz=0.3),
+            "stiffness": svsa.ConstantStiffness(stiffness_nm_per_rad=40.0),
+            "gains": svsa.Gains.from_poles((-50,) * 4, (-30,) * 2),
+            "observer": svsa.ObserverBandwidth(bandwidth_rad_per_s=(40.0, 50.0, 60.0)),
+            "effects": svsa.RIG,
+            "nominal": session.nominal.changed(link_inertia_kg_m2=0.02),
+            "actuator": session.actuator.changed(link_damping_nms_per_rad=0.01),
+            "rivals": (svsa.Lane(law="fl"),),
+            "law": "fl_integral",
+        }.items():
+            setattr(session, name, value)
+            assert getattr(session, name) == value
+            assert session.acted is not None
+            assert (session.acted.tick, session.acted.time_s) == (250, 0.25)
+
+
+def test_a_refusal_is_the_error_of_the_library(lab: Lab) -> None:
+    with lab.private(load=False) as session, pytest.raises(svsa.ParameterError) as refused:
+        session.set_parameters("fl_integral", position_pole_rad_per_s=1e6)
+    (violation,) = refused.value.violations
+    assert (violation.name, violation.value) == ("fl_integral.position_pole_rad_per_s", 1e6)
+    assert violation.unit == "rad/s"
+    with pytest.raises(svsa.StateError, match="simulated: there is nothing to arm"):
+        lab.session.bench.arm()
+    with pytest.raises(LabError, match="no run 'nowhere'"):
+        _ = lab.runs["nowhere"]
+
+
+def test_a_load_of_a_run_that_is_recorded_and_watched(lab: Lab) -> None:
+    with lab.private(load=False) as session:
+        with session.record("3 kg", tags=("test",)) as recording:
+            load = session.loads.add(svsa.PaperLoad())
+            assert [one.load for one in session.loads] == [svsa.PaperLoad()]
+            blocks = list(session.stream("torque1_nm", "position_rad", duration_s=0.2))
+            session.loads.remove(load)
+            assert len(session.loads) == 0
+        result = recording.result
+    ticks = np.concatenate([block.ticks for block in blocks])
+    assert 0.15 < (ticks[-1] - ticks[0]) * blocks[0].period_s <= 0.2
+    first = round(float(result.time_s[0]) / blocks[0].period_s)
+    streamed = np.concatenate([block["position_rad"] for block in blocks])
+    assert np.array_equal(streamed, result.position_rad[ticks - first].astype("f4"))
+    assert [command.kind for command in result.commands] == ["load", "unload"]
+    assert result.name == "3 kg"
+    assert recording.run_id in set(lab.runs)
+
+
+CHANGES = [svsa.Change(at_s=0.3, law="fl"), svsa.Change(at_s=0.4, load=svsa.PaperLoad())]
+
+
+def test_a_run_in_the_lab_is_the_run_of_the_library_to_the_bit(lab: Lab) -> None:
+    settings = {
+        "effects": svsa.RIG,
+        "seed": 7,
+        "rivals": (svsa.Lane(law="fl_integral"),),
+        "loads": (svsa.ConstantLoad(start_s=0.2, torque_nm=(0.5, 0.0, 0.0)),),
+        "gains": svsa.Gains.from_poles((-50,) * 4, (-30,) * 2),
+    }
+    here = svsa.simulate("5", duration_s=0.6, commands=CHANGES, **settings)
+    there = lab.run(svsa.paper.FIGURES["5"], duration_s=0.6, commands=CHANGES, **settings)
+    assert np.array_equal(there.samples, here.samples)
+    assert np.array_equal(there.rivals[0].samples, here.rivals[0].samples)
+    assert there.metrics == here.metrics
+
+
+def test_a_run_that_ends_in_a_fault_says_so(lab: Lab) -> None:
+    pull = svsa.ConstantLoad(start_s=0.1, torque_nm=(40.0, 0.0, 0.0))
+    here = svsa.simulate("4a", duration_s=1.0, loads=(pull,))
+    there = lab.run("4a", duration_s=1.0, loads=(pull,))
+    assert there.fault == here.fault is not None
+    assert np.array_equal(there.samples, here.samples)
+
+
+def test_limits_that_the_lab_has_not_are_refused(lab: Lab) -> None:
+    limits = svsa.load_prototype().limits.changed(torque1_nm=3.0)
+    with pytest.raises(svsa.ParameterError, match=r"limits\.torque1_nm is 3"):
+        lab.run("4a", limits=limits)
+
+
+def test_a_call_whose_answer_is_lost_is_carried_out_once(server: Server) -> None:
+    with (
+        run_faulty_line(server.url) as line,
+        svsa.connect(line.url) as lab,
+        lab.private(load=False) as session,
+    ):
+        session.pause()
+        line.break_answers = 1
+        session.loads.add(svsa.PaperLoad())
+        assert line.break_answers == 0
+        assert len(session.loads) == 1
+        line.break_requests = 1
+        session.loads.add(svsa.PaperLoad())
+        assert line.break_requests == 0
+        assert len(session.loads) == 2
+
+
+def test_a_stream_that_breaks_goes_on_with_a_gap(server: Server) -> None:
+    with run_faulty_line(server.url) as line, svsa.connect(line.url) as lab:
+        blocks = lab.session.stream("position_rad", duration_s=60.0)
+        before = next(blocks)
+        line.cut()
+        after = next(block for block in blocks if block.ticks[0] > before.ticks[-1] + 200)
+        blocks.close()
+    assert after.run == before.run
+
+
+def test_a_lab_that_is_not_there_is_named() -> None:
+    with pytest.raises(LabError, match=r"http://127\.0\.0\.1:9 does not answer"):
+        svsa.connect("http://127.0.0.1:9", patience_s=0.0)
+
+
+def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
+    with svsa.connect(server.url, client="Ada's") as other, lab.private(load=False) as session:
+        other_s = other.open_session(session.name)
+        other_s.take_control("Ada")
+        with pytest.raises(ControlError, match="Ada is in control"):
+            session.law = "fl"
+        other_s.give_control_back()
+        session.law = "fl"
+
+
+def test_a_secret_opens_the_lab() -> None:
+    with run_lab(secret="of the class") as guarded:
+        with pytest.raises(AccessError):
+            svsa.connect(guarded.url, secret="of nobody")
+        with svsa.connect(guarded.url, secret="of the class") as lab:
+            assert "ndobc" in lab.laws
+            assert len(next(lab.session.stream(duration_s=0.1)).ticks)
