@@ -22,7 +22,7 @@ from numba.core.postproc import PostProcessor
 from numba.core.untyped_passes import IRProcessing
 from numba.extending import intrinsic, overload
 
-from svsa.lanes.number import LANES, Lanes, call_vector
+from svsa.lanes.number import INLINED, LANES, Lanes, call_vector
 
 
 @intrinsic
@@ -51,7 +51,7 @@ def multiply_add(a: Any, b: Any, c: Any) -> Any:
     return a * b + c
 
 
-@overload(multiply_add, jit_options={"forceinline": True, "error_model": "numpy"})
+@overload(multiply_add, jit_options=INLINED)
 def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
     """`fma` for numbers of which one is a float64 or lanes."""
 

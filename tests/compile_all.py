@@ -52,6 +52,7 @@ def compile_batches() -> None:
         ("ndobc", EVERY_EFFECT),
         ("ndobc", svsa.IDEAL),
         ("fl_integral", svsa.IDEAL),
+        ("ilc", svsa.IDEAL),
     ):
         configuration = FIGURES["4a"].build_configuration(law).changed(effects=effects, seed=7)
         run_configurations([configuration], TICKS * configuration.sampling.period_s)

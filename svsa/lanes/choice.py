@@ -39,9 +39,9 @@ def some(condition: Any) -> bool:
 def _unify(context: Any, condition: Any, a: Any, b: Any) -> Any:
     """What kind a choice between kinds a and b is; None where there is none."""
     if isinstance(a, types.BaseTuple) and isinstance(b, types.BaseTuple):
-        pairs = zip(_list_kinds(a), _list_kinds(b), strict=False)
+        pairs = zip(list_kinds(a), list_kinds(b), strict=False)
         kinds = [_unify(context, condition, *pair) for pair in pairs]
-        if None in kinds or len(_list_kinds(a)) != len(_list_kinds(b)):
+        if None in kinds or len(list_kinds(a)) != len(list_kinds(b)):
             return None
         return types.BaseTuple.from_types(kinds, getattr(a, "instance_class", None))
     if isinstance(condition, Truths) and all(isinstance(x, types.Number | Lanes) for x in (a, b)):
@@ -49,7 +49,8 @@ def _unify(context: Any, condition: Any, a: Any, b: Any) -> Any:
     return context.unify_types(a, b)
 
 
-def _list_kinds(kind: Any) -> list[Any]:
+def list_kinds(kind: Any) -> list[Any]:
+    """The kinds that a tuple's is made of."""
     return list(kind)
 
 
@@ -73,7 +74,7 @@ def _lower_choose(context: Any, builder: Any, signature: Any, arguments: Any) ->
             return builder.select(arguments[0], a, b)
         sides = ((kind_a, a), (kind_b, b))
         parts = []
-        for i, one in enumerate(_list_kinds(kind)):
+        for i, one in enumerate(list_kinds(kind)):
             pairs = [(side[i], builder.extract_value(value, i)) for side, value in sides]
             parts.append(generate(one, *pairs[0], *pairs[1]))
         return context.make_tuple(builder, kind, parts)

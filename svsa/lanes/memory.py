@@ -5,9 +5,9 @@ from typing import Any, cast
 
 import numpy as np
 from numba.core import cgutils, types
-from numba.extending import intrinsic
+from numba.extending import intrinsic, overload
 
-from svsa.lanes.number import LANES, VECTOR, Lanes
+from svsa.lanes.number import INLINED, LANES, VECTOR, Lanes
 
 ALIGNMENT = 8
 """Bytes: arrays of doubles begin anywhere."""
@@ -54,3 +54,49 @@ load = cast("Callable[[np.ndarray, int], Any]", _load)
 """The lanes in a row of an array (rows, 8), in compiled functions only."""
 store = cast("Callable[[np.ndarray, int, Any], None]", _store)
 """Lanes, or a number for all of them, into a row of an array (rows, 8); as `load`."""
+
+
+def read(table: np.ndarray, row: int, column: int) -> Any:
+    """The number at this place of a table (rows, columns), the lanes of one (rows, columns, 8)."""
+    return table[row, column]
+
+
+@overload(read, jit_options=INLINED)
+def choose_read(table: Any, row: Any, column: Any) -> Any:
+    """By how many dimensions the table has."""
+
+    def read_number(table: Any, row: Any, column: Any) -> Any:
+        return table[row, column]
+
+    def read_lanes(table: Any, row: Any, column: Any) -> Any:
+        return load(table[row], column)
+
+    return read_lanes if table.ndim > 2 else read_number
+
+
+def _build_spread(typing: Any, number: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return context.cast(builder, arguments[0], number, LANES)
+
+    return LANES(number), generate
+
+
+_spread: Any = intrinsic(_build_spread)
+
+
+def make_alike(table: np.ndarray, number: float) -> Any:
+    """A number of the kind that `read` finds in a table: itself, or the same in all lanes."""
+    return number
+
+
+@overload(make_alike, jit_options=INLINED)
+def choose_alike(table: Any, number: Any) -> Any:
+    """By how many dimensions the table has."""
+
+    def keep(table: Any, number: Any) -> Any:
+        return number
+
+    def spread(table: Any, number: Any) -> Any:
+        return _spread(number)
+
+    return spread if table.ndim > 2 else keep

@@ -26,6 +26,8 @@ from numba.extending import (
 
 WIDTH = 8
 VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
+INLINED: Any = {"forceinline": True, "error_model": "numpy"}
+"""How numba compiles what is chosen by the types of a call."""
 
 
 class Lanes(types.Type):

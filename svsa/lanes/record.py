@@ -52,7 +52,7 @@ def build_reader(layout: Any) -> Any:
     """
 
     def read(typing: Any, rows: Any) -> Any:
-        kind = _find_kind(layout)
+        kind = find_kind(layout)
 
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
             def read_part(part: Any, kind: Any) -> Any:
@@ -79,8 +79,9 @@ def build_reader(layout: Any) -> Any:
     return intrinsic(read)
 
 
-def _find_kind(part: Any) -> Any:
-    match part:
+def find_kind(layout: Any) -> Any:
+    """The numba type of what `build_reader` reads by this layout."""
+    match layout:
         case Column():
             return LANES
         case Word():
@@ -88,8 +89,8 @@ def _find_kind(part: Any) -> Any:
         case Shared():
             return types.float64
         case tuple():
-            named = type(part) if hasattr(part, "_fields") else None
-            return types.BaseTuple.from_types([_find_kind(one) for one in part], named)
+            named = type(layout) if hasattr(layout, "_fields") else None
+            return types.BaseTuple.from_types([find_kind(one) for one in layout], named)
         case int():
             return types.int64
     return types.float64

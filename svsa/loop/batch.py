@@ -14,21 +14,32 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from svsa.borrowed import borrow
 from svsa.compilation import compiled, find_fingerprint, specialize
+from svsa.control.call import BoundLaw
+from svsa.control.law import Law
 from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
-from svsa.lanes.choice import choose, greatest, some
+from svsa.lanes.choice import choose, some
 from svsa.lanes.memory import store
 from svsa.lanes.number import WIDTH
-from svsa.lanes.record import Column, Shared, Word, build_reader, build_record
-from svsa.loop.lane import Blocks, Inputs, LaneState, borrow_inputs
-from svsa.loop.loop import act, move, read_reference
+from svsa.lanes.record import (
+    Column,
+    Shared,
+    Word,
+    build_reader,
+    build_record,
+    lay_out_record,
+)
+from svsa.loop.batch_inputs import group, join_inputs, pick_inputs, read_first_reference
+from svsa.loop.lane import Blocks, Inputs, LaneState, build_lane_state
+from svsa.loop.law_in_lanes import compute_one_by_one, compute_side_by_side, find_addresses
+from svsa.loop.loop import act, move
+from svsa.loop.tally import SUMMARY, measure, start_tally
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
-from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
-from svsa.model.lever import compute_lever_ratio
-from svsa.model.spring import compute_stiffness
+from svsa.model.dynamics import compute_internal_torque
 from svsa.packed import pack_all
-from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.signals import Disturbance, State, Torque
 
 
 class Start(NamedTuple):
@@ -51,11 +62,13 @@ class Beginning(NamedTuple):
 
 
 class Batch(NamedTuple):
-    """Runs of one law under the same inputs, eight to a group; the last group repeats its last.
+    """Runs of one law, eight to a group; the last group repeats its last.
 
-    control: of the law. memory: its layout, see `lay_out_record`. layout: a `Beginning` of
-    `svsa.lanes.record`, see `build_reader`. rows: (groups, rows, 8), what it stands for. memories:
-    (groups, numbers, 8), where the law begins. lanes: how many runs there are.
+    control: of the law, None where it is called for one lane after the other. memory: its layout,
+    see `lay_out_record`. layout: a `Beginning` of `svsa.lanes.record`, see `build_reader`. rows:
+    (groups, rows, 8), what it stands for. memories: where the law begins, (groups, numbers, 8), or
+    (groups, 8, numbers) without a control. inputs: see `join_inputs`. lanes: how many runs there
+    are. laws: what the addresses in the rows are of.
     """
 
     control: Any
@@ -65,50 +78,33 @@ class Batch(NamedTuple):
     memories: np.ndarray
     inputs: Inputs
     lanes: int
-
-
-class Tally(NamedTuple):
-    """Of a run's measured ticks: sums of squares and sizes, peaks and what came last, SI."""
-
-    position_squares: float
-    stiffness_squares: float
-    torque1_squares: float
-    torque2_squares: float
-    position_absolute: float
-    position_peak: float
-    stiffness_peak: float
-    torque1_peak: float
-    torque2_peak: float
-    position_last: float
-    stiffness_last: float
-
-
-SUMMARY = np.dtype(
-    [("code", np.int64), ("ticks", np.int64)]
-    + [(name, np.float64) for name in (*Tally._fields, *State._fields)]
-)
-"""Of each run: `INSIDE` or why it ended, after how many ticks, `Tally`, and the state reached."""
+    laws: tuple[BoundLaw, ...] = ()
 
 
 def build_batch(
-    control: Any,
+    law: Law,
     blocks: Sequence[Blocks],
     constants: Sequence[tuple[Any, ...]],
-    lanes: Sequence[LaneState],
-    memory: Any,
-    inputs: Inputs,
+    laws: Sequence[BoundLaw],
+    inputs: Sequence[Inputs],
 ) -> Batch:
-    """Runs with these blocks, constants of the law `control` and states, one of each a run.
+    """Runs of a law with these blocks, constants and inputs, one of each a run.
 
+    laws: the law bound to each, of one that is not `is_for_lanes`, which has no constants then.
     Raises `ParameterError` where the period or a whole number, but for the seed, is not the same
     in all of them.
     """
-    starts = [Start(*lane[:-1]) for lane in lanes]
-    runs = [Beginning(*parts) for parts in zip(blocks, constants, starts, strict=True)]
+    start = Start(*build_lane_state(law.start_memory())[:-1])
+    given = [find_addresses(one) for one in laws] or constants
+    runs = [Beginning(*parts, start) for parts in zip(blocks, given, strict=True)]
     numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
     layout = _lay_out(runs[0], "", iter(numbers.view(np.int64).T), count())
-    memories = np.array([lane.memory for lane in lanes])
-    return Batch(control, memory, layout, _group(numbers), _group(memories), inputs, len(runs))
+    memories = group(np.tile(law.start_memory(), (len(runs), 1)))
+    if laws:
+        memories = np.ascontiguousarray(memories.transpose(0, 2, 1))
+    control, memory = (None, None) if laws else (law.control, lay_out_record(law.memory()))
+    rows, joined = group(numbers), join_inputs(inputs)
+    return Batch(control, memory, layout, rows, memories, joined, len(runs), tuple(laws))
 
 
 def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:
@@ -123,7 +119,7 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
     row, bits = next(rows), next(columns)
     if not bits.any() and (".bench" in name or name.endswith(".decay")):
         return type(values)(0)
-    if name.endswith(".seed"):
+    if name.endswith((".seed", "_address")):
         return Word(row)
     is_shared = isinstance(values, int) or name.endswith(".period")
     if is_shared and np.any(bits != bits[0]):
@@ -131,13 +127,6 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
     if isinstance(values, int):
         return values
     return Shared(row) if is_shared else Column(row)
-
-
-def _group(values: np.ndarray) -> np.ndarray:
-    """(lanes, n) → (groups, n, 8)."""
-    groups = -(-len(values) // WIDTH)
-    filled = np.concatenate([values, np.repeat(values[-1:], groups * WIDTH - len(values), axis=0)])
-    return np.ascontiguousarray(filled.reshape(groups, WIDTH, -1).transpose(0, 2, 1))
 
 
 def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
@@ -159,16 +148,19 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
 @cache
 def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     """`advance_groups` with this law and this layout."""
-    law = control.py_func
-    text = repr((law.__module__, law.__qualname__, find_fingerprint(law), memory, layout))
+    source = control.py_func if control else compute_one_by_one.py_func
+    text = repr((source.__module__, source.__qualname__, find_fingerprint(source), memory, layout))
     name = f"advance_groups_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    reader, record = build_reader(layout), build_record(memory)
-    return specialize(advance_groups, name, control=control, read=reader, remember=record)
+    compute, view = compute_one_by_one, borrow
+    if control:
+        compute = specialize(compute_side_by_side, f"compute_{name}", law=control)
+        view = build_record(memory)
+    return specialize(advance_groups, name, compute=compute, read=build_reader(layout), view=view)
 
 
-control: Any = None
+compute: Any = None
 read: Any = None
-remember: Any = None
+view: Any = None
 """Of `advance_groups`: the law, and what reads a group's numbers and its memory."""
 
 
@@ -181,10 +173,9 @@ def advance_groups(
     results: np.ndarray,
 ) -> None:
     """Run every group. rows, memories: see `Batch`. results: (groups, fields, 8), written."""
-    inputs = borrow_inputs(inputs)
-    for group in range(rows.shape[0]):
-        blocks, constants, start = read(rows[group])
-        memory = remember(memories[group])
+    for i in range(rows.shape[0]):
+        blocks, constants, start = read(rows[i])
+        memory, given = view(memories[i]), pick_inputs(inputs, i)
         x, known, estimate = start.x, start.known, start.estimate
         lane = LaneState(x, known, estimate, start.torque, start.applied, start.asked, memory)
         nothing = choose(lane.x.q < math.inf, 0.0, 0.0)
@@ -192,8 +183,10 @@ def advance_groups(
         code, ended, tally = nothing, nothing + ticks, start_tally(nothing)
         F = compute_internal_torque(blocks.nominal, lane.known)
         for tick in range(ticks):
-            reference = read_reference(inputs, tick * blocks.period)
-            asked = control(
+            reference = read_first_reference(given, tick * blocks.period)
+            found = check_domain(blocks.domain, blocks.plant, lane.x)
+            asked = compute(
+                runs & (found == INSIDE),
                 blocks.nominal,
                 constants,
                 memory,
@@ -204,7 +197,6 @@ def advance_groups(
                 blocks.period,
             )
             torque = limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
-            found = check_domain(blocks.domain, blocks.plant, lane.x)
             is_torque = abs(torque.u1 + torque.u2) < math.inf
             found = choose((found != INSIDE) | is_torque, found, NOT_FINITE)
             leaves = runs & (found != INSIDE)
@@ -213,16 +205,15 @@ def advance_groups(
                 code, ended = choose(leaves, found, code), choose(leaves, tick, ended)
                 if not some(runs):
                     break
-            action = act(blocks, inputs, lane, torque, tick)
+            action = act(blocks, given, lane, torque, tick)
             tally = measure(
                 tally, runs & (tick >= begin), blocks.plant, reference, lane.x, action.made
             )
-            reached, F = move(blocks, inputs, lane, F, action, tick)
+            reached, F = move(blocks, given, lane, F, action, tick)
             lane = hold(runs, reached, lane) if left else reached
-        result = results[group]
-        write(result, 0, (code, ended))
-        write(result, 2, tally)
-        write(result, 2 + len(tally), lane.x)
+        write(results[i], 0, (code, ended))
+        write(results[i], 2, tally)
+        write(results[i], 2 + len(tally), lane.x)
 
 
 @compiled
@@ -236,39 +227,6 @@ def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
         choose(runs, reached.applied, lane.applied),
         choose(runs, reached.asked, lane.asked),
         lane.memory,
-    )
-
-
-@compiled
-def start_tally(nothing: float) -> Tally:
-    """`Tally` before the first tick. nothing: 0."""
-    n = nothing
-    return Tally(n, n, n, n, n, n, n, n, n, n, n)
-
-
-@compiled
-def measure(
-    tally: Tally, counts: bool, plant: Actuator, reference: Reference, x: State, torque: Torque
-) -> Tally:
-    """`Tally` with the tick that begins at x. counts: whether it does, of each lane."""
-    t = tally
-    mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
-    sigma = compute_stiffness(mu, compute_deflection(x), plant.K)
-    position, stiffness = reference.q - x.q, reference.sigma - sigma
-    e, s = choose(counts, abs(position), 0.0), choose(counts, abs(stiffness), 0.0)
-    u1, u2 = choose(counts, abs(torque.u1), 0.0), choose(counts, abs(torque.u2), 0.0)
-    return Tally(
-        t.position_squares + e * e,
-        t.stiffness_squares + s * s,
-        t.torque1_squares + u1 * u1,
-        t.torque2_squares + u2 * u2,
-        t.position_absolute + e,
-        greatest(t.position_peak, e),
-        greatest(t.stiffness_peak, s),
-        greatest(t.torque1_peak, u1),
-        greatest(t.torque2_peak, u2),
-        choose(counts, position, t.position_last),
-        choose(counts, stiffness, t.stiffness_last),
     )
 
 

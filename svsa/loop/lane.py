@@ -12,11 +12,12 @@ from svsa.model.dynamics import Actuator, ExternalLoad
 from svsa.plant.disturbances import LoadTable
 from svsa.plant.effects import MAX_DELAY_SAMPLES, Bench
 from svsa.reference.transition import Stack
-from svsa.signals import Disturbance, State, Torque
+from svsa.signals import Disturbance, Reference, State, Torque
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
 NO_TORQUE = Torque(0.0, 0.0)
+NO_REFERENCE = Reference(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Blocks(NamedTuple):

@@ -11,7 +11,7 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.control.call import Call, read_estimate
-from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
+from svsa.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, Blocks
 from svsa.loop.loop import decide, observe
 from svsa.loop.publish import write_sample
 from svsa.model.domain import compute_deflection_limit
@@ -55,7 +55,7 @@ class Carried(NamedTuple):
     expected: State = AT_REST
     measured: Measurement = Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     ages_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    reference: Reference = Reference(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    reference: Reference = NO_REFERENCE
     asked: Torque = NO_TORQUE
     believed: Disturbance = UNDISTURBED
 

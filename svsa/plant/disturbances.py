@@ -10,6 +10,9 @@ from pydantic import Field, model_validator
 from svsa.checked import BY_KIND, Checked, Number, quantity
 from svsa.compilation import compiled
 from svsa.errors import ParameterError, Violation
+from svsa.lanes.choice import choose, some
+from svsa.lanes.each import call_where
+from svsa.lanes.memory import make_alike, read
 from svsa.model.dynamics import ExternalLoad
 from svsa.model.trigonometry import sin
 
@@ -154,9 +157,9 @@ KIND, W2, W4, W6, START, END, OMEGA, PHASE, INERTIA, MOMENT, FIRST, LENGTH = ran
 class LoadTable(NamedTuple):
     """All loads of a session as arrays for the compiled loop.
 
-    rows: (n, 12) by the column names above, START and END in ticks. points: (m, 4) time
-    since onset (s) and torques (N·m) of every series load, each from FIRST on. changing: whether
-    one of them changes within a period.
+    rows: (n, 12) by the column names above, START and END in ticks; (n, 12, 8) for lanes that have
+    other loads each. points: (m, 4) time since onset (s) and torques (N·m) of every series load,
+    each from FIRST on. changing: whether one of them changes within a period.
     """
 
     rows: np.ndarray
@@ -230,36 +233,42 @@ def compute_load(table: LoadTable, tick: int, period: float, time: float) -> Ext
     and never inside one; its shape is taken at `time` (s). table: `LoadTable`. period: T,
     s. Returns `ExternalLoad`.
     """
-    w2 = w4 = w6 = inertia = moment = 0.0
     r = table.rows
+    w2 = w4 = w6 = inertia = moment = make_alike(r, 0.0)
     for i in range(r.shape[0]):
-        if not r[i, START] <= tick < r[i, END]:
+        start, kind = read(r, i, START), read(r, i, KIND)
+        is_on = (start <= tick) & (tick < read(r, i, END))
+        if not some(is_on):
             continue
-        since = time - r[i, START] * period
-        if r[i, KIND] == MASS:
-            inertia += r[i, INERTIA]
-            moment += r[i, MOMENT]
-        elif r[i, KIND] == SERIES:
-            first, count = int(r[i, FIRST]), int(r[i, LENGTH])
-            w2 += interpolate(table.points, first, count, 1, since)
-            w4 += interpolate(table.points, first, count, 2, since)
-            w6 += interpolate(table.points, first, count, 3, since)
-        else:
-            shape = 1.0
-            if r[i, KIND] == SINE:
-                shape = sin(r[i, OMEGA] * since + r[i, PHASE])
-            w2 += shape * r[i, W2]
-            w4 += shape * r[i, W4]
-            w6 += shape * r[i, W6]
+        since = time - start * period
+        is_mass, is_series = is_on & (kind == MASS), is_on & (kind == SERIES)
+        inertia = choose(is_mass, inertia + read(r, i, INERTIA), inertia)
+        moment = choose(is_mass, moment + read(r, i, MOMENT), moment)
+        place = table.points, read(r, i, FIRST), read(r, i, LENGTH), since
+        s2, s4, s6 = call_where(is_series, interpolate, place, (0.0, 0.0, 0.0))
+        shape = 1.0
+        if some(kind == SINE):
+            wave = sin(read(r, i, OMEGA) * since + read(r, i, PHASE))
+            shape = choose(kind == SINE, wave, 1.0)
+        is_shaped = is_on & (kind <= SINE)
+        w2 = choose(is_shaped, w2 + shape * read(r, i, W2), w2 + s2)
+        w4 = choose(is_shaped, w4 + shape * read(r, i, W4), w4 + s4)
+        w6 = choose(is_shaped, w6 + shape * read(r, i, W6), w6 + s6)
     return ExternalLoad(w2, w4, w6, inertia, moment)
 
 
 @compiled
-def interpolate(points: np.ndarray, first: int, count: int, column: int, time: float) -> float:
-    """A column of `count` points from `first` on at `time`, on straight lines; zero before them."""
-    if time < points[first, 0]:
-        return 0.0
-    low, high = first, first + count - 1
+def interpolate(
+    points: np.ndarray, first: float, length: float, time: float
+) -> tuple[float, float, float]:
+    """The torques of `length` points from `first` on, whole numbers, at `time` (s).
+
+    On straight lines between them; zero before them.
+    """
+    low = int(first)
+    if time < points[low, 0]:
+        return 0.0, 0.0, 0.0
+    high = low + int(length) - 1
     while high - low > 1:
         middle = (low + high) // 2
         if points[middle, 0] <= time:
@@ -267,4 +276,8 @@ def interpolate(points: np.ndarray, first: int, count: int, column: int, time: f
         else:
             high = middle
     share = min((time - points[low, 0]) / (points[high, 0] - points[low, 0]), 1.0)
-    return points[low, column] + share * (points[high, column] - points[low, column])
+    return (
+        points[low, 1] + share * (points[high, 1] - points[low, 1]),
+        points[low, 2] + share * (points[high, 2] - points[low, 2]),
+        points[low, 3] + share * (points[high, 3] - points[low, 3]),
+    )

@@ -9,16 +9,17 @@ from svsa.reference.shape import Derivatives
 
 @compiled
 def compute_polynomial(
-    breaks: np.ndarray, coefficients: np.ndarray, first: int, count: int, time: float
+    breaks: np.ndarray, coefficients: np.ndarray, first: float, length: float, time: float
 ) -> Derivatives:
     """Σ c_k (t − t_i)^k and its derivatives by Horner's scheme; held before t_0 and at the end.
 
-    breaks: (m,), s. coefficients: (m, 10). first, count: which of them are this curve's.
-    time: s, of the curve.
+    breaks: (m,), s. coefficients: (m, 10). first, length: which of them are this curve's, whole
+    numbers. time: s, of the curve.
     """
-    if time <= breaks[first]:
-        return Derivatives(coefficients[first, 0], 0.0, 0.0, 0.0, 0.0)
-    low, high = first, first + count
+    low = int(first)
+    if time <= breaks[low]:
+        return Derivatives(coefficients[low, 0], 0.0, 0.0, 0.0, 0.0)
+    high = low + int(length)
     while high - low > 1:
         middle = (low + high) // 2
         if breaks[middle] <= time:

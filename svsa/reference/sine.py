@@ -5,6 +5,7 @@ from typing import Literal
 
 from svsa.checked import Checked, Number, quantity
 from svsa.compilation import compiled
+from svsa.lanes.choice import choose, some
 from svsa.model.trigonometry import sin_cos
 from svsa.reference.shape import FULL_TURN_RAD, SINE, TRANSITION, Derivatives, Shape
 
@@ -80,10 +81,13 @@ def compute_sine(
     offset: float, amplitude: float, omega: float, phase: float, time: float
 ) -> Derivatives:
     """offset + amplitude sin(ωt + phase) with four derivatives; ω in rad/s, t in s."""
-    if amplitude == 0.0:
-        return Derivatives(offset, 0.0, 0.0, 0.0, 0.0)
-    angle = omega * time + phase
-    s, c = sin_cos(angle)
+    moves = amplitude != 0.0
+    held = Derivatives(offset, 0.0, 0.0, 0.0, 0.0)
+    still = choose(moves, held, held)
+    if not some(moves):
+        return still
+    s, c = sin_cos(omega * time + phase)
     s, c = amplitude * s, amplitude * c
     w2 = omega * omega
-    return Derivatives(offset + s, omega * c, -w2 * s, -w2 * omega * c, w2 * w2 * s)
+    wave = Derivatives(offset + s, omega * c, -w2 * s, -w2 * omega * c, w2 * w2 * s)
+    return choose(moves, wave, still)

@@ -16,6 +16,9 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.errors import StateError
+from svsa.lanes.choice import choose, some
+from svsa.lanes.each import call_where
+from svsa.lanes.memory import read
 from svsa.reference.chirp import compute_chirp
 from svsa.reference.curve import DEGREE
 from svsa.reference.fade import blend, compute_fade
@@ -32,8 +35,9 @@ KIND, A, B, C, D, E, F, START, FADE = range(3 + MAX_NUMBERS)
 class Stack(NamedTuple):
     """A reference as arrays for the compiled loop.
 
-    rows: (n, 9): kind, numbers, start and fade (s). breaks, coefficients: (m,) and (m, 10),
-    of every curve (see `Curve`); A and B of its row are where it begins and how long it is.
+    rows: (n, 9): kind, numbers, start and fade (s); (n, 9, 8) for lanes that have other references
+    each. breaks, coefficients: (m,) and (m, 10), of every curve (see `Curve`); A and B of its row
+    are where it begins and how long it is.
     """
 
     rows: np.ndarray
@@ -86,14 +90,17 @@ def _drop(stack: Stack, count: int) -> Stack:
 @compiled
 def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
     """The i-th trajectory of the stack and its four derivatives at `time` (s)."""
-    r = stack.rows
-    if r[i, KIND] == SINE:
-        return compute_sine(r[i, A], r[i, B], r[i, C], r[i, D], time)
-    own = time - r[i, START] - r[i, FADE]
-    if r[i, KIND] == CHIRP:
-        return compute_chirp(r[i, A], r[i, B], r[i, C], r[i, D], r[i, E], r[i, F], own)
-    first, count = int(r[i, A]), int(r[i, B])
-    return compute_polynomial(stack.breaks, stack.coefficients, first, count, own)
+    r, kind = stack.rows, read(stack.rows, i, KIND)
+    a, b, c, d = read(r, i, A), read(r, i, B), read(r, i, C), read(r, i, D)
+    nothing = Derivatives(0.0, 0.0, 0.0, 0.0, 0.0)
+    value = choose(kind == SINE, nothing, nothing)
+    if some(kind == SINE):
+        value = compute_sine(a, b, c, d, time)
+    own = time - read(r, i, START) - read(r, i, FADE)
+    sweep = a, b, c, d, read(r, i, E), read(r, i, F), own
+    value = call_where(kind == CHIRP, compute_chirp, sweep, value)
+    piece = stack.breaks, stack.coefficients, a, b, own
+    return call_where(kind == CURVE, compute_polynomial, piece, value)
 
 
 @compiled

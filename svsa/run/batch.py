@@ -6,11 +6,14 @@ import numpy as np
 
 from svsa.control.installed import get_law
 from svsa.lanes.record import lay_out_record
-from svsa.loop.batch import SUMMARY, Batch, build_batch, run_batch
-from svsa.loop.lane import Inputs, build_lane_state
-from svsa.plant.disturbances import build_load_table
-from svsa.reference.transition import build_stack
-from svsa.run.blocks import build_blocks, build_constants, compute_start_ratio
+from svsa.loop.batch import Batch, build_batch, run_batch
+from svsa.loop.lane import Inputs
+from svsa.loop.law_in_lanes import is_for_lanes
+from svsa.loop.tally import SUMMARY
+from svsa.plant.disturbances import LoadTable, build_load_table
+from svsa.reference.trajectories import Trajectory
+from svsa.reference.transition import Stack, build_stack
+from svsa.run.blocks import bind_law, build_blocks, build_constants, compute_start_ratio
 from svsa.run.configuration import Configuration
 from svsa.run.loads import follow_loads
 
@@ -37,29 +40,45 @@ def _find_alike(configurations: Sequence[Configuration]) -> list[list[int]]:
     alike: dict[tuple[object, ...], list[int]] = {}
     for number, c in enumerate(configurations):
         reaction = c.actuator.reaction_torque, c.nominal.reaction_torque
-        switches = (c.lanes[0].law, c.sampling, c.effects.delay_samples, reaction)
-        alike.setdefault((*switches, c.position, c.stiffness, c.loads), []).append(number)
+        switches = c.law, c.sampling.period_s, c.effects.delay_samples, *reaction
+        alike.setdefault(switches, []).append(number)
     return list(alike.values())
 
 
 def build_run_batch(configurations: Sequence[Configuration], steps: int = 1) -> Batch:
-    """The first lanes of configurations of one law, under the references and loads of the first.
+    """The first lanes of configurations of one law, each under its own references and loads.
 
     Their sampling, delay and way of the reaction torque are the same.
     """
-    law, c = get_law(configurations[0].lanes[0].law), configurations[0]
-    blocks = [
-        build_blocks(one, one.lanes[0], compute_start_ratio(one), steps) for one in configurations
+    law = get_law(configurations[0].law)
+    lanes = [(one, one.lanes[0]) for one in configurations]
+    blocks = [build_blocks(c, lane, compute_start_ratio(c), steps) for c, lane in lanes]
+    parts = list(zip(lanes, blocks, strict=True))
+    first = build_constants(*lanes[0], blocks[0])
+    inputs = _build_inputs(configurations)
+    if is_for_lanes(law.control, blocks[0].nominal, first, lay_out_record(law.memory())):
+        constants = [build_constants(*lane, own) for lane, own in parts]
+        return build_batch(law, blocks, constants, (), inputs)
+    return build_batch(law, blocks, (), [bind_law(*lane, own) for lane, own in parts], inputs)
+
+
+def _build_inputs(configurations: Sequence[Configuration]) -> list[Inputs]:
+    """The references and loads of each; built once where they are the same values."""
+    stacks: dict[int, Stack] = {}
+    tables: dict[tuple[int, ...], LoadTable] = {}
+
+    def find_stack(trajectory: Trajectory) -> Stack:
+        if id(trajectory) not in stacks:
+            stacks[id(trajectory)] = build_stack(trajectory)
+        return stacks[id(trajectory)]
+
+    def find_table(c: Configuration) -> LoadTable:
+        key = tuple(map(id, c.loads))
+        if key not in tables:
+            tables[key] = build_load_table(follow_loads(c.loads, (), c.sampling.period_s))
+        return tables[key]
+
+    return [
+        Inputs(find_stack(c.position), find_stack(c.stiffness), find_table(c))
+        for c in configurations
     ]
-    constants = [
-        build_constants(one, one.lanes[0], b) for one, b in zip(configurations, blocks, strict=True)
-    ]
-    loads = build_load_table(follow_loads(c.loads, (), c.sampling.period_s))
-    return build_batch(
-        law.control,
-        blocks,
-        constants,
-        [build_lane_state(law.start_memory())] * len(blocks),
-        lay_out_record(law.memory()),
-        Inputs(build_stack(c.position), build_stack(c.stiffness), loads),
-    )

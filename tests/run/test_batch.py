@@ -6,14 +6,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import svsa
-from svsa.loop.batch import SUMMARY
-from svsa.model.domain import DEFLECTION_LIMIT, FAULT_CODES
+from svsa.control.ilc import Learning
+from svsa.loop.batch import Batch
+from svsa.loop.tally import SUMMARY
+from svsa.model.domain import DEFLECTION_LIMIT, FAULT_CODES, INSIDE
+from svsa.reference.transition import build_stack
 from svsa.run.batch import build_run_batch, run_configurations
 from svsa.run.configuration import Configuration
 from svsa.run.metrics import compute_metrics
 from svsa.run.run import Run
 from svsa.signals import CHANNELS, State
-from tests.session.scripts import actuators, gains, observers
+from tests.session.scripts import actuators, gains, loads, observers, positions, stiffnesses
 from tests.session.sessions import EVERY_EFFECT
 
 TICKS, BEGIN = 400, 150
@@ -41,6 +44,16 @@ changes = st.fixed_dictionaries(
         "observer": observers,
         "effects": effects,
         "seed": st.integers(0, 2**63 - 1),
+    }
+)
+CHIRP = svsa.ChirpPosition(amplitude_rad=0.2, start_hz=0.5, end_hz=2.0, duration_s=0.6)
+STEPS = svsa.StepsStiffness(time_s=(0.0, 0.2), stiffness_nm_per_rad=(50.0, 70.0), rise_s=0.1)
+MOVE = svsa.MinimumJerkPosition(end_rad=0.2, duration_s=0.3)
+what_is_asked = st.fixed_dictionaries(
+    {
+        "position": positions | st.sampled_from([CHIRP, MOVE]),
+        "stiffness": stiffnesses | st.just(STEPS),
+        "loads": st.lists(loads, max_size=3).map(tuple),
     }
 )
 
@@ -129,14 +142,53 @@ def test_a_run_that_ends_stays_where_it_ended_and_stops_no_other() -> None:
     assert len(set(summaries["ticks"])) > 1
 
 
+@settings(max_examples=12, deadline=None)
+@given(drawn=st.lists(what_is_asked, min_size=2, max_size=11))
+def test_every_lane_follows_references_and_bears_loads_of_its_own(drawn: list) -> None:
+    """Side by side in one group, of every kind, and each the run alone."""
+    compare([build("fl_integral", **one) for one in drawn])
+
+
+def test_what_runs_have_in_common_is_kept_once() -> None:
+    points = {"time_s": (0.0, 0.1, 0.2), "torque_nm": ((0.0, 0.0, 0.0), (0.2, 0, 0), (0.1, 0, 0))}
+    shared, other = (svsa.SeriesLoad(start_s=start, **points) for start in (0.05, 0.1))
+    chosen = [shared, shared, other, shared]
+    configurations = [build("fl_integral", position=MOVE, loads=(load,)) for load in chosen]
+    batch = build_run_batch(configurations)
+    assert len(batch.inputs.loads.points) == 2 * len(points["time_s"])
+    assert len(batch.inputs.position.breaks) == len(build_stack(MOVE).breaks)
+    summaries = compare(configurations)
+    assert summaries["q"][0] == summaries["q"][1] == summaries["q"][3] != summaries["q"][2]
+
+
 def test_runs_under_other_references_come_back_in_their_order() -> None:
     angles = (0.1, -0.2, 0.1, 0.3)
+    laws = ("fl_integral", "ndobc", "fl_integral", "fl_integral")
     configurations = [
-        build("fl_integral", position=svsa.ConstantPosition(position_rad=angle)) for angle in angles
+        build(law, position=svsa.ConstantPosition(position_rad=angle))
+        for law, angle in zip(laws, angles, strict=True)
     ]
     summaries = compare(configurations)
-    assert summaries["q"][0] == summaries["q"][2]
-    assert summaries["q"][1] < summaries["q"][0] < summaries["q"][3]
+    assert summaries["q"][1] < summaries["q"][0] == summaries["q"][2] < summaries["q"][3]
+
+
+def is_at_once(batch: Batch) -> bool:
+    return batch.control is not None
+
+
+def test_a_law_that_branches_on_its_state_is_called_for_one_lane_after_the_other() -> None:
+    """Other parameters, whole numbers among them, in each lane; one lane ends before the others."""
+    configurations = [
+        build(
+            "ilc",
+            parameters={"ilc": Learning(period_s=1.0, position_lead_s=lead)},
+            loads=LOADS if lead < 0.1 else (CRASH,),
+        )
+        for lead in (0.02, 0.04, 0.06, 0.2)
+    ]
+    assert not is_at_once(build_run_batch(configurations))
+    summaries = compare(configurations)
+    assert summaries["code"].tolist() == [INSIDE, INSIDE, INSIDE, DEFLECTION_LIMIT]
 
 
 def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -> None:
@@ -154,4 +206,6 @@ def test_laws_with_tuples_and_records_within_their_memory_go_side_by_side(law: s
         design.actuator.changed(link_inertia_kg_m2=share * design.actuator.link_inertia_kg_m2)
         for share in (0.8, 1.0, 1.2)
     ]
-    compare([build(law, actuator=plant, effects=svsa.RIG, loads=LOADS) for plant in plants])
+    configurations = [build(law, actuator=plant, effects=svsa.RIG, loads=LOADS) for plant in plants]
+    assert is_at_once(build_run_batch(configurations))
+    compare(configurations)

@@ -1,0 +1,124 @@
+"""The law of lanes: all at once, or one after the other where it looks at its numbers.
+
+A law with an `if`, or an index, by what differs from lane to lane does not compile for lanes. It
+is called by its address, as the loop of one run does; the rest of the tick is computed at once.
+"""
+
+from functools import cache
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numba.core.errors import NumbaError
+
+from svsa.compilation import compiled
+from svsa.control.call import BoundLaw, Call, compute_law
+from svsa.lanes.choice import choose
+from svsa.lanes.each import put, take
+from svsa.lanes.number import WIDTH
+from svsa.lanes.record import Column, LaneRecord, find_kind
+from svsa.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED
+from svsa.model.dynamics import Actuator
+from svsa.signals import Disturbance, Reference, State, Torque
+
+
+def is_for_lanes(control: Any, nominal: Actuator, constants: tuple[Any, ...], memory: Any) -> bool:
+    """Whether a law's function compiles for lanes; compiled where it has not been before.
+
+    memory: its layout, see `lay_out_record`.
+    """
+    return _compile(control, find_kind(_lay_out(nominal)), find_kind(_lay_out(constants)), memory)
+
+
+def _lay_out(values: Any) -> Any:
+    if isinstance(values, tuple):
+        parts = map(_lay_out, values)
+        return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
+    return values if isinstance(values, int) else Column(0)
+
+
+_SIGNALS = (AT_REST, NO_REFERENCE, UNDISTURBED, NO_TORQUE)
+
+
+@cache
+def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
+    signals = [find_kind(_lay_out(signal)) for signal in _SIGNALS]
+    kinds = nominal, constants, LaneRecord(memory), *signals, numba.float64
+    try:
+        control.get_call_template(kinds, {})
+    except NumbaError:
+        return False
+    return True
+
+
+class Addresses(NamedTuple):
+    """A `BoundLaw` as addresses: valid as long as its arrays live."""
+
+    function_address: int
+    nominal_address: int
+    constants_address: int
+
+
+def find_addresses(law: BoundLaw) -> Addresses:
+    """`Addresses` of a law whose arrays somebody keeps."""
+    return Addresses(law.function, law.nominal.ctypes.data, law.constants.ctypes.data)
+
+
+@compiled
+def compute_one_by_one(
+    runs: bool,
+    nominal: Actuator,
+    constants: Addresses,
+    memories: np.ndarray,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u of lanes that run, `Torque`, N·m; 0 of the others, whose law is not called.
+
+    constants: `Addresses` of every lane's law, which has the nominal model, too. memories: (8,
+    words), written. Else as `Law` says.
+    """
+    nothing = Torque(0.0, 0.0)
+    torque = choose(runs, nothing, nothing)
+    for lane in range(WIDTH):
+        if take(runs, lane):
+            law = take(constants, lane)
+            call = Call(
+                law.function_address,
+                law.nominal_address,
+                law.constants_address,
+                memories[lane].ctypes.data,
+                0,
+            )
+            asked = compute_law(
+                call,
+                take(x, lane),
+                take(reference, lane),
+                take(estimate, lane),
+                take(applied, lane),
+                period,
+            )
+            torque = put(torque, lane, asked)
+    return torque
+
+
+law: Any = None
+"""Of `compute_side_by_side`: a law's function."""
+
+
+def compute_side_by_side(
+    runs: bool,
+    nominal: Actuator,
+    constants: Any,
+    memory: Any,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """u of all lanes at once, `Torque`, N·m: `law` compiled for lanes."""
+    return law(nominal, constants, memory, x, reference, estimate, applied, period)
