@@ -27,6 +27,7 @@ from svsa.errors import SvsaError
 from svsa.extras import require_extra
 from svsa.identification.cli import identify
 from svsa.rig.cli import rig
+from svsa.study.cli import study
 
 if TYPE_CHECKING:
     from svsa.experiment.reproduce import Reproduction
@@ -93,6 +94,7 @@ def reproduce(
 
 app.add_typer(arena, name="arena")
 app.command("tune")(tune)
+app.add_typer(study, name="study")
 app.command("rig")(rig)
 app.command("identify")(identify)
 app.command("stability")(stability)

@@ -1,10 +1,16 @@
 """A TOML file that a person has written, read with the error that a person can act on."""
 
+import re
 import tomllib
+from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from svsa.errors import ParameterError, Violation
+
+_TABLE = re.compile(r"\s*(\[\[?)([^\[\]]+)\]")
+_KEY = re.compile(r"\s*([\w.\-\s\"']+?)\s*=")
 
 
 def read_toml(path: Path | str, kind: str) -> dict[str, Any]:
@@ -26,3 +32,34 @@ def parse_toml(text: str, kind: str, name: str) -> dict[str, Any]:
 
 def _refuse(kind: str, name: str, error: Exception) -> ParameterError:
     return ParameterError(Violation(kind, name, "", f"a readable TOML file ({error})"))
+
+
+def find_lines(text: str, names: Iterable[str]) -> list[int]:
+    """The lines where values stand in a readable TOML text, by paths as `vary[1].low`; from 1 on.
+
+    Of a value that is not there the line of what should hold it; of none of both no line.
+    """
+    lines: dict[str, int] = {}
+    counts: Counter[str] = Counter()
+    table = ""
+    for number, line in enumerate(text.splitlines(), 1):
+        if found := _TABLE.match(line):
+            table = _strip(found[2])
+            if found[1] == "[[":
+                counts[table] += 1
+                table = f"{table}[{counts[table] - 1}]"
+            lines[table] = number
+        elif found := _KEY.match(line):
+            key = _strip(found[1])
+            lines.setdefault(f"{table}.{key}" if table else key, number)
+    return [line for name in names if (line := _find_nearest(lines, name)) is not None]
+
+
+def _find_nearest(lines: dict[str, int], name: str) -> int | None:
+    while name and name not in lines:
+        name = name[: max(name.rfind("."), name.rfind("["), 0)]
+    return lines.get(name)
+
+
+def _strip(key: str) -> str:
+    return re.sub(r"[\s\"']", "", key)

@@ -82,6 +82,9 @@ class Effects(Checked):
 
 IDEAL = Effects()
 RIG = Effects(encoders=Encoders(), estimation=StateEstimation(), delay_samples=1)
+EVERY = RIG.changed(
+    friction=Friction(), current_lag=CurrentLag(), noise=SensorNoise(), gravity=LinkGravity()
+)
 
 
 class Bench(NamedTuple):

@@ -12,7 +12,8 @@ if sys.platform == "win32":
     def take_lock(descriptor: int) -> None:
         """Without such locks one server at a time may use a folder of runs."""
 
-    def _try_lock(descriptor: int) -> bool:
+    def try_lock(descriptor: int) -> bool:
+        """Without such locks nobody is ever in the way."""
         return True
 
 else:
@@ -22,7 +23,8 @@ else:
         """Mark the open stream as being written, until it is closed or its process is killed."""
         fcntl.flock(descriptor, fcntl.LOCK_EX)
 
-    def _try_lock(descriptor: int) -> bool:
+    def try_lock(descriptor: int) -> bool:
+        """As `take_lock`, but False where another has it."""
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -39,4 +41,4 @@ def claim(folder: Path) -> Iterator[bool]:
         yield True
         return
     with file:
-        yield _try_lock(file.fileno())
+        yield try_lock(file.fileno())

@@ -8,25 +8,7 @@ import json
 import sys
 
 import svsa
-from svsa.plant.effects import (
-    CurrentLag,
-    Effects,
-    Encoders,
-    Friction,
-    LinkGravity,
-    SensorNoise,
-    StateEstimation,
-)
-
-EVERY_EFFECT = Effects(
-    encoders=Encoders(),
-    estimation=StateEstimation(),
-    delay_samples=1,
-    friction=Friction(),
-    current_lag=CurrentLag(),
-    noise=SensorNoise(),
-    gravity=LinkGravity(),
-)
+from svsa.plant.effects import EVERY
 
 
 def compute_hash(result: svsa.Result) -> str:
@@ -41,7 +23,7 @@ def compute_hashes() -> dict[str, str]:
         for figure in ("4a", "4b", "5")
         for law in ("fl", "ndobc")
     }
-    run = svsa.simulate("4a", "ndobc", effects=EVERY_EFFECT, seed=7, duration_s=8.0)
+    run = svsa.simulate("4a", "ndobc", effects=EVERY, seed=7, duration_s=8.0)
     return hashes | {"4a with every effect": compute_hash(run)}
 
 

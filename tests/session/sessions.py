@@ -3,28 +3,13 @@
 import numpy as np
 
 import svsa
-from svsa.plant.effects import (
-    CurrentLag,
-    Encoders,
-    Friction,
-    LinkGravity,
-    SensorNoise,
-    StateEstimation,
-)
+from svsa.plant.effects import EVERY
 from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNELS
 
 PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)
 ALL = list(range(len(CHANNELS)))
-EVERY_EFFECT = svsa.Effects(
-    encoders=Encoders(),
-    estimation=StateEstimation(),
-    delay_samples=1,
-    friction=Friction(),
-    current_lag=CurrentLag(),
-    noise=SensorNoise(),
-    gravity=LinkGravity(),
-)
+EVERY_EFFECT = EVERY
 
 
 def build_configuration(*loads, **changes):

@@ -1,0 +1,80 @@
+"""A study as a file, TOML or Python, and those that come with the package."""
+
+import runpy
+import traceback
+from pathlib import Path
+from typing import Any
+
+from svsa.errors import ParameterError, Violation
+from svsa.study.study import Study
+from svsa.toml_file import find_lines, read_toml
+
+STUDY_FILE = "study file"
+OBJECT = "STUDY"
+_BUILT_IN = Path(__file__).parent / "builtin"
+
+
+def list_built_in() -> dict[str, str]:
+    """The studies that come with the package: name and title."""
+    return {
+        path.stem: str(read_toml(path, STUDY_FILE)["title"])
+        for path in sorted(_BUILT_IN.glob("*.toml"))
+    }
+
+
+def find_study_file(source: str | Path) -> Path | None:
+    """The file that is meant: by its name with .toml or .py, or one of the package's by its own."""
+    path = Path(source)
+    if path.suffix in (".toml", ".py"):
+        return path
+    return next((one for one in _BUILT_IN.glob("*.toml") if one.stem == str(source)), None)
+
+
+def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]:
+    """The name and the study of a file, or of one that comes with the package.
+
+    A Python file makes a `Study` called `STUDY`. runs: in place of the file's. Raises
+    `ParameterError` with the file, and the lines of a TOML file, for what cannot be read and for
+    every wrong value.
+    """
+    path = find_study_file(source)
+    if path is None:
+        known = ", ".join(list_built_in())
+        bound = f"a file that ends in .toml or .py, or one of {known}"
+        raise ParameterError(Violation("study", str(source), "", bound))
+    if path.suffix == ".py":
+        study = _run_python(path)
+        return path.stem, study if runs is None else study.changed(runs=runs)
+    sections = read_toml(path, STUDY_FILE)
+    changed: dict[str, Any] = {} if runs is None else {"runs": runs}
+    try:
+        return path.stem, Study(**sections | changed)
+    except ParameterError as error:
+        names = [violation.name for violation in error.violations if violation.name not in changed]
+        lines = find_lines(path.read_text(encoding="utf-8"), names)
+        told = " and ".join(map(str, sorted(set(lines))))
+        word = "lines" if len(set(lines)) > 1 else "line"
+        place = f"{path}, {word} {told}" if lines else str(path)
+        raise ParameterError(*error.violations, file=place) from None
+
+
+def _run_python(path: Path) -> Study:
+    try:
+        study = runpy.run_path(str(path)).get(OBJECT)
+    except ParameterError as error:
+        raise ParameterError(*error.violations, file=_find_place(path, error)) from None
+    except Exception as error:
+        place = _find_place(path, error)
+        bound = f"a Python file that runs ({type(error).__name__}: {error})"
+        raise ParameterError(Violation(STUDY_FILE, str(path), "", bound), file=place) from None
+    if not isinstance(study, Study):
+        bound = f"a file that makes a svsa.study Study called {OBJECT}"
+        raise ParameterError(Violation(STUDY_FILE, str(path), "", bound))
+    return study
+
+
+def _find_place(path: Path, error: Exception) -> str:
+    """The file, and the last line of it that was at work."""
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.lineno for frame in frames if Path(frame.filename) == path]
+    return f"{path}, line {lines[-1]}" if lines else str(path)

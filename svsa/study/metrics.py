@@ -1,0 +1,77 @@
+"""What is measured of a run, from what the batch has summed up of it."""
+
+from typing import Any
+
+import numpy as np
+
+from svsa.loop.batch import SUMMARY
+from svsa.model.domain import FAULT_CODES
+from svsa.study.study import Success
+
+METRICS = {
+    "rms_position_error_rad": "rad",
+    "peak_position_error_rad": "rad",
+    "last_position_error_rad": "rad",
+    "integral_position_error_rad_s": "rad·s",
+    "rms_stiffness_error_nm_per_rad": "N·m/rad",
+    "peak_stiffness_error_nm_per_rad": "N·m/rad",
+    "peak_torque1_nm": "N·m",
+    "peak_torque2_nm": "N·m",
+    "effort_n2m2_s": "N²·m²·s",
+}
+"""Each metric with its unit; from `measure_from_s` to the end, or to the fault."""
+
+REFUSED = "refused"
+"""In place of a fault: the drawn settings do not go together, and nothing was run."""
+
+
+def compute_metrics(
+    summaries: np.ndarray, periods: np.ndarray, begin_s: float
+) -> dict[str, np.ndarray]:
+    """The metrics of runs of which a batch gave `SUMMARY`; NaN where a run ended before `begin_s`.
+
+    periods: of each run, s.
+    """
+    counts = summaries["ticks"] - np.round(begin_s / periods)
+    counts = np.where(counts > 0, counts, np.nan)
+    measured = counts / counts
+    squares = summaries["torque1_squares"] + summaries["torque2_squares"]
+    return {
+        "rms_position_error_rad": np.sqrt(summaries["position_squares"] / counts),
+        "peak_position_error_rad": summaries["position_peak"] * measured,
+        "last_position_error_rad": np.abs(summaries["position_last"]) * measured,
+        "integral_position_error_rad_s": summaries["position_absolute"] * periods * measured,
+        "rms_stiffness_error_nm_per_rad": np.sqrt(summaries["stiffness_squares"] / counts),
+        "peak_stiffness_error_nm_per_rad": summaries["stiffness_peak"] * measured,
+        "peak_torque1_nm": summaries["torque1_peak"] * measured,
+        "peak_torque2_nm": summaries["torque2_peak"] * measured,
+        "effort_n2m2_s": squares * periods * measured,
+    }
+
+
+def build_outcome(
+    summaries: np.ndarray, periods: np.ndarray, begin_s: float, success: Success
+) -> dict[str, Any]:
+    """Of each run its fault with its time, whether it succeeded, and its metrics.
+
+    fault: None without one. fault_tick: None without a fault.
+    """
+    metrics = compute_metrics(summaries, periods, begin_s)
+    faults = [FAULT_CODES.get(int(code)) for code in summaries["code"]]
+    ticks = summaries["ticks"].tolist()
+    succeeded = np.array([fault is None for fault in faults], dtype=bool)
+    for name, most in success.list_bounds().items():
+        succeeded &= metrics[name] <= most
+    return {
+        "fault": faults,
+        "fault_tick": [tick if fault else None for fault, tick in zip(faults, ticks, strict=True)],
+        "succeeded": succeeded,
+        **metrics,
+    }
+
+
+def build_refused(count: int) -> dict[str, Any]:
+    """As `build_outcome`, of runs that were not begun."""
+    nothing = np.zeros(count, dtype=SUMMARY)
+    outcome = build_outcome(nothing, np.ones(count), 0.0, Success())
+    return outcome | {"fault": [REFUSED] * count, "succeeded": np.zeros(count, dtype=bool)}

@@ -1,0 +1,141 @@
+"""A study comes to the same table however it is cut, by whomever it is run, however it is ended."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from svsa.run.configuration import Configuration
+from svsa.run.run import Run
+from svsa.signals import CHANNEL_INDEX, CHANNELS
+from svsa.study.draws import build_configurations, draw
+from svsa.study.execution import run_study
+from svsa.study.store import StudyError, claim_study, find_missing, keep_study, read_rows
+from tests.study.studies import SHORT_S, build_study
+
+SCRIPT = """
+import sys
+from pathlib import Path
+from svsa.study.execution import run_study
+from svsa.study.store import keep_study
+from tests.study.studies import build_study
+
+if __name__ == "__main__":
+    stored = keep_study("one", build_study(runs=400), Path(sys.argv[1]))
+    run_study(stored, int(sys.argv[2]), 16, lambda done, total: print(done, flush=True))
+"""
+
+
+def run_whole(root, workers=0, rows_a_part=16, **changes):
+    stored = keep_study("one", build_study(**changes), root)
+    assert run_study(stored, workers, rows_a_part)
+    return stored
+
+
+def test_the_table_is_the_same_bytes_for_parts_of_any_size_and_any_number_of_workers(tmp_path):
+    tables = [
+        (run_whole(tmp_path / str(number), *how).folder / "rows.parquet").read_bytes()
+        for number, how in enumerate([(0, 1000), (0, 6), (1, 10), (2, 8)])
+    ]
+    assert len(set(tables)) == 1
+    rows = pq.read_table(tmp_path / "0" / "one" / "rows.parquet").to_pylist()
+    assert [row["row"] for row in rows] == list(range(80))
+    assert {row["fault"] for row in rows} == {None, "deflection_limit"}
+
+
+def test_every_row_is_the_run_of_the_live_loop(tmp_path):
+    """Peaks and the last error bit for bit; a fault at its tick."""
+    stored = run_whole(tmp_path)
+    study, rows = stored.study, read_rows(stored).to_pylist()
+    for number, law in enumerate(study.laws):
+        for index, built in enumerate(build_configurations(study, law, draw(study, 0, 40))):
+            assert_is_run(rows[index * len(study.laws) + number], built)
+
+
+def assert_is_run(row: dict, configuration: Configuration) -> None:
+    run = Run(configuration)
+    ticks = round(SHORT_S / run.period_s)
+    samples = np.empty((1, ticks, len(CHANNELS)))
+    done = run.advance(samples)
+    assert row["fault"] == (run.fault.code if run.fault else None)
+    assert row["fault_tick"] == (done if run.fault else None)
+    error = np.abs(samples[0, 50:done, CHANNEL_INDEX["position_error_rad"]])
+    assert row["peak_position_error_rad"] == error.max()
+    assert row["last_position_error_rad"] == error[-1]
+    assert row["rms_position_error_rad"] == pytest.approx(np.sqrt(np.mean(error**2)), rel=1e-12)
+
+
+def test_more_runs_of_the_same_study_go_on_where_it_ended(tmp_path):
+    run_whole(tmp_path / "a", runs=24)
+    grown, whole = run_whole(tmp_path / "a", runs=40), run_whole(tmp_path / "b", runs=40)
+    assert read_rows(grown).equals(read_rows(whole))
+    with pytest.raises(StudyError, match=r"begun with other settings.*--name"):
+        keep_study("one", build_study(seed=6), tmp_path / "a")
+
+
+def test_settings_that_do_not_go_together_are_told_and_the_others_are_run(tmp_path):
+    """An upper limit of the stiffness below the reference's in some draws: nothing is run there."""
+    limit = {
+        "kind": "uniform",
+        "path": "limits.stiffness_min_nm_per_rad",
+        "low": 1.0,
+        "high": 14.0,
+    }
+    stiffness = {"kind": "uniform", "path": "stiffness.stiffness_nm_per_rad", "low": 5.0, "high": 9}
+    stored = run_whole(tmp_path, vary=(limit, {**stiffness, "high": 9.0}), laws=("ndobc",))
+    rows = read_rows(stored).to_pylist()
+    for row in rows:
+        wrong = row["stiffness.stiffness_nm_per_rad"] < row["limits.stiffness_min_nm_per_rad"]
+        assert (row["fault"] == "refused") == wrong
+        assert np.isnan(row["rms_position_error_rad"]) == wrong
+    assert 0 < sum(row["fault"] == "refused" for row in rows) < len(rows)
+
+
+def test_one_works_at_a_study_at_a_time(tmp_path):
+    stored = keep_study("one", build_study(), tmp_path)
+    with claim_study(stored), pytest.raises(StudyError, match="by another process"):
+        run_study(stored, 0)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.parametrize(("how", "workers"), [(signal.SIGINT, 2), (signal.SIGKILL, 2)])
+def test_a_study_that_was_ended_goes_on_to_the_same_table(tmp_path, how, workers):
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+    process = subprocess.Popen(
+        [sys.executable, str(script), str(tmp_path), str(workers)],
+        stdout=subprocess.PIPE,
+        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])},
+        start_new_session=True,
+    )
+    assert process.stdout is not None
+    for line in process.stdout:
+        if int(line) >= 48:
+            break
+    process.send_signal(how)
+    process.wait(300)
+    assert process.returncode == (0 if how == signal.SIGINT else -signal.SIGKILL)
+    wait_for_group_to_end(process.pid)
+    stored = keep_study("one", build_study(runs=400), tmp_path)
+    assert 0 < sum(stop - first for first, stop in find_missing(stored)) < 400 - 20
+    assert run_study(stored, 0)
+    whole = run_whole(tmp_path / "whole", rows_a_part=400, runs=400)
+    names = "rows.parquet"
+    assert (stored.folder / names).read_bytes() == (whole.folder / names).read_bytes()
+
+
+def wait_for_group_to_end(group: int) -> None:
+    """The workers end with their parent; bounded, for a machine that is busy."""
+    for _ in range(3000):
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return
+        time.sleep(0.1)
+    raise AssertionError("a worker outlived the study")
