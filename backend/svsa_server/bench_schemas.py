@@ -8,7 +8,7 @@ from svsa.bench.homing import Axis
 from svsa.bench.realtime.loss import Stopper
 from svsa.checked import Checked, quantity
 
-LoopStateName = Literal["ticking", "silent", "gone", "starting"]
+LoopStateName = Literal["ticking", "silent", "gone", "starting", "not_opened"]
 BenchStatusName = Literal["off", "reset", "config", "mode", "ready", "run", "ramp", "fault"]
 
 
@@ -33,12 +33,12 @@ class LoopState(BaseModel):
     alive: bool = Field(description="It ticks: its process is there, and not silent")
     state: LoopStateName = Field(
         description="silent: its process is there and has not ticked for 0.5 s. gone: its process"
-        " has ended, or has not got ready. starting: loop and supervisor are being started, and the"
-        " bench takes no command"
+        " has ended. starting: loop and supervisor are being started, and the bench takes no"
+        " command. not_opened: it did not get ready, and has moved nothing"
     )
     step: str | None = Field(description="What it does while it is being started; null else")
     starting_s: float | None = Field(description="Since it is being started, s; null else")
-    silent_s: float | None = Field(description="Since its last tick, s; null while it ticks")
+    silent_s: float | None = Field(description="Since its last tick, s; null while it ticks, and where it has not")
     stopped_by: Stopper | None = Field(
         description="Who keeps the drives at zero current in its place; null while it ticks, and"
         " where nobody does"
@@ -63,7 +63,10 @@ class BenchState(BaseModel):
     """A bench at this instant."""
 
     name: str
-    emulated: bool = Field(description="An emulated rig stands in for the bench")
+    emulated: bool | None = Field(
+        description="An emulated rig stands in for the bench, as the bus says; null before it has"
+        " been listened to: take it for a real one"
+    )
     status: BenchStatusName
     interface: str = Field(description="python-can's interface and channel")
     calibrated_by: str | None

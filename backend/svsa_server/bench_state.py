@@ -17,7 +17,7 @@ def build_bench_state(session: BenchSession) -> BenchState:
     fields, bench, calibration = session.loop.memory.fields, session.bench, session.calibration
     return BenchState(
         name=bench.name,
-        emulated=bool(fields["emulated"]),
+        emulated=session.emulated,
         status=session.bench_status.value,
         interface=f"{bench.bus.interface}, {bench.bus.channel}",
         calibrated_by=calibration.by if calibration else None,
@@ -51,7 +51,7 @@ def _build_loop(session: BenchSession) -> LoopState:
         state=_name_state(session),
         step=session.loop.processes.step if session.loop.starting else None,
         starting_s=session.loop.processes.age_s if session.loop.starting else None,
-        silent_s=session.loop.processes.silence_s if loss else None,
+        silent_s=(session.loop.processes.silence_s or None) if loss else None,
         stopped_by=loss.stopped_by if loss else None,
         unreachable=loss.problem if loss else None,
         rate_hz=1.0 / session.bench.timing.period_s,
@@ -80,6 +80,8 @@ def _find_silence_s(session: BenchSession) -> float:
 def _name_state(session: BenchSession) -> LoopStateName:
     if session.loop.starting:
         return "starting"
+    if session.loop.processes.failure is not None:
+        return "not_opened"
     if session.loop.loss is None:
         return "ticking"
     return "silent" if session.loop.processes.alive else "gone"

@@ -8,7 +8,7 @@ from typing import Any
 from svsa.bench.calibration import find_calibration, list_problems
 from svsa.bench.file import read_bench
 from svsa.bench.homing import STEPS, Axis
-from svsa.bench.realtime.configuration import build_bench_configuration, check_takes_no_time
+from svsa.bench.realtime.configuration import build_bench_configuration
 from svsa.bench.realtime.launch import Rest, Teller, keep_quiet
 from svsa.bench.safety.machine import MOVING, BenchStatus
 from svsa.errors import Fault, StateError
@@ -16,10 +16,10 @@ from svsa.extras import require_extra
 from svsa.loop.lane import AT_REST
 from svsa.records.header import PlantKind
 from svsa.records.recorder import Recorder
-from svsa.run.command import Command, SetLane, SetPosition, SetRivals, SetStiffness
-from svsa.run.configuration import Configuration, Lane
+from svsa.run.configuration import Configuration
 from svsa.run.run import Start
-from svsa.session.bench_run import TWIN, BenchRun
+from svsa.session.bench_commands import BenchCommands
+from svsa.session.bench_run import BenchRun
 from svsa.session.clock import Pace
 from svsa.session.fault_latch import FaultLatch
 from svsa.session.hands import Hands
@@ -29,7 +29,6 @@ from svsa.session.supervised_loop import SupervisedLoop
 from svsa.signals import State
 
 UNWATCHED_S = 1.0
-CHANGING_S = 0.001
 
 
 class BenchSession:
@@ -53,16 +52,16 @@ class BenchSession:
         require_extra("bench")
         self.name = name
         self.watched = self.closed = False
-        self.bench, self._hands, self._rest = read_bench(path), hands or Hands(), rest
+        self.bench, self._hands = read_bench(path), hands or Hands()
         self.calibration = find_calibration(self.bench)
         self.problems = list_problems(self.bench, self.calibration)
-        self._changing = 0
         self._unwatched_since = 0.0
-        self.loop = SupervisedLoop(path, self.bench.timing.start_silence_s, rest)
+        self.loop = SupervisedLoop(path, self.bench.timing, rest)
         configuration = build_bench_configuration(self.bench, wanted)
         self._launch(configuration)
         self._run = self._build_still_run(configuration)
         self.journal = Journal(self._run, is_bench=True, hang=self._hands.hang)
+        self._commands = BenchCommands(self.journal, self._ask, self._is_moving, rest)
 
     def _launch(self, configuration: Configuration) -> None:
         """Start the processes, of which nothing has been told yet."""
@@ -112,9 +111,17 @@ class BenchSession:
         return "running" if self.bench_status in MOVING else "paused"
 
     @property
+    def emulated(self) -> bool | None:
+        """As the bus says; None before it was listened to."""
+        return self.loop.emulated
+
+    def _is_moving(self) -> bool:
+        return self.status == "running"
+
+    @property
     def plant(self) -> PlantKind:
-        """A bench, or the emulated rig, which says so on the bus."""
-        return "emulated" if self.loop.memory.fields["emulated"] else "bench"
+        """A bench, or the emulated rig."""
+        return "emulated" if self.emulated else "bench"
 
     @property
     def fault(self) -> Fault | None:
@@ -181,6 +188,8 @@ class BenchSession:
     def start_recording(self, recorder: Recorder) -> None:
         """As `Journal.start_recording`, once it is known whether the bench is emulated."""
         self.loop.check_started()
+        if self.emulated is None:
+            raise StateError("It is not known yet whether the bench is emulated: ask again.")
         self.journal.start_recording(recorder)
 
     def stop_recording(self) -> None:
@@ -242,7 +251,7 @@ class BenchSession:
         if self.loop.starting:
             return
         self.loop.processes.beats.beat("server")
-        if not self._changing:
+        if not self._commands.is_pending:
             self.journal.advance(self._run.count_ready())
         self._take_states()
         self._look_for_loss()
@@ -283,38 +292,11 @@ class BenchSession:
 
     def change(self, kind: str, argument: Any) -> None:
         """Give the run a command of `COMMANDS`, at the tick at which the loop has taken it."""
-        self.journal.enter(self._give(self.journal.build_command(kind, argument)))
+        self._commands.change(kind, argument)
 
     def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
         """`change`, once the loop has answered to every change before."""
-        self._wait_for_changes()
-        self.change(kind, build(self.run.configuration))
-
-    def _wait_for_changes(self) -> None:
-        while self._changing:
-            self._rest(CHANGING_S)
-
-    def _give(self, command: Command) -> Command:
-        """The command at the tick at which the loop has taken it."""
-        if isinstance(command, SetPosition | SetStiffness) and self.status == "running":
-            check_takes_no_time(command.argument)
-        if isinstance(command, SetLane) and command.argument.lane == TWIN + 1:
-            raise StateError(
-                f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
-                " of the bench: set those, or a lane after it."
-            )
-        if isinstance(command, SetRivals):
-            self._wait_for_changes()
-            twin = Lane(law=self.run.configuration.law)
-            others = tuple(lane for lane in command.argument if lane != twin)
-            command = command.changed(argument=(twin, *others))
-        self._changing += 1  # what comes after this tick is not taken in before it is known
-        try:
-            tick = self._ask("change", command.to_json())["tick"]
-        finally:
-            self._changing -= 1
-        self.journal.advance(tick - self.run.tick)
-        return command.changed(tick=tick)
+        self._commands.patch(kind, build)
 
     def close(self) -> None:
         """Ramp to zero, and end the bench's processes."""

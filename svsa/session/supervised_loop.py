@@ -5,6 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from svsa.bench.emulation import EMULATED_PERIOD_S
+from svsa.bench.file import TimingSettings
 from svsa.bench.realtime.launch import BenchProcesses, Rest, Teller, keep_quiet
 from svsa.bench.realtime.loss import Loss, find_loss, is_supervised
 from svsa.errors import StateError
@@ -12,23 +14,24 @@ from svsa.run.configuration import Configuration
 
 UNKNOWN_S = 0.25
 """So long after the last tick it may not be known yet who stops the drives."""
+LISTENED_S = 3.0 * EMULATED_PERIOD_S
+"""Who has heard no rig on the bus for so long has none."""
 
 
 class SupervisedLoop:
     """Both processes, which `launch` starts anew.
 
-    start_silence_s: so long may the loop say nothing while it starts, s. rest: lets time pass
-    where a command waits. `starting`: they refuse commands until `open` returns. `memory`: see
-    `LoopMemory`.
+    path: of the bench file. timing: of that file. rest: lets time pass where a command waits.
+    `starting`: they refuse commands until `open` returns. `memory`: see `LoopMemory`.
     """
 
-    def __init__(self, bench: Path, start_silence_s: float, rest: Rest = time.sleep) -> None:
-        self._bench, self._start_silence_s, self._rest = bench, start_silence_s, rest
+    def __init__(self, path: Path, timing: TimingSettings, rest: Rest = time.sleep) -> None:
+        self._path, self._timing, self._rest = path, timing, rest
         self.starting = True
 
     def launch(self, configuration: Configuration) -> None:
         """Start both processes; `open` waits for them."""
-        self.processes = BenchProcesses(self._bench, configuration, self._rest)
+        self.processes = BenchProcesses(self._path, configuration, self._rest)
         self.memory = self.processes.memory
 
     def open(self, tell: Teller = keep_quiet) -> None:
@@ -37,7 +40,7 @@ class SupervisedLoop:
         tell: hears what the loop does meanwhile.
         """
         try:
-            self.processes.wait_until_ready(self._start_silence_s, tell)
+            self.processes.wait_until_ready(self._timing.start_silence_s, tell)
         finally:
             self.starting = False
 
@@ -62,6 +65,14 @@ class SupervisedLoop:
     def loss(self) -> Loss | None:
         """What has become of the loop where it does not tick, and who stopped the drives."""
         return None if self.starting else find_loss(self.processes)
+
+    @property
+    def emulated(self) -> bool | None:
+        """Whether the bus says that no machine is behind it; None before it was listened to."""
+        if self.memory.fields["emulated"]:
+            return True
+        listened_s = int(self.memory.fields["ticks"]) * self._timing.period_s
+        return False if listened_s > LISTENED_S else None
 
     @property
     def supervised(self) -> bool:

@@ -61,6 +61,7 @@ def test_what_is_told_of_a_bench_that_starts_is_known(starting: BenchSession) ->
     assert state.bench.homing.next_step == "link"
     assert state.bench.current_a is None
     assert min(state.bench.ages_s) == 1000.0
+    assert state.bench.emulated is None
     starting.open()
     state = build_state(HostedSession(starting))
     assert state.bench is not None
@@ -105,7 +106,8 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
     assert "No adapter is plugged in. Start the loop anew." in state.fault.message
     assert state.fault.code == "bench_not_opened", "nothing was lost that never was there"
     assert [event.label for event in state.events] == ["Bench not opened"]
-    assert state.bench.loop.state == "gone"
+    assert state.bench.loop.state == "not_opened"
+    assert state.bench.emulated is None, "nobody knows what is behind a bus that was not heard"
     with pytest.raises(StateError, match="No adapter"):
         session.restart()
     Processes.script.refusal = None
@@ -114,6 +116,22 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
     assert state.bench is not None
     assert (state.fault, state.bench.status, state.bench.loop.state) == (None, "off", "ticking")
     session.close()
+
+
+@pytest.mark.parametrize(
+    ("said", "ticks", "known"), [(1, 1, True), (0, 300, None), (0, 301, False)]
+)
+def test_whether_it_is_emulated_is_known_once_the_bus_was_listened_to(
+    starting: BenchSession, said: int, ticks: int, known: bool | None
+) -> None:
+    starting.open()
+    starting.loop.memory.fields["emulated"], starting.loop.memory.fields["ticks"] = said, ticks
+    state = build_state(HostedSession(starting))
+    assert state.bench is not None
+    assert state.bench.emulated is known
+    if known is None:
+        with pytest.raises(StateError, match="not known yet"):
+            COMMANDS["record"](starting)
 
 
 @pytest.mark.wall_clock

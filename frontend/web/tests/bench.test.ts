@@ -9,6 +9,8 @@ import {
   placeOf,
   STAGES,
 } from "../src/bench/status";
+import { isRealBench } from "../src/state/load";
+import { markOfBench } from "../src/state/plant";
 
 const HOMED = { done: ["link", "motor1", "motor2"], next_step: null, instruction: "" };
 const UNHOMED = { done: [], next_step: "link", instruction: "Turn the link to its mark." };
@@ -51,6 +53,7 @@ describe("the states of a bench", () => {
     expect(allowed({ status: "fault", homing: UNHOMED })).toEqual(["clear"]);
     const lost = { status: "fault", loop: { state: "gone" } };
     expect(allowed(lost), "a lost loop is started anew, not cleared").toEqual(["restart"]);
+    expect(allowed({ ...lost, loop: { state: "not_opened" } })).toEqual(["restart"]);
     expect(allowed({ ...lost, loop: { state: "starting" } })).toEqual([]);
     expect(allowed({ loop: { state: "starting" } }), "it takes no command yet").toEqual([]);
   });
@@ -65,6 +68,8 @@ describe("the states of a bench", () => {
       expect(adviceFor(bench({ status, loop: { state: "silent" } }))).toBe("loop");
       expect(adviceFor(bench({ status, loop: { state: "starting" } }))).toBe("starting");
     }
+    const closed = bench({ status: "fault", loop: { state: "not_opened" } });
+    expect(adviceFor(closed), "nothing was lost that never ticked").toBe("notOpened");
     expect(adviceFor(bench({ status: "ready", homing: UNHOMED }))).toBe("home");
     expect(adviceFor(bench({ status: "reset" }))).toBe("wait");
     expect(adviceFor(bench({ status: "fault" }))).toBe("clear");
@@ -73,6 +78,22 @@ describe("the states of a bench", () => {
     const starting = { homing: UNHOMED, loop: { state: "starting" } };
     expect(adviceFor(bench(starting))).toBe("starting");
     expect(needsDetails(bench(starting)), "nothing can be done about it yet").toBe(false);
+  });
+});
+
+describe("what stands behind a bench", () => {
+  it("is said once the bus has told, and before that nothing is claimed", () => {
+    const marks = [true, false, null].map((emulated) => markOfBench(bench({ emulated })));
+    expect(marks).toEqual(["emulated", "real", "unknown"]);
+  });
+
+  it("counts as metal until it is known to be none", () => {
+    expect([true, false, null].map((emulated) => isRealBench(bench({ emulated })))).toEqual([
+      false,
+      true,
+      true,
+    ]);
+    expect(isRealBench(null)).toBe(false);
   });
 });
 

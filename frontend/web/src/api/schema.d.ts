@@ -1417,9 +1417,9 @@ export interface components {
             name: string;
             /**
              * Emulated
-             * @description An emulated rig stands in for the bench
+             * @description An emulated rig stands in for the bench, as the bus says; null before it has been listened to: take it for a real one
              */
-            emulated: boolean;
+            emulated: boolean | null;
             /**
              * Status
              * @enum {string}
@@ -2532,10 +2532,10 @@ export interface components {
             alive: boolean;
             /**
              * State
-             * @description silent: its process is there and has not ticked for 0.5 s. gone: its process has ended, or has not got ready. starting: loop and supervisor are being started, and the bench takes no command
+             * @description silent: its process is there and has not ticked for 0.5 s. gone: its process has ended. starting: loop and supervisor are being started, and the bench takes no command. not_opened: it did not get ready, and has moved nothing
              * @enum {string}
              */
-            state: "ticking" | "silent" | "gone" | "starting";
+            state: "ticking" | "silent" | "gone" | "starting" | "not_opened";
             /**
              * Step
              * @description What it does while it is being started; null else
@@ -2548,7 +2548,7 @@ export interface components {
             starting_s: number | null;
             /**
              * Silent S
-             * @description Since its last tick, s; null while it ticks
+             * @description Since its last tick, s; null while it ticks, and where it has not
              */
             silent_s: number | null;
             /**
@@ -2659,6 +2659,8 @@ export interface components {
          * Metrics
          * @description Metrics of a stretch of samples; SI units as named, over `duration_s`.
          *
+         *     Ticks that a bench's loop missed have a time and no numbers: nothing of them is in a sum or a
+         *     peak. All is NaN where the last 0.5 s, or all of the stretch, has no numbers: the lane ended.
          *     integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
          *     recovery_time_s: from the start of the stretch until the position error has stayed within
          *     2 % of its peak for 0.5 s; None while it has not. What comes later does not change it. (Until

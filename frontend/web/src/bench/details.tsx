@@ -3,10 +3,14 @@ import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { formatLapse, formatNumber } from "../units";
 import { Homing } from "./homing";
-import { freshnessOf } from "./lateness";
+import { type Freshness, freshnessOf } from "./lateness";
 import { Loop } from "./loop";
 
 const SIGNS = { fresh: "✓", stale: "▲", lost: "▲" } as const;
+/** The first two sources; the third is the deflection encoder. */
+const DRIVES = 2;
+/** What is older says nothing of the present. */
+const HEARD: readonly Freshness[] = ["fresh", "stale"];
 /** Drives say nothing before they are brought up, nor after a fault. */
 const QUIET: readonly BenchState["status"][] = ["off", "reset", "config", "mode", "fault"];
 
@@ -28,8 +32,8 @@ function Problems({ problems }: { problems: readonly string[] }) {
 function Age({ seconds, speaks }: { seconds: number; speaks: boolean }) {
   const { drives } = text.bench;
   const level = freshnessOf(seconds, speaks);
-  if (!isLive.value) return <td>{drives.notKnown}</td>;
-  if (level === "silent" || level === "unheard") return <td>{drives[level]}</td>;
+  if (!isLive.value) return <td class="is-words">{drives.notKnown}</td>;
+  if (level === "silent" || level === "unheard") return <td class="is-words">{drives[level]}</td>;
   return (
     <td class={level === "fresh" ? "is-good" : "is-bad"}>
       <span aria-hidden="true">{SIGNS[level]}</span> {drives.ago(formatLapse(seconds))}
@@ -58,7 +62,9 @@ function Drives({ bench }: { bench: BenchState }) {
         </thead>
         <tbody>
           {ages.map((age, index) => {
-            const current = currents?.[index];
+            const speaks = index >= DRIVES || !QUIET.includes(bench.status);
+            const isHeard = HEARD.includes(freshnessOf(age, speaks));
+            const current = isHeard ? currents?.[index] : undefined;
             return (
               <tr key={drives.names[index]}>
                 <th scope="row">{drives.names[index]}</th>
@@ -67,10 +73,7 @@ function Drives({ bench }: { bench: BenchState }) {
                     ? drives.none
                     : drives.amperes(formatNumber(current, 3, 2))}
                 </td>
-                <Age
-                  seconds={age}
-                  speaks={current === undefined || !QUIET.includes(bench.status)}
-                />
+                <Age seconds={age} speaks={speaks} />
               </tr>
             );
           })}

@@ -47,7 +47,12 @@ function Lateness({ loop }: { loop: LoopState }) {
         {edges.map(
           (edge, index) =>
             index % shownEvery === shownEvery - 1 && (
-              <text key={edge} x={(index + 1) * step} y={HEIGHT + 11} text-anchor="middle">
+              <text
+                key={edge}
+                x={(index + 1) * step}
+                y={HEIGHT + 11}
+                text-anchor={index + 1 < edges.length ? "middle" : "end"}
+              >
                 {formatLapse(edge)}
               </text>
             ),
@@ -72,12 +77,13 @@ function Rescue({ loop: { state, stopped_by: by, unreachable } }: { loop: LoopSt
 /** How punctual the loop's process is, and what the system gave it. */
 export function Loop({ loop }: { loop: LoopState }) {
   const { quantiles } = words;
+  const lapse = (seconds: number) => (loop.ticks === 0 ? words.noneYet : formatLapse(seconds));
   const rows = [
-    [quantiles.half, formatLapse(loop.lateness_p50_s)],
-    [quantiles.most, formatLapse(loop.lateness_p99_s)],
-    [quantiles.nearlyAll, formatLapse(loop.lateness_p999_s)],
-    [quantiles.worst, formatLapse(loop.lateness_worst_s)],
-    [words.cost, formatLapse(loop.cost_p99_s)],
+    [quantiles.half, lapse(loop.lateness_p50_s)],
+    [quantiles.most, lapse(loop.lateness_p99_s)],
+    [quantiles.nearlyAll, lapse(loop.lateness_p999_s)],
+    [quantiles.worst, lapse(loop.lateness_worst_s)],
+    [words.cost, lapse(loop.cost_p99_s)],
     [words.skipped, words.of(count(loop.skipped_ticks), count(loop.ticks))],
   ] as const;
   return (

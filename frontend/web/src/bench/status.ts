@@ -21,8 +21,7 @@ export const isHomed = (bench: BenchState): boolean => bench.homing.next_step ==
 export const isLoopLost = ({ loop }: BenchState): boolean => loop.state !== "ticking";
 
 /** Whether its loop has never ticked: there is nothing that could have been lost. */
-export const isNeverOpened = ({ fault }: SessionState): boolean =>
-  fault?.code === "bench_not_opened";
+export const isNeverOpened = ({ loop }: BenchState): boolean => loop.state === "not_opened";
 
 export const isStarting = ({ loop }: BenchState): boolean => loop.state === "starting";
 
@@ -51,6 +50,7 @@ export function allowedOn(bench: BenchState, held = false): Allowed {
 export type Advice =
   | "problems"
   | "loop"
+  | "notOpened"
   | "starting"
   | "unsupervised"
   | "unheard"
@@ -71,7 +71,8 @@ function adviceBeforeArming({ problems, supervised, ages_s: ages }: BenchState):
 
 /** The next thing to do. */
 export function adviceFor(bench: BenchState): Advice {
-  if (isLoopLost(bench)) return isStarting(bench) ? "starting" : "loop";
+  if (isStarting(bench)) return "starting";
+  if (isLoopLost(bench)) return isNeverOpened(bench) ? "notOpened" : "loop";
   switch (bench.status) {
     case "off":
       return adviceBeforeArming(bench);

@@ -1,4 +1,4 @@
-/** Where a student may look, what the session moves: EMULATED or REAL BENCH. */
+/** Where a student may look, what the session moves: EMULATED, REAL BENCH, or that it is not known yet. */
 import { effect } from "@preact/signals";
 import emulatedIcon from "../icons/emulated.svg";
 import realIcon from "../icons/real.svg";
@@ -6,7 +6,7 @@ import { mark } from "../state/bench";
 import { text } from "../text/en";
 import { PlantMark } from "../widgets/plantmark";
 
-const ICONS = { emulated: emulatedIcon, real: realIcon } as const;
+const ICONS = { emulated: emulatedIcon, real: realIcon, unknown: realIcon } as const;
 
 /** That of the session, in a corner of something. */
 export function CornerMark() {

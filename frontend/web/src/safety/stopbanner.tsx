@@ -40,7 +40,7 @@ function StopNotice({ title, words, isSimulation = false, children }: StopNotice
 /** Stays until somebody clears the fault: why it stopped, and how to go on. */
 function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState }) {
   const isLost = isLoopLost(bench);
-  const isClosed = isLost && isNeverOpened(state);
+  const isClosed = isNeverOpened(bench);
   const stopTitle = isQuickStop(state) ? text.stop.benchTitle : text.stop.faultTitle;
   const lostTitle = isClosed ? text.stop.closedTitle : text.stop.lostTitle;
   const lostSteps = isClosed ? text.stop.closedSteps : text.stop.lostSteps;

@@ -1,6 +1,6 @@
 /** The bench of the session, and what stands for it on every screen. */
 import { computed } from "@preact/signals";
-import type { Mark } from "./plant";
+import { type Mark, markOfBench } from "./plant";
 import { session } from "./session";
 
 export const bench = computed(() => session.value?.bench ?? null);
@@ -8,5 +8,5 @@ export const bench = computed(() => session.value?.bench ?? null);
 /** Null for a simulation, which needs no mark. */
 export const mark = computed<Mark | null>(() => {
   if (bench.value === null) return null;
-  return bench.value.emulated ? "emulated" : "real";
+  return markOfBench(bench.value);
 });

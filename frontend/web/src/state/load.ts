@@ -14,7 +14,9 @@ export const weightOf = (form: WeightForm): Load =>
 export const nextWeight = (bench: BenchState | null): Load =>
   weightOf(isRealBench(bench) ? "mass" : weightForm.peek());
 
-export const isRealBench = (bench: BenchState | null): boolean => bench?.emulated === false;
+/** One of which it is not known yet whether it is emulated counts as real. */
+export const isRealBench = (bench: BenchState | null): boolean =>
+  bench !== null && bench.emulated !== true;
 
 export const isWeight = ({ load }: LoadRow): boolean =>
   load.kind === "paper" || load.kind === "mass";

@@ -3,6 +3,11 @@ export const benchText = {
   mark: {
     emulated: { name: "EMULATED", title: "Emulated rig", means: "no metal moves" },
     real: { name: "REAL BENCH", title: "Real bench", means: "metal moves: keep clear" },
+    unknown: {
+      name: "BENCH",
+      title: "Bench",
+      means: "real or emulated? not known yet: keep clear",
+    },
   },
   stop: {
     button: "Quick stop",
@@ -79,6 +84,7 @@ export const benchText = {
     advice: {
       problems: "It does not arm yet: see what is missing.",
       loop: "Its loop does not tick: start it anew when it is safe.",
+      notOpened: "It could not be opened: see why, mend it, and start its loop anew.",
       starting: "It takes no command yet.",
       unsupervised: "Its supervisor is not heard: do not arm it.",
       unheard: "It may be armed, but its deflection encoder is not heard.",
@@ -135,6 +141,7 @@ export const benchText = {
         silent: "silent",
         gone: "gone",
         starting: "being started",
+        not_opened: "not opened",
       },
       since: (lapse: string) => `for ${lapse}`,
       stoppedBy: {
@@ -143,6 +150,7 @@ export const benchText = {
       },
       notStopped: "Nobody is known to have stopped the drives: pull the motors' supply.",
       lateness: "Lateness",
+      noneYet: "–",
       cost: "Cost of a tick, 99 %",
       skipped: "Skipped ticks",
       of: (skipped: string, ticks: string) => `${skipped} of ${ticks}`,

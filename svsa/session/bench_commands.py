@@ -1,0 +1,71 @@
+"""How a command reaches the loop of a bench, and from which tick on it holds."""
+
+from collections.abc import Callable
+from typing import Any
+
+from svsa.bench.realtime.configuration import check_takes_no_time
+from svsa.bench.realtime.launch import Rest
+from svsa.errors import StateError
+from svsa.run.command import Command, SetLane, SetPosition, SetRivals, SetStiffness
+from svsa.run.configuration import Configuration, Lane
+from svsa.session.bench_run import TWIN
+from svsa.session.journal import Journal
+
+CHANGING_S = 0.001
+
+Ask = Callable[[str, object], dict[str, Any]]
+"""Have the loop do something; its answer."""
+
+
+class BenchCommands:
+    """Gives commands to the loop, and enters each at the tick at which the loop has taken it.
+
+    journal: of the present run. ask: raises what the loop refuses with. is_moving: whether the
+    bench moves. rest: lets time pass.
+    """
+
+    def __init__(
+        self, journal: Journal, ask: Ask, is_moving: Callable[[], bool], rest: Rest
+    ) -> None:
+        self._journal, self._ask, self._is_moving, self._rest = journal, ask, is_moving, rest
+        self._pending = 0
+
+    @property
+    def is_pending(self) -> bool:
+        """Whether the loop has still to answer: what comes after that tick is not taken in yet."""
+        return self._pending > 0
+
+    def change(self, kind: str, argument: Any) -> None:
+        """Give the run a command of `COMMANDS`."""
+        self._journal.enter(self._give(self._journal.build_command(kind, argument)))
+
+    def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
+        """`change`, once the loop has answered to every change before."""
+        self._wait()
+        self.change(kind, build(self._journal.run.configuration))
+
+    def _wait(self) -> None:
+        while self.is_pending:
+            self._rest(CHANGING_S)
+
+    def _give(self, command: Command) -> Command:
+        """The command at the tick at which the loop has taken it."""
+        if isinstance(command, SetPosition | SetStiffness) and self._is_moving():
+            check_takes_no_time(command.argument)
+        if isinstance(command, SetLane) and command.argument.lane == TWIN + 1:
+            raise StateError(
+                f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
+                " of the bench: set those, or a lane after it."
+            )
+        if isinstance(command, SetRivals):
+            self._wait()
+            twin = Lane(law=self._journal.run.configuration.law)
+            others = tuple(lane for lane in command.argument if lane != twin)
+            command = command.changed(argument=(twin, *others))
+        self._pending += 1
+        try:
+            tick = self._ask("change", command.to_json())["tick"]
+        finally:
+            self._pending -= 1
+        self._journal.advance(tick - self._journal.run.tick)
+        return command.changed(tick=tick)
