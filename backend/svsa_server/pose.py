@@ -2,13 +2,27 @@
 
 import math
 
-import numpy as np
-
 from svsa.plant.disturbances import get_hung_mass
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose, RivalPose
+from svsa_scene.pose import draw_nothing_unknown
 from svsa_server.lanes import list_session_stretches
+
+_CHANNELS = (
+    "position_rad",
+    "position_reference_rad",
+    "motor1_position_rad",
+    "motor2_position_rad",
+    "lever_ratio",
+    "stiffness_nm_per_rad",
+    "torque1_nm",
+    "torque2_nm",
+    "disturbance_link_nm",
+    "disturbance_motor1_nm",
+    "disturbance_motor2_nm",
+    "deflection_limit_rad",
+)
 
 
 def read_pose(session: Session) -> ActuatorPose | None:
@@ -17,25 +31,11 @@ def read_pose(session: Session) -> ActuatorPose | None:
     if newest is None:
         return None
 
-    def read(channel: str) -> float:
-        """A bench does not know its disturbance: nothing is drawn of it."""
-        return float(np.nan_to_num(newest[CHANNEL_INDEX[channel]]))
-
+    values = {channel: float(newest[CHANNEL_INDEX[channel]]) for channel in _CHANNELS}
     return ActuatorPose(
-        position_rad=read("position_rad"),
-        position_reference_rad=read("position_reference_rad"),
-        motor1_position_rad=read("motor1_position_rad"),
-        motor2_position_rad=read("motor2_position_rad"),
-        lever_ratio=read("lever_ratio"),
-        stiffness_nm_per_rad=read("stiffness_nm_per_rad"),
-        torque1_nm=read("torque1_nm"),
-        torque2_nm=read("torque2_nm"),
-        disturbance_link_nm=read("disturbance_link_nm"),
-        disturbance_motor1_nm=read("disturbance_motor1_nm"),
-        disturbance_motor2_nm=read("disturbance_motor2_nm"),
+        **draw_nothing_unknown(values),
         rivals=_read_rivals(session),
         load_mass_kg=_find_hung_mass(session),
-        deflection_limit_rad=read("deflection_limit_rad"),
     )
 
 

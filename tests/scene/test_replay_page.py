@@ -16,7 +16,9 @@ from svsa.errors import ParameterError
 from svsa.records.measured_window import MeasuredWindow
 from svsa.run.events import Event
 from svsa.run.metrics import compute_metrics
+from svsa_scene.pose import LaneStretch
 from svsa_scene.replay_curves import decimate, pack_curves
+from svsa_scene.replay_motion import record_motion
 from svsa_scene.replay_packing import ArrayPack
 from tests.scene.replay_page import CHANNELS, PERIOD_S, make_run, write_page
 
@@ -114,6 +116,26 @@ def read_run(page: Path) -> dict[str, Any]:
 
 def test_the_run_inside_the_page_is_strict_json(tmp_path: Path) -> None:
     assert read_run(write_page(tmp_path))["lanes"] == ["NDOBC", "FL"]
+
+
+def test_a_bench_that_does_not_know_its_disturbance_moves_all_the_same() -> None:
+    """Nothing is drawn of what is not known; where nothing is known, what was before stays."""
+    samples, mass = make_run(ticks=1000, lanes=1)
+    lanes = [[LaneStretch("Bench", 0, 1, 0, 1000)]]
+    bench = samples.copy()
+    bench[:, :, CHANNELS.index("disturbance_link_nm")] = math.nan
+    bench[330:333] = math.nan
+    counts = []
+    for rows in (samples, bench):
+        pack = ArrayPack()
+        tracks = record_motion(rows, CHANNELS, lanes, PERIOD_S, mass, pack).content["tracks"]
+        places = pack.export()["places"]
+        assert isinstance(places, list)
+        counts.append({(one["name"], one["field"]): places[one["keys"]][1] for one in tracks})
+    known, found = counts
+    assert max(known.values()) > 20
+    assert found.keys() == known.keys()
+    assert all(found[track] >= count - 1 for track, count in known.items()), "one frame is left out"
 
 
 def test_its_events_are_those_of_its_samples_in_its_own_time(tmp_path: Path) -> None:

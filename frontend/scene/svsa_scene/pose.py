@@ -1,6 +1,7 @@
 """What the view needs to know about the actuator at one instant."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -15,6 +16,20 @@ class RivalPose:
     name: str
     position_rad: float
     ink: int = 0
+
+
+_DISTURBANCES = ("disturbance_link_nm", "disturbance_motor1_nm", "disturbance_motor2_nm")
+
+
+def draw_nothing_unknown(values: Mapping[str, float]) -> dict[str, float]:
+    """The numbers of a pose by name, with no disturbance in place of one that is not known (NaN).
+
+    A position that is not known stays so: the view keeps the last one.
+    """
+    return {
+        name: 0.0 if name in _DISTURBANCES and math.isnan(value) else value
+        for name, value in values.items()
+    }
 
 
 class LaneStretch(NamedTuple):
@@ -39,7 +54,8 @@ class ActuatorPose:
     lever_ratio: μ = a/R (Eq 4). stiffness_nm_per_rad: σ (Eq 3).
     torque1_nm, torque2_nm: u1, u2 as applied, after limits.
     disturbance_link_nm: w2, the torque on the link that the nominal model does not explain;
-    disturbance_motor1_nm, disturbance_motor2_nm: w4, w6, likewise on the motors.
+    disturbance_motor1_nm, disturbance_motor2_nm: w4, w6, likewise on the motors; see
+    `draw_nothing_unknown` for a bench, which does not know them.
     load_mass_kg: mass hung on the link, 0 when none is (the paper's load shows as 3 kg).
     deflection_limit_rad: largest |φ| allowed at this μ, where φ = q − θ1. rivals: the other
     lanes.

@@ -21,7 +21,7 @@ from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.geometry import turn
 from svsa_scene.names import add_label
-from svsa_scene.pose import ActuatorPose, LaneStretch
+from svsa_scene.pose import ActuatorPose, LaneStretch, draw_nothing_unknown
 from svsa_scene.replay_packing import ArrayPack
 from svsa_scene.scene import ActuatorScene
 
@@ -87,7 +87,8 @@ def record_motion(
         recording = server.get_scene_serializer()
         for tick in range(0, len(samples), stride):
             recording.insert_sleep(1.0)
-            pose = dict(zip(POSE_CHANNELS, samples[tick, 0, columns].tolist(), strict=True))
+            values = zip(POSE_CHANNELS, samples[tick, 0, columns].tolist(), strict=True)
+            pose = draw_nothing_unknown(dict(values))
             scene.update(ActuatorPose(**pose, load_mass_kg=float(load_mass_kg[tick])))
             for lane, ghost in enumerate(ghosts, start=1):
                 angle = float(samples[tick, lane, position])
