@@ -169,6 +169,9 @@ class CanPlant:
 
         known: x̂. estimate: ŵ, N·m. missed: ticks lost before this one.
         """
+        if missed:
+            held_s = self._bench.safety.loop_s if self._is_stopped else math.inf
+            self._guard.pass_ticks(missed, held_s, self._sensing.current_a)
         self._guard.counts = self._sensing.find_new_counts()
         torque = self._machine.update(self._find_conditions(missed), asked, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
@@ -233,8 +236,13 @@ class CanPlant:
             missed,
             self._find_age("supervisor"),
             self._find_age("operator"),
-            self._late_s if self._count_stops() > self._stops_known else None,
+            self._late_s if self._is_stopped else None,
         )
+
+    @property
+    def _is_stopped(self) -> bool:
+        """Whether the supervisor has stopped the drives since they were armed."""
+        return self._count_stops() > self._stops_known
 
     def _count_stops(self) -> int:
         """How often the supervisor has stopped the drives."""

@@ -48,6 +48,10 @@ class SampleArray:
         """The row of this tick is written."""
         self.done = min(tick + 1, len(self.samples))
 
+    def skip(self, first: int, ticks: int) -> None:
+        """These ticks, from tick `first` on, were missed: their rows are NaN."""
+        self.samples[first : first + ticks] = np.nan
+
 
 class LockstepBench:
     """The emulated rig behind the bench's own loop, a tick at a time.

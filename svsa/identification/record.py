@@ -44,7 +44,7 @@ class Evidence(NamedTuple):
     """The record as identification sees it.
 
     angles: (rows, 3) θ1, θ2, φ as measured, rad. segments: first rows of the pieces that are
-    used, each `length` rows long. excluded: rows left out.
+    used, each `length` rows long. loaded: rows under a load.
     """
 
     configuration: Configuration
@@ -53,11 +53,11 @@ class Evidence(NamedTuple):
     torques: Torques
     segments: np.ndarray
     length: int
-    excluded: int
+    loaded: int
 
 
 def read_evidence(record: Record) -> Evidence:
-    """The first lane of a record, without the stretches under a load.
+    """The first lane of a record, without the stretches under a load and missed ticks.
 
     Raises `IdentificationError` where too little is left, or the plant was changed on the
     way.
@@ -65,15 +65,18 @@ def read_evidence(record: Record) -> Evidence:
     configuration, commands = read_origin(record)
     configuration = _find_plant(record, configuration, commands)
     rows = record.read_channels(_CHANNELS)[:, 0]
+    is_measured = bool(np.isnan(record.read_channels([_TRUTH], 0, 1)).all())
+    missed = np.isnan(rows).all(axis=1) if is_measured else np.zeros(len(rows), bool)
+    rows = _hold(rows, missed)
     if not np.isfinite(rows).all():
         raise IdentificationError(f"Run {record.header.run_id} has samples that are no numbers.")
     period = record.header.period_s
     length = round(SEGMENT_S / period)
     ticks = record.first_tick + np.arange(len(rows))
-    free = np.ones(len(rows), bool)
+    loaded = np.zeros(len(rows), bool)
     for load in list_loads(configuration, commands):
-        free[(ticks >= load.start_tick) & (ticks < load.end_tick)] = False
-    segments = _find_segments(free, length)
+        loaded[(ticks >= load.start_tick) & (ticks < load.end_tick)] = True
+    segments = _find_segments(~(loaded | missed), length)
     if len(segments) < LEAST_SEGMENTS:
         raise IdentificationError(
             f"Run {record.header.run_id} has {len(segments) * SEGMENT_S:g} s without a load:"
@@ -85,7 +88,6 @@ def read_evidence(record: Record) -> Evidence:
     effects = configuration.effects
     lag = effects.current_lag.time_constant_s if effects.current_lag else 0.0
     setting = Setting(known.gamma, known.mu0, known.reaction, period, lag, UNLOADED)
-    is_measured = bool(np.isnan(record.read_channels([_TRUTH], 0, 1)).all())
     angles, torques = np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:5])
     if not is_measured:
         true = angles.copy()
@@ -93,7 +95,13 @@ def read_evidence(record: Record) -> Evidence:
             build_bench(effects, configuration.seed, a, period), record.first_tick, true, angles
         )
     torques = build_torques(torques, is_measured, lag, period)
-    return Evidence(configuration, setting, angles, torques, segments, length, int(np.sum(~free)))
+    return Evidence(configuration, setting, angles, torques, segments, length, int(np.sum(loaded)))
+
+
+def _hold(rows: np.ndarray, missed: np.ndarray) -> np.ndarray:
+    """Rows that the loop missed as the last before them: the drives hold their currents."""
+    known = np.where(missed, 0, np.arange(len(rows)))
+    return rows[np.maximum.accumulate(known)]
 
 
 def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: float) -> Torques:

@@ -27,7 +27,8 @@ class BenchRun(Run):
 
     The first rival is the bench's twin: the same law, commands and loads on the simulated
     plant. A twin that leaves the domain of the model ends, with NaN from there on; the bench
-    goes on. fault: the bench's, set by who watches its state.
+    goes on. Ticks that the bench's loop missed have a time and no numbers in lane 1.
+    fault: the bench's, set by who watches its state.
     """
 
     def __init__(self, configuration: Configuration, start: Start, memory: LoopMemory) -> None:
@@ -50,6 +51,7 @@ class BenchRun(Run):
         """
         done = min(samples.shape[1], self.count_ready())
         self._memory.read(self.tick, samples[0, :done])
+        samples[0, :done, 0] = (self.tick + np.arange(done)) * self.period_s
         for number in range(1, len(self.lanes)):
             self._advance_twin(number, samples[number, :done])
         if len(self.lanes) > TWIN:

@@ -49,8 +49,11 @@ def found(excited):
     return identify(build_bench_run(*excited))
 
 
-def build_bench_run(configuration, samples):
-    """As a bench records it: angles in counts, torques as sent a sample early, w unknown."""
+def build_bench_run(configuration, samples, missed=slice(0)):
+    """As a bench records it: angles in counts, torques as sent a sample early, w unknown.
+
+    missed: ticks without numbers.
+    """
     samples = samples.copy()
     for channel, step in MEASURED.items():
         counts = np.floor(get(samples, channel) / step + 0.5)
@@ -62,6 +65,7 @@ def build_bench_run(configuration, samples):
         samples[:, CHANNEL_INDEX[channel]] = sent[:, column]
     for channel in ("disturbance_link_nm", "disturbance_motor1_nm", "disturbance_motor2_nm"):
         samples[:, CHANNEL_INDEX[channel]] = math.nan
+    samples[missed, 1:] = math.nan
     return build_run(configuration, samples)
 
 
@@ -135,10 +139,25 @@ def test_stretches_under_a_load_are_left_out(excited):
     run = build_run(configuration.changed(loads=(PULSE,)), samples, commands)
     evidence = read_evidence(run)
     used = (evidence.segments[:, None] + np.arange(evidence.length)).ravel()
-    assert evidence.excluded == 100 + 2500
+    assert evidence.loaded == 100 + 2500
     assert not np.any((used >= 2000) & (used < 2100))
     assert not np.any((used >= 10_000) & (used < 12_500))
     assert np.any(used >= 12_500)
+
+
+def test_ticks_that_the_loop_missed_are_left_out_and_the_torque_held_meanwhile(excited):
+    configuration, samples = excited
+    whole = read_evidence(build_bench_run(configuration, samples))
+    missed = slice(5_100, 5_112)
+    evidence = read_evidence(build_bench_run(configuration, samples, missed))
+    for first in evidence.segments:
+        assert first + evidence.length <= missed.start or first >= missed.stop
+    assert len(evidence.segments) >= len(whole.segments) - 2
+    assert np.isfinite(evidence.angles).all() and np.isfinite(evidence.torques.made).all()
+    assert (evidence.torques.asked[missed] == whole.torques.asked[missed.start - 1]).all()
+    later = slice(missed.stop + 20, None)
+    np.testing.assert_allclose(evidence.torques.made[later], whole.torques.made[later], atol=1e-6)
+    assert evidence.loaded == 0
 
 
 def test_a_load_that_stays_ends_what_can_be_used():

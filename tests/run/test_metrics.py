@@ -105,6 +105,42 @@ def test_no_samples_have_no_metrics():
     assert running.summarize() is None
 
 
+def test_what_a_loop_missed_is_in_no_sum_and_no_peak_and_time_goes_on():
+    t = np.arange(2000) * T
+    wave = 3.0 * np.sin(2.0 * np.pi * 5.0 * t)
+    samples = build_samples(2000, position_error_rad=wave, torque1_nm=2.0)
+    samples[700:720] = np.nan
+    whole, known = compute_metrics(samples, T), np.delete(samples, np.s_[700:720], axis=0)
+    expected = vars(compute_metrics(known, T)) | {"duration_s": 2.0}
+    assert vars(whole) == pytest.approx(expected)
+    assert vars(whole)["settled_position_error_rad"] == pytest.approx(3.0 / np.sqrt(2.0))
+
+
+@pytest.mark.parametrize(("missed", "recovered_s"), [((300, 320), 0.2), ((190, 220), 0.22)])
+def test_ticks_that_are_missed_neither_end_nor_begin_a_recovery(missed, recovered_s):
+    """Inside before and after a gap: inside. Outside before it: outside until it is seen inside."""
+    error = np.where(np.arange(1500) < 200, 1.0, 0.001)
+    samples = build_samples(1500, position_error_rad=error)
+    samples[slice(*missed)] = np.nan
+    running = RunningMetrics(T)
+    for rows in np.array_split(samples, [1, 195, 310, 600]):
+        running.update(rows)
+    found = running.summarize()
+    assert found is not None
+    assert found.recovery_time_s == pytest.approx(recovered_s)
+    assert vars(found) == pytest.approx(vars(compute_metrics(samples, T)))
+
+
+@pytest.mark.parametrize("known", [0, 1000])
+def test_of_a_lane_that_has_ended_nothing_is_told(known):
+    """A twin beyond its deflection has no numbers from there on: what it had is no whole."""
+    samples = build_samples(2000, position_error_rad=1.0)
+    samples[known:] = np.nan
+    metrics = compute_metrics(samples, T)
+    assert np.isnan([metrics.rms_position_error_rad, metrics.peak_torque1_nm]).all()
+    assert np.isnan([metrics.integral_position_error_rad_s, metrics.effort_n2m2_s]).all()
+
+
 @settings(derandomize=True, max_examples=40, deadline=None)
 @given(st.lists(st.integers(0, 400), max_size=12), st.floats(0.0, 30.0))
 def test_taken_in_pieces_the_metrics_are_those_of_the_whole(cuts, rate):

@@ -50,6 +50,10 @@ class SampleSink(Protocol):
         """The row of this tick is written."""
         ...
 
+    def skip(self, first: int, ticks: int) -> None:
+        """These ticks, from tick `first` on, were missed: their rows are NaN, not committed."""
+        ...
+
 
 class BenchLoop:
     """Controller and observer on a bench. `run` holds what is set; `tick` is one period.
@@ -126,10 +130,17 @@ class BenchLoop:
         self._forget()
 
     def tick(self, now: float, missed: int = 0) -> None:
-        """One period. now: time of the plant's clock, s. missed: ticks lost before it."""
+        """One period. now: time of the plant's clock, s. missed: ticks lost before it.
+
+        A run's time goes on with that of the world: a tick that was missed has its number, and
+        no sample. Tick 0 is the first that a run has.
+        """
         plant = self.plant
         if missed and self._is_known:
             pass_ticks(self._constants, self._carried, missed)
+        if missed and self.run.tick and plant.status in MOVING:
+            self.sink.skip(self.run.tick, missed)
+            self.run.tick += missed
         reading = self.reading = plant.read(now, State(*self._expected.tolist()))
         measurement = reading.measurement
         if measurement is None:

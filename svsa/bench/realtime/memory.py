@@ -76,6 +76,11 @@ class LoopMemory:
         """The row of this tick is written."""
         self.fields["end_tick"] = tick + 1
 
+    def skip(self, first: int, ticks: int) -> None:
+        """These ticks, from tick `first` on, were missed: their rows are NaN."""
+        missed = first + np.arange(min(ticks, CAPACITY_TICKS))
+        self._rows[missed % CAPACITY_TICKS] = np.nan
+
     def read(self, first: int, rows: np.ndarray) -> None:
         """Copy the samples from tick `first` on into `rows` (ticks, channels)."""
         ticks = np.arange(first, first + len(rows)) % CAPACITY_TICKS

@@ -37,10 +37,10 @@ class MotorGuard:
         self.heat = 0.0
         self.last = 0.0
 
-    def warm(self, current_a: float, period: float) -> None:
-        """Heat after a period (s) with what was sent last; current_a: as the drive says."""
+    def warm(self, current_a: float, seconds: float) -> None:
+        """Heat after so long with what was sent last; current_a: as the drive says."""
         share = (max(abs(self.last), abs(current_a) * self._scale) / self._nominal) ** 2
-        self.heat += -expm1(-period / self._motor.thermal_time_s) * (share - self.heat)
+        self.heat += -expm1(-seconds / self._motor.thermal_time_s) * (share - self.heat)
 
     def limit(self, torque: float, angle: float, period: float) -> float:
         """The torque (N·m) that may be sent: limit, rate, heat, and no way out of its ends."""
@@ -111,6 +111,19 @@ class Guard:
         for motor, torque, current in zip(self.motors, sent, current_a, strict=True):
             motor.last = torque
             motor.warm(current, self._period)
+
+    def pass_ticks(self, missed: int, held_s: float, current_a: tuple[float, float]) -> None:
+        """Nothing was sent for so many periods: a drive holds its last current meanwhile.
+
+        held_s: for so long at most, s; the supervisor told it zero then. current_a: as the
+        drives say now.
+        """
+        seconds = missed * self._period
+        for motor, current in zip(self.motors, current_a, strict=True):
+            motor.warm(current, min(seconds, held_s))
+            if seconds > held_s:
+                motor.last = 0.0
+                motor.warm(current, seconds - held_s)
 
     def find_overload(self) -> Alarm | None:
         """The motor that is too warm, or None."""

@@ -131,6 +131,8 @@ class Machine:
 
         asked: by the controller. known: x̂. estimate: ŵ.
         """
+        if self._tick and self.status in MOVING:
+            self._tick += conditions.missed
         alarm = self._find_alarm(conditions)
         if alarm is None and self.status in MOVING:
             alarm = self._guard.check(asked, known, estimate)

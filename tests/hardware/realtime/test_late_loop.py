@@ -1,5 +1,6 @@
 """A loop that is late once: the state that it knows goes on meanwhile, and moves nothing wrong."""
 
+import numpy as np
 import pytest
 
 from svsa.bench.realtime.configuration import build_bench_configuration
@@ -53,6 +54,50 @@ def test_a_late_tick_makes_no_velocity_that_is_not_there() -> None:
             assert fastest < 4.0, f"{late} ms late"
             assert read(bench).dq > 0.5, "it moves on"
         assert bench.plant.fault is None
+
+
+def test_the_time_of_a_run_goes_on_while_ticks_are_missed() -> None:
+    """Each has its number and no sample, and the references are those of the world's time."""
+    with WiredBench() as bench:
+        loop = begin(bench)
+        assert isinstance(loop.sink, SampleArray)
+        bench.drive(loop, MOVING_TICKS)
+        begun_s = bench.now - (loop.run.tick - 1) * loop.run.period_s
+        bench.skip(12 * bench.bench.timing.period_s)
+        bench.drive(loop, missed=12)
+        bench.drive(loop, 9)
+        rows = loop.sink.samples[: loop.sink.done]
+        assert len(rows) == MOVING_TICKS + 12 + 10
+        missed = np.isnan(rows).all(axis=1)
+        assert np.flatnonzero(missed).tolist() == list(range(MOVING_TICKS, MOVING_TICKS + 12))
+        assert rows[-1, 0] == pytest.approx(bench.now - begun_s, abs=1e-9)
+    with WiredBench() as bench:
+        punctual = begin(bench)
+        bench.drive(punctual, len(rows))
+        assert isinstance(punctual.sink, SampleArray)
+        wanted = punctual.sink.samples[len(rows) - 1, :4]
+    assert rows[-1, :4] == pytest.approx(wanted), "time, q_d, its velocity, σ_d"
+
+
+def test_a_fault_after_missed_ticks_has_the_time_of_the_run() -> None:
+    with WiredBench() as bench:
+        loop = begin(bench)
+        bench.drive(loop, MOVING_TICKS)
+        bench.skip(25 * bench.bench.timing.period_s)
+        bench.drive(loop, missed=25)
+        assert bench.plant.fault is not None
+        assert bench.plant.fault.code == "missed_ticks"
+        assert bench.plant.fault.tick == MOVING_TICKS + 25
+        assert loop.run.tick == MOVING_TICKS + 26
+
+
+def test_what_is_missed_before_the_first_tick_is_not_of_the_run() -> None:
+    """To begin a run takes the loop longer than a tick."""
+    with WiredBench() as bench:
+        loop = begin(bench)
+        bench.skip(3 * bench.bench.timing.period_s)
+        bench.drive(loop, missed=3)
+        assert loop.run.tick == 1
 
 
 def test_in_a_fault_it_says_so_and_not_that_it_was_not_read_yet() -> None:

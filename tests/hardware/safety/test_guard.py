@@ -20,6 +20,7 @@ CALM = (0.0, 0.0)
 NM_PER_A = (50.0 * 0.9 * 0.0396, 50.0 * 0.9 * 0.0234)
 FULL = Torque(100.0, -100.0)
 NO_TORQUE = Torque(0.0, 0.0)
+PEAK = Torque(15.0, -5.0)
 
 
 def build(**safety: float) -> Guard:
@@ -84,6 +85,27 @@ def test_heat_counts_what_the_drive_makes_where_that_is_more() -> None:
     assert alarm is not None
     assert alarm.code == "overload"
     assert "motor2" in alarm.message
+
+
+def test_heat_counts_the_time_that_has_really_passed() -> None:
+    """A loop that gets to every tenth tick warms the motor as fast as one that gets to all."""
+    late, punctual = build(), build()
+    for _ in range(300):
+        late.pass_ticks(9, math.inf, CALM)
+        late.note(PEAK, CALM)
+    for _ in range(3000):
+        punctual.note(PEAK, CALM)
+    assert punctual.motor2.heat > 1.0
+    assert late.motor2.heat == pytest.approx(punctual.motor2.heat, rel=0.01)
+
+
+def test_a_drive_that_the_supervisor_has_stopped_is_warmed_no_longer() -> None:
+    """After 60 s without a loop the motor is cool, and may have its peak again."""
+    guard = build()
+    guard.note(PEAK, CALM)
+    guard.pass_ticks(60_000, 0.02, CALM)
+    assert guard.motor2.heat < 0.02
+    assert guard.motor2.last == 0.0
 
 
 @pytest.mark.parametrize(

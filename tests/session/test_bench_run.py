@@ -1,0 +1,63 @@
+"""What the server reads of a bench's run: its samples, those it missed, and the twin beside it."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from svsa.bench.file import read_bench
+from svsa.bench.realtime.configuration import build_bench_configuration
+from svsa.bench.realtime.memory import CAPACITY_TICKS, LoopMemory
+from svsa.loop.lane import AT_REST
+from svsa.paper import get_figure
+from svsa.run.run import Start
+from svsa.session.bench_run import TWIN, BenchRun
+from svsa.signals import CHANNEL_INDEX, CHANNELS
+from tests.hardware.wired_bench import RIG_BENCH
+
+
+@pytest.fixture
+def memory() -> Iterator[LoopMemory]:
+    made = LoopMemory.create()
+    made.begin_run(1)
+    yield made
+    made.close()
+
+
+def write(memory: LoopMemory, first: int, ticks: int) -> None:
+    for tick in range(first, first + ticks):
+        memory.get_row(tick)[:] = 0.001 * tick
+        memory.commit(tick)
+
+
+def build_run(memory: LoopMemory) -> BenchRun:
+    bench = read_bench(RIG_BENCH)
+    wanted = get_figure("4a").build_configuration(load=False)
+    start = Start(bench.home.lever_ratio, AT_REST)
+    return BenchRun(build_bench_configuration(bench, wanted), start, memory)
+
+
+def test_ticks_that_the_loop_missed_have_a_time_and_no_numbers(memory: LoopMemory) -> None:
+    write(memory, 0, 10)
+    memory.skip(10, 5)
+    assert memory.fields["end_tick"] == 10, "nothing is told of them before there is a sample"
+    write(memory, 15, 3)
+    run, rows = build_run(memory), np.zeros((2, 18, len(CHANNELS)))
+    assert run.advance(rows) == 18
+    times = np.arange(18) * run.period_s
+    assert rows[0, :, 0].tolist() == times.tolist()
+    assert np.flatnonzero(np.isnan(rows[0, :, 1:]).all(axis=1)).tolist() == [10, 11, 12, 13, 14]
+    residual = CHANNEL_INDEX["position_residual_rad"]
+    assert np.flatnonzero(np.isnan(rows[0, :, residual])).tolist() == [10, 11, 12, 13, 14]
+    assert np.isfinite(rows[TWIN, :, CHANNEL_INDEX["position_rad"]]).all(), "the twin goes on"
+    assert rows[TWIN, :, 0].tolist() == times.tolist()
+
+
+def test_a_loop_that_stood_still_for_longer_than_the_ring_leaves_nothing_old_in_it(
+    memory: LoopMemory,
+) -> None:
+    write(memory, 0, 10)
+    memory.skip(10, 2 * CAPACITY_TICKS)
+    rows = np.zeros((CAPACITY_TICKS, len(CHANNELS)))
+    memory.read(10 + CAPACITY_TICKS, rows)
+    assert np.isnan(rows).all()
