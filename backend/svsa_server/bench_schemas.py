@@ -38,7 +38,9 @@ class LoopState(BaseModel):
     )
     step: str | None = Field(description="What it does while it is being started; null else")
     starting_s: float | None = Field(description="Since it is being started, s; null else")
-    silent_s: float | None = Field(description="Since its last tick, s; null while it ticks, and where it has not")
+    silent_s: float | None = Field(
+        description="Since its last tick, s; null while it ticks, and where it has not"
+    )
     stopped_by: Stopper | None = Field(
         description="Who keeps the drives at zero current in its place; null while it ticks, and"
         " where nobody does"
