@@ -66,7 +66,9 @@ def read_evidence(record: Record) -> Evidence:
     configuration = _find_plant(record, configuration, commands)
     rows = record.read_channels(_CHANNELS)[:, 0]
     is_measured = bool(np.isnan(record.read_channels([_TRUTH], 0, 1)).all())
-    missed = np.isnan(rows).all(axis=1) if is_measured else np.zeros(len(rows), bool)
+    missed = np.zeros(len(rows), bool)
+    if is_measured:
+        missed[:] = np.isnan(rows).all(axis=1)
     rows = _hold(rows, missed)
     if not np.isfinite(rows).all():
         raise IdentificationError(f"Run {record.header.run_id} has samples that are no numbers.")

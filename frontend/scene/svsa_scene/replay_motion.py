@@ -89,7 +89,8 @@ def record_motion(
             recording.insert_sleep(1.0)
             values = zip(POSE_CHANNELS, samples[tick, 0, columns].tolist(), strict=True)
             pose = draw_nothing_unknown(dict(values))
-            scene.update(ActuatorPose(**pose, load_mass_kg=float(load_mass_kg[tick])))
+            mass = float(load_mass_kg[tick])
+            scene.update(ActuatorPose(**pose, load_mass_kg=mass, rivals=()))
             for lane, ghost in enumerate(ghosts, start=1):
                 angle = float(samples[tick, lane, position])
                 if math.isfinite(angle):
