@@ -20,6 +20,8 @@ ARGUMENTS = [
     "--disable-sync",
     "--no-first-run",
     "--renderer-process-limit=1",  # a process anew with every page that is opened costs more
+    # A browser's own pages, behind every window: they cost as much as the window itself.
+    "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup",
 ]
 
 expect.set_options(timeout=20_000)  # a busy machine takes its time
@@ -67,7 +69,7 @@ class KeptPage:
     """A page that goes from one test to the next, as new: to open another takes 1 s and more.
 
     Not for what cannot be taken back from a page: a script for every document, a patched
-    WebSocket, a listener. Such a test uses `own_page`.
+    WebSocket. Such a test uses `own_page`, or `bench_page` where all patch the same.
     """
 
     def __init__(self, browser: Browser, arguments: dict) -> None:
@@ -117,11 +119,25 @@ def kept_page(kept_pages: KeptPage) -> Iterator[Page]:
     kept_pages.forget()
 
 
+@pytest.fixture(scope="session")
+def kept_bench_pages(browser: Browser, browser_context_args: dict) -> Iterator[KeptPage]:
+    kept = KeptPage(browser, browser_context_args)
+    yield kept
+    kept.close()
+
+
+@pytest.fixture
+def bench_page(kept_bench_pages: KeptPage) -> Iterator[Page]:
+    """As `kept_page`, for tests that each patch a bench into it: the last patch counts."""
+    yield kept_bench_pages.get()
+    kept_bench_pages.forget()
+
+
 @pytest.fixture
 def page(request: pytest.FixtureRequest) -> Page:
-    """`kept_page` where a module uses it, else a page of the test's own."""
-    name = "kept_page" if "kept_page" in request.fixturenames else "own_page"
-    return request.getfixturevalue(name)
+    """`kept_page` or `bench_page` where a module uses it, else a page of the test's own."""
+    kept = (name for name in ("kept_page", "bench_page") if name in request.fixturenames)
+    return request.getfixturevalue(next(kept, "own_page"))
 
 
 @pytest.fixture
@@ -135,10 +151,10 @@ def without_3d(request: pytest.FixtureRequest) -> None:
 
     Without a graphics card, drawing it takes most of a test's time.
     """
-    names, shown = set(request.fixturenames), []
-    if {"kept_page", "page"} <= names:
-        shown.append(request.getfixturevalue("kept_page"))
-    if "kept_page" not in names or {"context", "own_page"} & names:
+    names = set(request.fixturenames)
+    kept = {"kept_page", "bench_page"} & names
+    shown = [request.getfixturevalue(name) for name in kept]
+    if not kept or {"context", "own_page"} & names:
         shown.append(request.getfixturevalue("context"))
     for one in shown:
         one.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))

@@ -187,10 +187,10 @@ def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
 
 
 @pytest.mark.parametrize("status", ["off", "run"])
-def test_a_bench_has_no_violation(own_page: Page, lab: Lab, status: str) -> None:
-    PatchedBench(own_page, status=status, dead_man=True)
-    open_lab(own_page, lab)
-    expect_no_violation(own_page, WIDE, PHONE)
+def test_a_bench_has_no_violation(bench_page: Page, lab: Lab, status: str) -> None:
+    PatchedBench(bench_page, status=status, dead_man=True)
+    open_lab(bench_page, lab)
+    expect_no_violation(bench_page, WIDE, PHONE)
 
 
 def test_a_page_that_waits_for_the_lab_has_no_violation(own_page: Page, lab: Lab) -> None:

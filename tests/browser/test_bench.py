@@ -9,7 +9,7 @@ from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
 from tests.browser.test_page import open_page
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("bench_page", "without_3d")]
 
 BUTTONS = ("Arm", "Run", "Stop", "Clear fault")
 
@@ -29,11 +29,11 @@ def expect_stage(page: Page, stage: str) -> None:
     expect(line.locator("[aria-current=step]")).to_contain_text(stage)
 
 
-def test_a_simulation_shows_no_bench_and_no_mark(page: Page, lab: Lab) -> None:
-    open_page(page, lab)
-    expect(find_bench(page)).to_have_count(0)
-    expect(page.get_by_text(re.compile("EMULATED|REAL BENCH"))).to_have_count(0)
-    expect(page).to_have_title("SVSA Lab")
+def test_a_simulation_shows_no_bench_and_no_mark(own_page: Page, lab: Lab) -> None:
+    open_page(own_page, lab)
+    expect(find_bench(own_page)).to_have_count(0)
+    expect(own_page.get_by_text(re.compile("EMULATED|REAL BENCH"))).to_have_count(0)
+    expect(own_page).to_have_title("SVSA Lab")
 
 
 @pytest.mark.parametrize(("emulated", "name"), [(True, "EMULATED"), (False, "REAL BENCH")])

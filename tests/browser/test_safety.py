@@ -49,17 +49,15 @@ def test_the_quick_stop_pauses_a_simulation_and_tells_how_to_go_on(page: Page, l
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_the_stop_does_not_look_like_an_emergency_stop(
-    own_page: Page, lab: Lab, scheme: Literal["light", "dark"]
+    page: Page, bench_page: Page, lab: Lab, scheme: Literal["light", "dark"]
 ) -> None:
     """No colour but black, grey and white, in contrast; larger on a bench than in simulation."""
-    page = own_page
-    page.emulate_media(color_scheme=scheme)
     areas = []
-    for is_bench in (False, True):
-        if is_bench:
-            PatchedBench(page, status="run", homing=HOMED)
-        open_page(page, lab)
-        stop = page.get_by_role("button", name="Quick stop")
+    PatchedBench(bench_page, status="run", homing=HOMED)
+    for one in (page, bench_page):
+        one.emulate_media(color_scheme=scheme)
+        open_page(one, lab)
+        stop = one.get_by_role("button", name="Quick stop")
         box = stop.bounding_box()
         assert box is not None
         areas.append(box["width"] * box["height"])
