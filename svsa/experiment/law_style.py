@@ -6,15 +6,23 @@ from svsa.control.installed import get_title, list_law_names
 from svsa.control.law import NAME
 
 REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zorder": 3}
-LAW_COLORS = ("#0072B2", "#D55E00", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-OWN_COLOR = "#009E73"
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00")
+DASHES = ("-", (0, (6, 2.5)), (0, (2, 1.5)), (0, (7, 2, 1.2, 2)))
+OWN_COLOR = "#000000"
 
 
 def style_law(law: str) -> dict[str, Any]:
-    """How the curves of a law look: each that is installed has a colour until they run out."""
+    """How the curves of a law look, as the page draws it: by its place among those installed.
+
+    Twenty looks of which no two share both colour and dash; neighbours share neither. What is no
+    installed law is drawn in black.
+    """
     laws = list_law_names()
-    color = LAW_COLORS[laws.index(law) % len(LAW_COLORS)] if law in laws else OWN_COLOR
-    return {"color": color, "linewidth": 1.3, "label": name_law(law)}
+    ink = laws.index(law) if law in laws else None
+    look = (
+        (OWN_COLOR, "-") if ink is None else (COLORS[ink % len(COLORS)], DASHES[ink % len(DASHES)])
+    )
+    return {"color": look[0], "linestyle": look[1], "linewidth": 1.3, "label": name_law(law)}
 
 
 def name_law(law: str) -> str:

@@ -38,6 +38,9 @@ from svsa.run.run import find_origins
 
 MAX_WINDOWS = 1000
 MAX_STRETCHES = 1000
+# An ink's colour and dash are those of its remainders.
+INK_COLORS = 5
+INK_DASHES = 4
 
 WindowKind = Literal["start", "load", "unload", "change"]
 
@@ -179,20 +182,28 @@ class Timeline:
                 lane.append(Stretch(controller, number, self._find_ink(controller, present), tick))
 
     def _find_ink(self, controller: Controller, present: Sequence[Controller]) -> int:
-        """The one that it has, its law's own where that is free, else the first free one.
+        """The one that it has, its law's own where its colour is free, else the first that is.
 
-        What is its law's own is left to laws that control a lane now.
+        A colour is free where no curve that is kept has it, nor is it that of another law that
+        controls a lane now; where none is, where no lane has it now; then what looks otherwise.
         """
         used = {one.controller: one.ink for lane in self.lanes for one in lane}
         if controller in used:
             return used[controller]
         customary = {law: ink for ink, law in enumerate(list_law_names())}
-        taken = set(used.values())
         own = customary.get(controller.law)
-        if own is not None and own not in taken:
-            return own
-        taken |= {customary[one.law] for one in present if one.law in customary}
-        return next(ink for ink in itertools.count() if ink not in taken)
+        kept = set(used.values())
+        now = {used[one] for one in present if one in used}
+        owed = {customary[one.law] for one in present if one.law in customary} - {own}
+        for avoided in (kept, now):
+            colors = {ink % INK_COLORS for ink in avoided}
+            if own is not None and own not in kept and own % INK_COLORS not in colors:
+                return own
+            colors |= {ink % INK_COLORS for ink in owed}
+            for ink in range(INK_COLORS * INK_DASHES):
+                if ink not in kept and ink % INK_COLORS not in colors:
+                    return ink
+        return next(ink for ink in itertools.count() if ink not in kept | owed)
 
 
 def name_stretches(lanes: Sequence[Sequence[Stretch]]) -> dict[Controller, str]:

@@ -1,11 +1,14 @@
 """Who controlled which lane from when on, and the windows between changes."""
 
+import itertools
+
 import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
+from svsa.run.command import build_command
 from svsa.run.controllers import name_controllers
-from svsa.run.timeline import Timeline, Window, read_timeline
+from svsa.run.timeline import INK_COLORS, Timeline, Window, read_timeline
 from tests.session.scripts import play_busy_session
 from tests.session.sessions import build_configuration, build_session
 
@@ -82,6 +85,25 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
         session.change("observer", observer)
         timeline.take(session.journal.commands[-1])
     assert [one.ink for one in timeline.list_stretches()[0]] == [1, 0]
+
+
+def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their_own():
+    laws = list_law_names()
+    for rivals in itertools.combinations(laws[1:], 3):
+        lanes = tuple(svsa.Lane(law=law) for law in rivals)
+        timeline = Timeline(build_configuration(law=laws[0], rivals=lanes))
+        inks = [lane[-1].ink for lane in timeline.list_stretches()]
+        assert len({ink % INK_COLORS for ink in inks}) == len(inks), rivals
+        assert inks[0] == 0
+        assert inks[1] == 1 or rivals[0] != laws[1]
+
+
+def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
+    laws = list_law_names()
+    timeline = Timeline(build_configuration(law=laws[0]))
+    timeline.take(build_command(10, "law", laws[INK_COLORS]))
+    first, second = (one.ink for one in timeline.list_stretches()[0])
+    assert first % INK_COLORS != second % INK_COLORS
 
 
 def test_a_bench_and_its_twin_stay_in_the_names():
