@@ -14,12 +14,9 @@ from typing import TYPE_CHECKING
 from svsa import paper
 from svsa.control.gains import Gains
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
-from svsa.experiment.channels import ChannelName
-from svsa.experiment.reproduce import reproduce
-from svsa.experiment.result import Result
-from svsa.experiment.simulate import simulate
 from svsa.extras import MissingExtraError
 from svsa.observer.disturbance import ObserverBandwidth
+from svsa.paper.reproduce import reproduce
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.plant.disturbances import (
     ConstantLoad,
@@ -39,6 +36,9 @@ from svsa.reference.series_csv import read_series
 from svsa.reference.sine import ConstantPosition, ConstantStiffness, SinePosition, SineStiffness
 from svsa.reference.steps import StepsPosition, StepsStiffness
 from svsa.release import __version__ as __version__
+from svsa.result.channels import ChannelName
+from svsa.result.result import Result
+from svsa.result.simulate import simulate
 from svsa.run.change import Change
 from svsa.run.configuration import (
     Configuration,
@@ -53,15 +53,15 @@ if TYPE_CHECKING:
     from svsa import design
     from svsa.arena.tune import tune
     from svsa.client import connect
-    from svsa.experiment.recorded import export_run, open_run, resimulate, runs
     from svsa.records.catalogue.runs import Catalogue
+    from svsa.result.recorded import export_run, open_run, resimulate, runs
 
 _LATE = {
     "design": "svsa.design",
     "connect": "svsa.client",
     "Catalogue": "svsa.records.catalogue.runs",
     "tune": "svsa.arena.tune",
-    **dict.fromkeys(("export_run", "open_run", "resimulate", "runs"), "svsa.experiment.recorded"),
+    **dict.fromkeys(("export_run", "open_run", "resimulate", "runs"), "svsa.result.recorded"),
 }
 
 

@@ -30,7 +30,7 @@ from svsa.rig.cli import rig
 from svsa.study.cli import study
 
 if TYPE_CHECKING:
-    from svsa.experiment.reproduce import Reproduction
+    from svsa.paper.reproduce import Reproduction
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -70,8 +70,8 @@ def reproduce(
     ] = False,
 ) -> None:
     """Run the paper's figures with FL and NDOBC: 4A, 4B, 5 simulated, 6A, 6B, 7 through CAN."""
-    from svsa.experiment.reproduce import reproduce as run_figures
     from svsa.paper import FIGURES
+    from svsa.paper.reproduce import reproduce as run_figures
 
     if not as_json:
         require_extra("plot")
@@ -85,7 +85,7 @@ def reproduce(
         print(json.dumps({"runs": rows}, indent=2))
         return
     Console().print(*_build_tables(runs))
-    from svsa.experiment.figures import save_figures
+    from svsa.paper.pictures import save_figures
 
     with _messages.status("Drawing …"):
         paths = save_figures(runs, output)
@@ -111,7 +111,7 @@ def measure_costs(
     ] = True,
 ) -> None:
     """Measure what the loop costs, beside a C loop of the same work (CPU time)."""
-    from svsa.experiment.benchmark import measure, measure_start
+    from svsa.benchmark.benchmark import measure, measure_start
 
     prepare(PAPERS_LAWS)
     with _messages.status("Measuring …"):
@@ -152,8 +152,8 @@ def prepare(laws: Iterable[str] | None = None) -> None:
     laws: all that are installed if left out. One that does not work is named, and the others go on.
     """
     from svsa.control.installed import LawError, list_law_names
-    from svsa.experiment.simulate import simulate
     from svsa.loop.loop import advance
+    from svsa.result.simulate import simulate
 
     names = list_law_names() if laws is None else tuple(laws)
     if is_compiled_before(advance):

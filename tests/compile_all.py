@@ -7,10 +7,10 @@ still compiled inside a test is told at the end of the tests.
 import svsa
 from svsa.cli import prepare
 from svsa.control.installed import list_law_names
-from svsa.experiment.bench_run import LockstepBench
 from svsa.identification.identify import identify
 from svsa.paper import FIGURES
 from svsa.plant.disturbances import ConstantLoad
+from svsa.result.bench_run import LockstepBench
 from svsa.run.batch import run_configurations
 from tests.identification.excited_run import build_configuration, build_run, play
 from tests.rig.in_process_rig import start_in_process

@@ -12,8 +12,8 @@ TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
     *("package", "", "lanes", "model", "reference", "control", "observer", "plant", "loop", "run"),
-    *("session", "records", "export", "design", "identification", "experiment", "arena", "study"),
-    *("rig", "hardware", "scene", "server", "client", "browser"),
+    *("session", "records", "export", "design", "identification", "result", "paper", "benchmark"),
+    *("arena", "study", "rig", "hardware", "scene", "server", "client", "browser"),
 )
 """Of the folders; what stands in none is \"\"."""
 

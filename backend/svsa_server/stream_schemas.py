@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, Number, Whole, quantity
-from svsa.experiment.channels import ChannelName
+from svsa.result.channels import ChannelName
 from svsa.run.configuration import MAX_LANES
 from svsa.session.batch import HEADER, HEADER_FIELDS, LANE_ID, TYPES
 from svsa.signals import PLOTTED

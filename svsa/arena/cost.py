@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from svsa.experiment.result import Result
-from svsa.experiment.simulate import simulate
+from svsa.result.result import Result
+from svsa.result.simulate import simulate
 from svsa.run.configuration import Configuration
 
 STIFFNESS_SHARE, SHAKE_SHARE = 0.1, 0.3

@@ -28,10 +28,10 @@ from svsa.arena.score import build_parts, compute_score
 from svsa.arena.seeds import PUBLIC_SEED
 from svsa.arena.sweeps import Sweep, build_sweeps
 from svsa.control.parameters import LawParameters
-from svsa.experiment.reproduce import compute_table_row
-from svsa.experiment.result import Result
-from svsa.experiment.simulate import simulate
 from svsa.paper import STEADY_S
+from svsa.paper.reproduce import compute_table_row
+from svsa.result.result import Result
+from svsa.result.simulate import simulate
 
 SETTLED_DEG = 1.0
 LAST_S = 1.0

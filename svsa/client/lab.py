@@ -10,9 +10,9 @@ from svsa.client.connection import Connection
 from svsa.client.runs import RemoteRuns
 from svsa.client.session import RemoteSession
 from svsa.errors import FaultError, ParameterError, Violation
-from svsa.experiment.result import Result
-from svsa.experiment.simulate import MAX_TICKS
 from svsa.paper import DURATION_S, Figure, get_figure
+from svsa.result.result import Result
+from svsa.result.simulate import MAX_TICKS
 from svsa.run.change import Change
 from svsa.run.configuration import Configuration
 

@@ -6,7 +6,7 @@ from typing import Self
 from svsa.client.door import SessionDoor
 from svsa.client.refusals import LabError
 from svsa.client.runs import RemoteRuns
-from svsa.experiment.result import Result
+from svsa.result.result import Result
 
 FINISHED_S = 60.0
 POLL_S = 0.05

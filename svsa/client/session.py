@@ -13,11 +13,11 @@ from svsa.client.runs import RemoteRuns
 from svsa.client.stream import Block, stream_blocks
 from svsa.control.gains import Gains
 from svsa.errors import Fault, FaultError
-from svsa.experiment.channels import ChannelName
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa.result.channels import ChannelName
 from svsa.run.configuration import Lane
 
 MAX_STEP_TICKS = 10_000

@@ -15,7 +15,7 @@
 #define CHANNELS 28
 #define INLINE static inline __attribute__((always_inline))
 
-/* In the order in which svsa.experiment.benchmark hands them over. */
+/* In the order in which svsa.benchmark.benchmark hands them over. */
 typedef struct {
     double M, B1, B2, D, D1, D2, K, slope, mu0;
     double nM, nB1, nB2, nD, nD1, nD2, nK, nslope, nmu0;

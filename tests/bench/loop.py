@@ -15,8 +15,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from svsa.experiment.bench_run import RIG_BENCH
 from svsa.paper import CABLE_PULL, get_figure
+from svsa.result.bench_run import RIG_BENCH
 from svsa.rig.launch import start_rig
 from tests.bench.sessions import watch
 from tests.lab import Lab, run_lab

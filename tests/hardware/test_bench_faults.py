@@ -15,7 +15,7 @@ from svsa.bench.safety.faults import FAULTS
 from svsa.bench.safety.guard import OVERLOAD
 from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.experiment.bench_run import LockstepBench, connect_bench
+from svsa.result.bench_run import LockstepBench, connect_bench
 from svsa.rig.faults import (
     CurrentOffset,
     DriveName,

@@ -22,9 +22,9 @@ from svsa.bench.realtime.loop import BenchLoop
 from svsa.bench.safety.machine import BenchStatus, Conditions, Machine
 from svsa.bench.sensing import Reading
 from svsa.errors import StateError
-from svsa.experiment.bench_run import SampleArray, connect_bench
 from svsa.model.dynamics import compute_deflection
 from svsa.paper import get_figure
+from svsa.result.bench_run import SampleArray, connect_bench
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.rig.mechanics import Mechanics
 from svsa.rig.parameters import RigParameters

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from svsa.bench.safety.machine import BenchStatus
-from svsa.experiment.bench_run import LockstepBench, connect_bench
 from svsa.paper import FIGURES, LOAD_TIME_S, get_figure
 from svsa.plant.disturbances import ConstantLoad
 from svsa.reference.sine import ConstantPosition
+from svsa.result.bench_run import LockstepBench, connect_bench
 from svsa.rig.launch import start_rig
 from svsa.signals import CHANNEL_INDEX
 from tests.rig.in_process_rig import start_in_process

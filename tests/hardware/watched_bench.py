@@ -4,8 +4,8 @@ from collections.abc import Callable
 from typing import Any
 
 from svsa.bench.safety.machine import BenchStatus
-from svsa.experiment.bench_run import LockstepBench, connect_bench
 from svsa.paper import get_figure
+from svsa.result.bench_run import LockstepBench, connect_bench
 from svsa.rig.launch import RunningRig
 from tests.rig.in_process_rig import InProcessRig
 

@@ -3,11 +3,11 @@
 import pytest
 
 import svsa
-from svsa.experiment.bench_run import LockstepBench
 from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.identification.identify import ACTUATOR, identify
 from svsa.paper import get_figure
 from svsa.records.reader import build_record
+from svsa.result.bench_run import LockstepBench
 from svsa.signals import CHANNELS
 from tests.records.records import build_header
 from tests.rig.in_process_rig import start_in_process

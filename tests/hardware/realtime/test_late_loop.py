@@ -7,8 +7,8 @@ from svsa.bench.realtime.configuration import build_bench_configuration
 from svsa.bench.realtime.loop import BenchLoop
 from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.experiment.bench_run import SampleArray
 from svsa.paper import get_figure
+from svsa.result.bench_run import SampleArray
 from svsa.signals import State
 from tests.hardware.wired_bench import WiredBench
 

@@ -5,10 +5,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from svsa.errors import FaultError
-from svsa.experiment.result import Result
-from svsa.experiment.simulate import simulate
 from svsa.extras import require_extra
-from svsa.paper import (
+from svsa.result.result import Result
+from svsa.result.simulate import simulate
+from svsa.run.figure import (
     BEFORE_S,
     BENCH_FIGURES,
     DURATION_S,
@@ -51,7 +51,7 @@ def reproduce(
 def _run_figure(key: str, law: str, progress: Callable[[float], None]) -> Reproduction:
     if key in BENCH_FIGURES:
         require_extra("bench")
-        from svsa.experiment.bench_run import run_on_rig
+        from svsa.result.bench_run import run_on_rig
 
         result = run_on_rig(get_figure(key), law, DURATION_S, progress)
     else:

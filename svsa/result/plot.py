@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Picture
 
-from svsa.experiment.channels import Channels
-from svsa.experiment.law_style import REFERENCE_STYLE, style_law
+from svsa.result.channels import Channels
+from svsa.result.law_style import REFERENCE_STYLE, style_law
 
 CHANNEL_COLORS = ("#0072B2", "#D55E00", "#009E73")
 

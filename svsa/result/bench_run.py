@@ -18,10 +18,10 @@ from svsa.bench.realtime.loop import BenchLoop
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import FaultError, StateError
-from svsa.experiment.result import Result
-from svsa.paper import LOAD_TIME_S, Figure
+from svsa.result.result import Result
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.run.configuration import Configuration
+from svsa.run.figure import LOAD_TIME_S, Figure
 from svsa.signals import CHANNELS
 
 RIG_BENCH = Path(__file__).parent.parent / "rig" / "bench.toml"

@@ -8,11 +8,11 @@ import numpy as np
 
 from svsa.checked import check_number
 from svsa.errors import ParameterError, Violation
-from svsa.experiment.result import Result, build_results
 from svsa.loop.stepwise import Controller
-from svsa.paper import DURATION_S, get_figure
+from svsa.result.result import Result, build_results
 from svsa.run.change import Change, build_commands
 from svsa.run.configuration import Configuration, Design, read_design
+from svsa.run.figure import DURATION_S, get_figure
 from svsa.run.replay import play
 from svsa.run.run import Run
 from svsa.signals import CHANNELS

@@ -14,9 +14,9 @@ import numpy as np
 
 from svsa.checked import check_number
 from svsa.errors import Fault, ParameterError, Violation
-from svsa.experiment.channels import Channels
-from svsa.experiment.law_style import name_law
 from svsa.extras import list_missing, require_extra
+from svsa.result.channels import Channels
+from svsa.result.law_style import name_law
 from svsa.run.command import Command, SetLaw, SetLaws
 from svsa.run.configuration import Configuration
 from svsa.run.metrics import Metrics, compute_metrics
@@ -105,7 +105,7 @@ class Result(Channels):
         Raises `MissingExtraError` where matplotlib, of the extra `plot`, is not installed.
         """
         require_extra("plot")
-        from svsa.experiment.plot import plot_run
+        from svsa.result.plot import plot_run
 
         period = self.configuration.sampling.period_s
         changes_s = {command.tick * period for command in self.commands}

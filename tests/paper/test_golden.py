@@ -2,7 +2,7 @@
 multiply-add.
 
 A change of an equation changes these hashes: put in the new ones (`python -m
-tests.experiment.golden`), and say in the commit why. A change of numba, LLVM, libm or processor
+tests.paper.golden`), and say in the commit why. A change of numba, LLVM, libm or processor
 that changes them is a fault.
 """
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.experiment.golden import compute_hashes
+from tests.paper.golden import compute_hashes
 
 GOLDEN = {
     "4a fl": "4295a7170ec63857",
@@ -36,7 +36,7 @@ def test_a_processor_without_any_extension_computes_the_same(tmp_path: Path) -> 
     """Compiled anew for the oldest of this machine's family: on x86-64 without AVX and FMA."""
     machine = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "SVSA_CACHE": str(tmp_path)}
     answer = subprocess.run(
-        [sys.executable, "-m", "tests.experiment.golden"],
+        [sys.executable, "-m", "tests.paper.golden"],
         env=os.environ | machine,
         capture_output=True,
         text=True,

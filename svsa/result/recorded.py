@@ -3,13 +3,13 @@
 from pathlib import Path
 
 from svsa.errors import ParameterError
-from svsa.experiment.result import Result, build_results
 from svsa.records.acting import read_acting
 from svsa.records.catalogue.entry import RunPage
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.header import HEADER_FILE, RecordError
 from svsa.records.reader import Record, open_record
 from svsa.records.resimulation import Comparison, compare_with_simulation, read_origin
+from svsa.result.result import Result, build_results
 from svsa.signals import CHANNEL_NAMES
 
 

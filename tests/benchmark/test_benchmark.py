@@ -10,8 +10,8 @@ from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
 import svsa
+from svsa.benchmark import benchmark
 from svsa.cli import app
-from svsa.experiment import benchmark
 from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX
 

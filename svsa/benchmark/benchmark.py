@@ -21,7 +21,6 @@ import numpy as np
 from svsa.control.call import build_call
 from svsa.control.feedback_linearization import build_gains
 from svsa.control.installed import BASELINE, PAPERS_LAW
-from svsa.experiment.simulate import simulate
 from svsa.loop.batch import run_batch
 from svsa.loop.loop import advance
 from svsa.loop.measured import (
@@ -33,9 +32,10 @@ from svsa.loop.measured import (
 )
 from svsa.model.lever import compute_lever_ratio_slope
 from svsa.packed import pack
-from svsa.paper import DURATION_S, LOAD_TIME_S, get_figure
 from svsa.plant.disturbances import PAPER_TORQUE_NM
+from svsa.result.simulate import simulate
 from svsa.run.batch import build_run_batch
+from svsa.run.figure import DURATION_S, LOAD_TIME_S, get_figure
 from svsa.run.run import Run
 from svsa.signals import CHANNELS
 

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from svsa.experiment.law_style import REFERENCE_STYLE, style_law
-from svsa.experiment.plot import label_axes
-from svsa.experiment.reproduce import Reproduction
-from svsa.paper import LOAD_TIME_S, get_figure
+from svsa.paper.reproduce import Reproduction
+from svsa.result.law_style import REFERENCE_STYLE, style_law
+from svsa.result.plot import label_axes
+from svsa.run.figure import LOAD_TIME_S, get_figure
 
 
 def draw_figure(runs: Sequence[Reproduction]) -> Picture:

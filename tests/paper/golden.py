@@ -1,6 +1,6 @@
 """Every sample of the paper's simulated figures, and of one run with every effect, as a hash.
 
-python -m tests.experiment.golden
+python -m tests.paper.golden
 """
 
 import hashlib

@@ -3,7 +3,7 @@
 import itertools
 
 from svsa.control.installed import list_law_names
-from svsa.experiment.law_style import style_law
+from svsa.result.law_style import style_law
 
 
 def test_no_two_installed_laws_look_the_same_nor_does_another_controller() -> None:

@@ -9,7 +9,7 @@ import json
 import pytest
 
 import svsa
-from svsa.experiment.figures import save_figures
+from svsa.paper.pictures import save_figures
 
 FIGURES = ("4a", "4b", "5")
 FL_TABLE = {
@@ -126,7 +126,7 @@ def test_the_numbers_are_plain_json(runs):
 
 def test_one_picture_a_figure_laid_out_as_in_the_paper(runs, tmp_path):
     """Tracking, position error, stiffness, its error: four panels over one time axis."""
-    from svsa.experiment.figures import draw_figure
+    from svsa.paper.pictures import draw_figure
 
     picture = draw_figure(runs[:2])
     assert [axes.get_ylabel().split(" [")[0] for axes in picture.axes][:3] == [

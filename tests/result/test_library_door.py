@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.experiment.channels import ChannelName, Channels
 from svsa.records.reader import open_record
 from svsa.records.recorder import Recorder
+from svsa.result.channels import ChannelName, Channels
 from svsa.session.session import Session
 from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_NAMES, CHANNELS

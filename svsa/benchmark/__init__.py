@@ -1,0 +1,1 @@
+"""What the loop costs: `svsa bench`."""

@@ -1,1 +1,0 @@
-"""The paper's experiments, whole runs, their numbers and pictures."""
