@@ -8,7 +8,7 @@ from typing import Any, Self
 from svsa.checked import check_number
 from svsa.client.connection import Connection
 from svsa.client.runs import RemoteRuns
-from svsa.client.session import RemoteSession
+from svsa.client.session import RemoteSession, dump_lane
 from svsa.errors import FaultError, ParameterError, Violation
 from svsa.paper import DURATION_S, Figure, get_figure
 from svsa.result.result import Result
@@ -121,7 +121,7 @@ class Lab:
         wanted = experiment.changed(**(changes if law is None else changes | {"law": law}))
         period = wanted.sampling.period_s
         check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
-        rivals = [lane.model_dump(mode="json", exclude_none=True) for lane in wanted.rivals]
+        rivals = [dump_lane(lane) for lane in wanted.rivals]
         with self.private(law=wanted.law, load=False, rivals=rivals, seed=wanted.seed) as session:
             session.pause()
             _check_fixed(session, wanted)

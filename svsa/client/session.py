@@ -1,6 +1,6 @@
 """A session of a lab: shared or private, simulated or a bench, by the same words."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 from pydantic import TypeAdapter
@@ -152,9 +152,16 @@ class RemoteSession(SessionDoor):
         return tuple(Lane.model_validate(lane) for lane in self._read("rivals"))
 
     @rivals.setter
-    def rivals(self, rivals: tuple[Lane, ...]) -> None:
-        lanes = [lane.model_dump(mode="json", exclude_none=True) for lane in rivals]
-        self.call("PUT", "/lanes", {"rivals": lanes})
+    def rivals(self, rivals: Sequence[Lane]) -> None:
+        self.call("PUT", "/lanes", {"rivals": [dump_lane(lane) for lane in rivals]})
+
+    def set_lane(self, number: int, lane: Lane) -> None:
+        """Control one lane beside the first otherwise; number: 2 is the first beside."""
+        self.call("PUT", f"/lanes/{number}", dump_lane(lane))
+
+    def set_laws(self, law: str, *rival_laws: str) -> None:
+        """Other laws for the first lanes; every plant stays where it is."""
+        self.call("PUT", "/law", {"law": law, "rival_laws": rival_laws})
 
     def set_parameters(self, law: str, **values: float) -> None:
         """Parameters of a law that has its own; what is left out stays."""
@@ -265,6 +272,11 @@ class RemoteBench:
     def restart(self) -> None:
         """End loop and supervisor, and start both anew."""
         self._session.call("POST", "/bench/restart")
+
+
+def dump_lane(lane: Lane) -> dict[str, Any]:
+    """A lane as a request has it."""
+    return lane.model_dump(mode="json", exclude_none=True)
 
 
 def read_fault(state: dict[str, Any]) -> Fault | None:

@@ -125,8 +125,8 @@ def test_a_script_stops_where_the_lab_refuses(page: Page, lab: Lab, tmp_path: Pa
         drawer.get_by_role("button", name="Save .py").click()
     assert download.value.suggested_filename == "experiment.py"
     code = download.value.path().read_text(encoding="utf-8")
-    broken = code.replace('call("POST", "/reset")', 'call("PUT", "/speed", {"factor": -1})')
+    broken = code.replace("session.reset()", "session.set_speed(-1)")
     done = run_script(broken, tmp_path)
     assert done.returncode == 1
-    assert "/speed was refused" in done.stderr
+    assert "factor is -1: it must be" in done.stderr
     assert "Traceback" not in done.stderr

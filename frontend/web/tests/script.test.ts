@@ -1,8 +1,8 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import { calls, clearCalls, noteCall, noteDownload } from "../src/api/calls";
 import type { CommandKind, RunOrigin } from "../src/api/types";
-import { stepOf, writeExperiment } from "../src/script/experiment";
-import { callInPython, toPython } from "../src/script/python";
+import { writeCommand, writeExperiment } from "../src/script/experiment";
+import { buildValue, toPython } from "../src/script/python";
 import { toSnippet, toSnippets } from "../src/script/snippets";
 
 const LAB = new URL("http://127.0.0.1:8000/api/v1/");
@@ -62,7 +62,8 @@ describe("a call as code", () => {
 
   it("breaks a long value into lines", () => {
     const long = Object.fromEntries(Array.from({ length: 9 }, (_, i) => [`a_long_name_${i}`, i]));
-    expect(callInPython("call(", long).split("\n")).toHaveLength(11);
+    expect(buildValue("svsa.A", long, "").split("\n")).toHaveLength(11);
+    expect(buildValue("svsa.A", { b: 1 }, "")).toBe("svsa.A(b=1)");
   });
 });
 
@@ -106,21 +107,20 @@ describe("an experiment as a script", () => {
       "http://lab",
     );
     const lines = script.split("\n").map((line) => line.trim());
-    const from = lines.indexOf('call("POST", "/reset")');
+    const from = lines.indexOf("session.reset()");
     expect(lines.slice(from + 1, from + 7)).toEqual([
-      "run_until(2.5)",
-      'call("POST", "/loads", {"kind": "paper"})',
-      'call("PUT", "/law", {"law": "fl"})',
-      "run_until(4)",
-      'call("DELETE", "/loads/1")',
-      "state = run_until(7.25)",
+      "session.run_until(2.5)",
+      "session.loads.add(svsa.PaperLoad())",
+      'session.law = "fl"',
+      "session.run_until(4)",
+      "session.loads.remove(1)",
+      "session.run_until(7.25)",
     ]);
   });
 
   it("sets only what differs from a new session", () => {
     const plain = writeExperiment(origin({}), "a", "http://lab");
-    expect(plain).not.toContain('"PUT"');
-    expect(plain).not.toContain('"PATCH"');
+    expect(plain).not.toMatch(/session\.\w+ = /);
     const changed = writeExperiment(
       origin({
         stiffness: { kind: "constant", stiffness_nm_per_rad: 60 },
@@ -130,9 +130,11 @@ describe("an experiment as a script", () => {
       "a",
       "http://lab",
     );
-    expect(changed).toContain('call("PATCH", "/actuator", {"link_inertia_kg_m2": 0.02})');
-    expect(changed).toContain('"rivals": [{"law": "fl"}]');
-    expect(changed.match(/"PUT"/g)).toHaveLength(1);
+    expect(changed.match(/session\.\w+ = .*/g)).toEqual([
+      "session.stiffness = svsa.ConstantStiffness(stiffness_nm_per_rad=60)",
+      'session.rivals = [svsa.Lane(law="fl")]',
+      "session.actuator = session.actuator.changed(link_inertia_kg_m2=0.02)",
+    ]);
   });
 
   it("cannot be broken out of by a name", () => {
@@ -142,14 +144,18 @@ describe("an experiment as a script", () => {
     );
   });
 
-  it("knows the call of every kind of command", () => {
-    expect(stepOf("rivals", [])).toEqual({ method: "PUT", path: "/lanes", body: { rivals: [] } });
+  it("knows the words of every kind of command", () => {
+    expect(writeCommand("rivals", [])).toEqual(["session.rivals = []"]);
     const setting = { lane: 3, setting: { law: "fl", gains: null } };
-    expect(stepOf("lane", setting)).toEqual({
-      ...{ method: "PUT", path: "/lanes/3" },
-      body: { law: "fl" },
-    });
-    expect(stepOf("gains", { a: 1 })).toEqual({ method: "PUT", path: "/gains", body: { a: 1 } });
-    expect(stepOf("nominal", { a: 1 }).method).toBe("PATCH");
+    expect(writeCommand("lane", setting)).toEqual(['session.set_lane(3, svsa.Lane(law="fl"))']);
+    expect(writeCommand("laws", ["fl", "ndobc"])).toEqual(['session.set_laws("fl", "ndobc")']);
+    const jerk = { kind: "minimum_jerk", start_rad: 0, end_rad: 1 };
+    expect(writeCommand("position", jerk)).toEqual([
+      "session.position = svsa.MinimumJerkPosition(start_rad=0, end_rad=1)",
+    ]);
+    const parameters = { fl_integral: { position_pole_rad_per_s: 50 } };
+    expect(writeCommand("parameters", parameters)).toEqual([
+      'session.set_parameters("fl_integral", position_pole_rad_per_s=50)',
+    ]);
   });
 });

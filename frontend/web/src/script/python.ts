@@ -16,18 +16,20 @@ export function toPython(value: unknown): string {
   return `{${entries.map(([key, inner]) => `${quote(key)}: ${toPython(inner)}`).join(", ")}}`;
 }
 
-/** `head(value)`, the entries of a value that is too long each on a line of its own. */
-export function callInPython(head: string, value: unknown, indent = ""): string {
-  const line = `${indent}${head}${toPython(value)})`;
-  if (line.length <= LINE || value === null || typeof value !== "object") return line;
-  const isList = Array.isArray(value);
+export type Fields = Record<string, unknown>;
+
+/** `head` closed with these keyword arguments, one a line where a single line is too short. */
+export function toRows(head: string, fields: Fields, indent: string): string {
+  const parts = Object.entries(fields).map(([name, value]) => `${name}=${toPython(value)}`);
+  const line = `${head}${parts.join(", ")})`;
+  if (indent.length + line.length <= LINE) return line;
   const inner = indent + INDENT;
-  const rows = Object.entries(value).map(
-    ([key, entry]) => `${inner}${isList ? "" : `${quote(key)}: `}${toPython(entry)},`,
-  );
-  const [open, close] = isList ? ["[", "]"] : ["{", "}"];
-  return `${indent}${head}${open}\n${rows.join("\n")}\n${indent}${close})`;
+  return `${head.trimEnd()}\n${parts.map((part) => `${inner}${part},`).join("\n")}\n${indent})`;
 }
+
+/** A value of the library by its name and fields, within a line of this indent. */
+export const buildValue = (name: string, fields: Fields, indent: string): string =>
+  toRows(`${name}(`, fields, indent);
 
 /** Text that may stand between the quotes of a docstring. */
 export function inDocstring(value: string): string {
