@@ -33,8 +33,10 @@ from svsa_server.routes import (
     sessions,
     settings,
     stability,
+    tunings,
 )
 from svsa_server.scenes import Scenes
+from svsa_server.tunings import Tunings
 from svsa_server.turn import take_turn
 from svsa_server.viser_proxy import ViserProxy
 
@@ -82,6 +84,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         recordings,
         references,
         runs,
+        tunings,
         outcomes,
     ):
         api.include_router(part.router)
@@ -101,6 +104,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)
     app.state.heavy_work = HeavyWork(config.most_exports)
+    app.state.tunings = Tunings(config.most_tunings)
     scenes = Scenes(laboratory)
     proxy = ViserProxy(scenes.open)
     routes = list(app.router.routes)
@@ -119,6 +123,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.gather(*tasks, return_exceptions=True)
         await take_turn(laboratory.close)
         app.state.heavy_work.close()
+        app.state.tunings.close()
         await app.state.recordings.close()
         await proxy.close()
         await scenes.close()

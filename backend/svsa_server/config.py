@@ -18,6 +18,7 @@ class Settings(BaseSettings):
     SVSA_CONTROL_S: how long control of a session outlives the last stream and call of whoever
     has it, s.
     SVSA_MOST_EXPORTS: exports, replays, comparisons and maps that are worked at or wait.
+    SVSA_MOST_TUNINGS: tunings of laws that are worked at, one at a time, or wait.
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
     SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
     """
@@ -29,6 +30,7 @@ class Settings(BaseSettings):
     idle_s: float = Field(default=600.0, ge=1)
     control_s: float = Field(default=15.0, ge=1)
     most_exports: int = Field(default=10, ge=0, le=1000)
+    most_tunings: int = Field(default=3, ge=0, le=100)
     bench: Path | None = None
     parameters: Path | None = None
 

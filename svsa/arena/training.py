@@ -87,7 +87,7 @@ TRAINING = (
         "Half the inertias, noise, σ = 70",
         ConstantStiffness(stiffness_nm_per_rad=70.0),
         (PaperLoad(start_s=3.0),),
-        _NOISY.changed(delay_samples=2),
+        _NOISY,
         tuple((name, 0.5) for name in _INERTIAS),
         seed=1,
     ),

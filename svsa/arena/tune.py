@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from svsa.arena.cost import measure_cost
+from svsa.arena.cost import RunCost, measure_cost
 from svsa.arena.search_space import Space, build_space
 from svsa.arena.training import DURATION_S, TRAINING, TrainingRun
 from svsa.checked import check_number
@@ -24,12 +24,12 @@ Stage = Literal["present", "sobol", "local"]
 
 
 class Trial(NamedTuple):
-    """One candidate. values: in the order of the axes. costs: of every run. cost: their mean."""
+    """One candidate. values: in the order of the axes. runs: what each cost. cost: their mean."""
 
     number: int
     stage: Stage
     values: tuple[float, ...]
-    costs: tuple[float, ...]
+    runs: tuple[RunCost, ...]
     cost: float
 
 
@@ -74,7 +74,7 @@ class _Search:
 
     def __init__(
         self,
-        evaluate: Callable[[Sequence[tuple[float, ...]]], Iterator[tuple[float, ...]]],
+        evaluate: Callable[[Sequence[tuple[float, ...]]], Iterator[tuple[RunCost, ...]]],
         budget: int,
         on_trial: Callable[[Trial], None],
         is_cancelled: Callable[[], bool],
@@ -92,9 +92,9 @@ class _Search:
         """The costs of candidates, one after another; raises `_BrokenOffError`."""
         self._check()
         found = []
-        for values, costs in zip(candidates, self._evaluate(candidates), strict=True):
-            cost = sum(costs) / len(costs)
-            trial = Trial(len(self.trials), stage, values, costs, cost)
+        for values, runs in zip(candidates, self._evaluate(candidates), strict=True):
+            cost = sum(run.cost for run in runs) / len(runs)
+            trial = Trial(len(self.trials), stage, values, runs, cost)
             self.trials.append(trial)
             found.append(cost)
             self._on_trial(trial)
@@ -142,7 +142,7 @@ def tune(
         design = _hold(space, design)
     with ThreadPoolExecutor(WORKERS) as pool:
 
-        def evaluate(candidates: Sequence[tuple[float, ...]]) -> Iterator[tuple[float, ...]]:
+        def evaluate(candidates: Sequence[tuple[float, ...]]) -> Iterator[tuple[RunCost, ...]]:
             jobs = [
                 pool.submit(measure_cost, configuration, duration_s)
                 for values in candidates

@@ -96,9 +96,11 @@ def _build_value_table(tuned: "Tuned") -> Table:
 
 def _build_cost_table(tuned: "Tuned") -> Table:
     table = Table("training run", title="Cost", title_justify="left")
-    table.add_column("before", justify="right")
-    table.add_column("tuned", justify="right")
-    for run, old, new in zip(tuned.runs, tuned.start.costs, tuned.best.costs, strict=True):
-        table.add_row(run.title, f"{old:.4f}", f"{new:.4f}")
+    for column in ("before", "tuned", "rms e, °", "rms eσ, N·m/rad", "shake, N·m"):
+        table.add_column(column, justify="right")
+    for run, old, new in zip(tuned.runs, tuned.start.runs, tuned.best.runs, strict=True):
+        numbers = (new.position_error_deg, new.stiffness_error_nm_per_rad, new.shake_nm)
+        told = (f"{number:.3g}" for number in numbers)
+        table.add_row(run.name, f"{old.cost:.4f}", new.fault or f"{new.cost:.4f}", *told)
     table.add_row("mean", f"{tuned.start.cost:.4f}", f"{tuned.best.cost:.4f}")
     return table

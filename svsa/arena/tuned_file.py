@@ -67,11 +67,11 @@ def describe_trial(trial: Trial) -> dict[str, Any]:
         "number": trial.number,
         "stage": trial.stage,
         "values": list(trial.values),
-        "costs": list(trial.costs),
         "cost": trial.cost,
+        "runs": [run._asdict() | {"fault": run.fault or None} for run in trial.runs],
     }
 
 
 def _describe_runs(tuned: Tuned) -> list[str]:
-    rows = zip(tuned.runs, tuned.start.costs, tuned.best.costs, strict=True)
-    return [f"{run.name}: {run.title}: {old:.4g} → {new:.4g}" for run, old, new in rows]
+    rows = zip(tuned.runs, tuned.start.runs, tuned.best.runs, strict=True)
+    return [f"{run.name}: {run.title}: {old.cost:.4g} → {new.cost:.4g}" for run, old, new in rows]

@@ -1255,6 +1255,76 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/tunings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tunings
+         * @description The last tunings of this server, the newest first, without what they tried.
+         */
+        get: operations["list_tunings_api_v1_tunings_get"];
+        put?: never;
+        /**
+         * Start Tuning
+         * @description Begin to tune a law: Sobol points, then Nelder–Mead, on five training runs.
+         *
+         *     It takes about a second a candidate, and makes no live session late.
+         */
+        post: operations["start_tuning_api_v1_tunings_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tunings/{tuning}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Tuning
+         * @description How far a tuning is, and what it tried from a number on.
+         */
+        get: operations["read_tuning_api_v1_tunings__tuning__get"];
+        put?: never;
+        post?: never;
+        /**
+         * Stop Tuning
+         * @description Break a tuning off before its next candidate; the best so far is kept.
+         */
+        delete: operations["stop_tuning_api_v1_tunings__tuning__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tunings/{tuning}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Tuned File
+         * @description The parameter file (TOML) of the best, which says what it was measured on.
+         */
+        get: operations["read_tuned_file_api_v1_tunings__tuning__file_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/requests/{request_name}": {
         parameters: {
             query?: never;
@@ -1407,6 +1477,25 @@ export interface components {
             kind: "load";
             /** Argument */
             argument: components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
+        };
+        /**
+         * AxisState
+         * @description A number that is searched.
+         */
+        AxisState: {
+            /**
+             * Name
+             * @description As in the law's parameters; an entry of a tuple as name[0]
+             */
+            name: string;
+            /** Symbol */
+            symbol: string;
+            /** Unit */
+            unit: string;
+            /** Low */
+            low: number;
+            /** High */
+            high: number;
         };
         /**
          * BenchState
@@ -3239,6 +3328,25 @@ export interface components {
             };
         };
         /**
+         * RunCostState
+         * @description What a candidate cost in a training run: errors rms, shake the torque's change a tick.
+         */
+        RunCostState: {
+            /** Cost */
+            cost: number;
+            /** Position Error Deg */
+            position_error_deg: number;
+            /** Stiffness Error Nm Per Rad */
+            stiffness_error_nm_per_rad: number;
+            /** Shake Nm */
+            shake_nm: number;
+            /**
+             * Fault
+             * @description Why the run ended before its time
+             */
+            fault: string | null;
+        };
+        /**
          * RunDetails
          * @description A run with everything that decided its samples.
          */
@@ -4564,6 +4672,133 @@ export interface components {
              * @description Why the run with the load would end
              */
             fault: string | null;
+        };
+        /**
+         * TrainingRunState
+         * @description A training run.
+         */
+        TrainingRunState: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+        };
+        /**
+         * TrialState
+         * @description A candidate.
+         */
+        TrialState: {
+            /**
+             * Number
+             * @description 0 is the design as it was
+             */
+            number: number;
+            /**
+             * Stage
+             * @enum {string}
+             */
+            stage: "present" | "sobol" | "local";
+            /**
+             * Values
+             * @description In the order of the axes
+             */
+            values: number[];
+            /**
+             * Cost
+             * @description Mean of the runs' costs
+             */
+            cost: number;
+            /** Runs */
+            runs: components["schemas"]["RunCostState"][];
+        };
+        /**
+         * TuningRequest
+         * @description A law to be tuned on the five training runs.
+         */
+        TuningRequest: {
+            /**
+             * Law
+             * @description Name of a law that is installed
+             */
+            law: string;
+            /**
+             * Budget
+             * @description Candidates to be tried
+             * @default 124
+             */
+            budget: number;
+            /**
+             * Seed
+             * @description Seed of the Sobol points
+             * @default 0
+             */
+            seed: number;
+            /**
+             * Held
+             * @description Parameters of the law that are set and not searched
+             * @default {}
+             */
+            held: {
+                [key: string]: number;
+            };
+            /**
+             * Session
+             * @description Session whose design it begins from; left out, the lab's
+             */
+            session?: string | null;
+        };
+        /**
+         * TuningState
+         * @description A search, and what it has found so far.
+         */
+        TuningState: {
+            /** Id */
+            id: string;
+            /** Law */
+            law: string;
+            /**
+             * Status
+             * @description cancelled: broken off, the best so far is kept
+             * @enum {string}
+             */
+            status: "waiting" | "running" | "done" | "cancelled" | "failed";
+            /** Budget */
+            budget: number;
+            /** Seed */
+            seed: number;
+            /** Held */
+            held: {
+                [key: string]: number;
+            };
+            /**
+             * Duration S
+             * @description Of each training run
+             */
+            duration_s: number;
+            /** Axes */
+            axes: components["schemas"]["AxisState"][];
+            /** Runs */
+            runs: components["schemas"]["TrainingRunState"][];
+            /**
+             * Tried
+             * @description How many were tried so far, the design as it was among them
+             */
+            tried: number;
+            /**
+             * Trials
+             * @description From the number asked for on
+             */
+            trials: components["schemas"]["TrialState"][];
+            /** @description Null before the first trial */
+            present: components["schemas"]["TrialState"] | null;
+            best: components["schemas"]["TrialState"] | null;
+            /** @description The best as a lane's setting, to be sent to PUT …/lanes/{lane} or, in parts, to PUT …/parameters, …/gains and …/observer */
+            best_setting: components["schemas"]["Lane"] | null;
+            /**
+             * Problem
+             * @description Why it failed
+             */
+            problem: string | null;
         };
         /**
          * ViolationModel
@@ -9332,6 +9567,329 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    list_tunings_api_v1_tunings_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TuningState"][];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    start_tuning_api_v1_tunings_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TuningRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TuningState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_tuning_api_v1_tunings__tuning__get: {
+        parameters: {
+            query?: {
+                /** @description Number of the first trial to be told */
+                first?: number;
+            };
+            header?: never;
+            path: {
+                /** @description Id of a tuning */
+                tuning: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TuningState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    stop_tuning_api_v1_tunings__tuning__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a tuning */
+                tuning: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TuningState"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_tuned_file_api_v1_tunings__tuning__file_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a tuning */
+                tuning: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": components["schemas"]["ErrorModel"];
                 };
             };
         };

@@ -1,0 +1,119 @@
+"""Tune a law on the training runs: start, follow, break off, and take what was found."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Path, Query, Request
+from fastapi.responses import PlainTextResponse
+
+from svsa.arena.search_space import build_space
+from svsa.arena.training import DURATION_S, TRAINING
+from svsa.control.installed import has_own_parameters
+from svsa.errors import StateError
+from svsa.run.configuration import Design, Lane
+from svsa_server.routes.depends import BUSY, REFUSALS
+from svsa_server.tuning_schemas import (
+    AxisState,
+    FirstTrial,
+    TrainingRunState,
+    TrialState,
+    TuningRequest,
+    TuningState,
+)
+from svsa_server.tunings import Asked, Tuning, Tunings
+
+router = APIRouter(prefix="/tunings", tags=["tuning"], responses=REFUSALS)
+TuningId = Annotated[str, Path(description="Id of a tuning", examples=["3f2a9c01b7de"])]
+
+
+@router.get("")
+def list_tunings(request: Request) -> list[TuningState]:
+    """The last tunings of this server, the newest first, without what they tried."""
+    return [_build(tuning, None) for tuning in _find(request).list_all()]
+
+
+@router.post("", status_code=201, responses=BUSY)
+async def start_tuning(
+    request: Request,
+    wanted: Annotated[TuningRequest, Body(examples=[{"law": "fl_integral", "budget": 30}])],
+) -> TuningState:
+    """Begin to tune a law: Sobol points, then Nelder–Mead, on five training runs.
+
+    It takes about a second a candidate, and makes no live session late.
+    """
+    build_space(wanted.law, wanted.held)
+    present = _find_present(request, wanted)
+    asked = Asked(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
+    return _build(_find(request).start(asked), 0)
+
+
+@router.get("/{tuning}")
+def read_tuning(
+    request: Request, tuning: TuningId, first: Annotated[FirstTrial, Query()] = 0
+) -> TuningState:
+    """How far a tuning is, and what it tried from a number on."""
+    return _build(_find(request).get(tuning), first)
+
+
+@router.delete("/{tuning}")
+def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
+    """Break a tuning off before its next candidate; the best so far is kept."""
+    found = _find(request).get(tuning)
+    found.stop()
+    return _build(found, None)
+
+
+@router.get("/{tuning}/file", response_class=PlainTextResponse)
+def read_tuned_file(request: Request, tuning: TuningId) -> PlainTextResponse:
+    """The parameter file (TOML) of the best, which says what it was measured on."""
+    found = _find(request).get(tuning)
+    if found.status not in ("done", "cancelled"):
+        raise StateError(f"The tuning {tuning} is {found.status}: its file is written at its end.")
+    named = {"Content-Disposition": f'attachment; filename="{found.asked.law}.toml"'}
+    return PlainTextResponse(found.read_file(), media_type="application/toml", headers=named)
+
+
+def _find(request: Request) -> Tunings:
+    return request.app.state.tunings
+
+
+def _find_present(request: Request, wanted: TuningRequest) -> Design:
+    if wanted.session is None:
+        return request.app.state.design
+    configuration = request.app.state.laboratory.get(wanted.session).session.run.configuration
+    return Design(**{name: getattr(configuration, name) for name in Design.model_fields})
+
+
+def _build(tuning: Tuning, first: int | None) -> TuningState:
+    """first: from which trial on they are told; None for none of them."""
+    asked, trials = tuning.asked, tuning.read_trials(0)
+    space = build_space(asked.law, asked.held)
+    best: dict[str, Any] | None = min(trials, key=lambda trial: trial["cost"], default=None)
+    setting = None
+    if best is not None:
+        design = space.set_design(asked.present, best["values"])
+        setting = (
+            Lane(law=asked.law, parameters=design.parameters[asked.law])
+            if has_own_parameters(asked.law)
+            else Lane(law=asked.law, gains=design.gains, observer=design.observer)
+        )
+    told = [] if first is None else trials[first:]
+    return TuningState(
+        id=tuning.name,
+        law=asked.law,
+        status=tuning.status,
+        budget=asked.budget,
+        seed=asked.seed,
+        held=asked.held,
+        duration_s=DURATION_S,
+        axes=[
+            AxisState(name=one.label, symbol=one.symbol, unit=one.unit, low=one.low, high=one.high)
+            for one in space.axes
+        ],
+        runs=[TrainingRunState(name=run.name, title=run.title) for run in TRAINING],
+        tried=len(trials),
+        trials=[TrialState(**trial) for trial in told],
+        present=TrialState(**trials[0]) if trials else None,
+        best=TrialState(**best) if best else None,
+        best_setting=setting,
+        problem=tuning.problem or None,
+    )
