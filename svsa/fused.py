@@ -22,28 +22,28 @@ from numba.core.postproc import PostProcessor
 from numba.core.untyped_passes import IRProcessing
 from numba.extending import intrinsic, overload
 
-from svsa.lanes.number import INLINED, LANES, Lanes, call_vector
+from svsa.simd.number import INLINED, VECTOR, Vector, call_vector
 
 
 @intrinsic
 def _fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
     numbers = (a, b, c)
-    if not all(isinstance(number, types.Number | Lanes) for number in numbers):
+    if not all(isinstance(number, types.Number | Vector) for number in numbers):
         return None
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return builder.fma(*arguments)
 
-    def generate_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def generate_vector(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return call_vector("llvm.fma")(builder, *arguments)
 
-    if LANES in numbers:
-        return LANES(LANES, LANES, LANES), generate_lanes
+    if VECTOR in numbers:
+        return VECTOR(VECTOR, VECTOR, VECTOR), generate_vector
     return types.float64(types.float64, types.float64, types.float64), generate
 
 
 fma = cast("Callable[[float, float, float], float]", _fma)
-"""a·b + c of three numbers, or in every lane, rounded once; in compiled functions only."""
+"""a·b + c of three numbers, or in every element, rounded once; in compiled functions only."""
 
 
 def multiply_add(a: Any, b: Any, c: Any) -> Any:
@@ -53,7 +53,7 @@ def multiply_add(a: Any, b: Any, c: Any) -> Any:
 
 @overload(multiply_add, jit_options=INLINED)
 def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
-    """`fma` for numbers of which one is a float64 or lanes."""
+    """`fma` for numbers of which one is a float64 or a vector."""
 
     def fused(a: Any, b: Any, c: Any) -> Any:
         return fma(a, b, c)
@@ -62,8 +62,8 @@ def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
         return a * b + c
 
     numbers = (a, b, c)
-    is_number = all(isinstance(one, types.Number | Lanes) for one in numbers)
-    is_float = types.float64 in numbers or LANES in numbers
+    is_number = all(isinstance(one, types.Number | Vector) for one in numbers)
+    is_float = types.float64 in numbers or VECTOR in numbers
     return fused if is_number and is_float else plain
 
 

@@ -11,7 +11,7 @@ from tests.lab import Lab, run_lab
 TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
-    *("package", "", "lanes", "model", "reference", "control", "observer", "plant", "loop", "run"),
+    *("package", "", "simd", "model", "reference", "control", "observer", "plant", "loop", "run"),
     *("session", "records", "export", "design", "identification", "result", "paper", "benchmark"),
     *("arena", "study", "rig", "hardware", "scene", "server", "client", "browser"),
 )

@@ -12,7 +12,6 @@ from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
 from svsa.model.exponential import exp
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
@@ -20,6 +19,7 @@ from svsa.model.spring import compute_spring_derivatives
 from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose
 
 
 class Steps(LawParameters):

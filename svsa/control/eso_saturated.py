@@ -20,11 +20,11 @@ from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator
 from svsa.model.exponential import exp
 from svsa.model.linearization import Linearization, compute_linearization, solve_decoupling
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose
 
 
 class Observers(LawParameters):

@@ -13,7 +13,6 @@ from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import greatest, least
 from svsa.model.domain import Domain, compute_deflection_limit
 from svsa.model.dynamics import Actuator, compute_deflection, compute_internal_torque
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
@@ -21,6 +20,7 @@ from svsa.model.spring import SpringDerivatives, compute_spring_derivatives
 from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import greatest, least
 
 NEWTON_STEPS = 4
 SPRING_SHARE = 0.95

@@ -9,10 +9,10 @@ from svsa.compilation import compiled
 from svsa.control.feedback_linearization import compute_linearized_demand
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator
 from svsa.model.linearization import compute_linearization, solve_decoupling
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose
 
 
 class IntegralPoles(LawParameters):

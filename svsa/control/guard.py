@@ -4,10 +4,10 @@ A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, 
 """
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import greatest, least
 from svsa.model.dynamics import Actuator, InternalTorque, compute_deflection
 from svsa.model.lever import compute_lever_ratio_slope
 from svsa.signals import Disturbance, State
+from svsa.simd.choice import greatest, least
 
 
 @compiled

@@ -16,7 +16,6 @@ from svsa.compilation import compiled
 from svsa.control.flat import compute_flat
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose, greatest, least
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.exponential import log
 from svsa.model.lever import (
@@ -26,6 +25,7 @@ from svsa.model.lever import (
 )
 from svsa.model.spring import compute_stiffness, compute_stiffness_slope
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose, greatest, least
 
 STIFFNESSES = tuple(float(sigma) for sigma in np.geomspace(3.0, 150.0, 10))
 LOG_FIRST = math.log(STIFFNESSES[0])

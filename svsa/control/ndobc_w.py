@@ -28,7 +28,6 @@ from svsa.control.disturbed import Disturbed, compute_disturbed
 from svsa.control.guard import guard_deflection, guard_lever
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose, greatest, least, some
 from svsa.model.domain import Domain, compute_deflection_limit
 from svsa.model.dynamics import Actuator, compute_internal_torque
 from svsa.model.exponential import exp
@@ -37,6 +36,7 @@ from svsa.model.linearization import Linearization, compute_linearization, solve
 from svsa.model.spring import compute_elastic_torque
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose, greatest, least, some
 
 GIVE = 0.96
 MAX_STEPS = 24

@@ -23,12 +23,12 @@ from svsa.compilation import compiled
 from svsa.control.disturbed import compute_disturbed
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import greatest, least
 from svsa.model.dynamics import Actuator
 from svsa.model.linearization import compute_linearization, solve_decoupling
 from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import greatest, least
 
 BLOCKS = 10
 BLOCK_S = 0.005

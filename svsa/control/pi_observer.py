@@ -15,12 +15,12 @@ from svsa.control.feedback_linearization import GainConstants
 from svsa.control.law import Law, Setting
 from svsa.control.ndobc import compute_ndobc
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator
 from svsa.observer.extended import TriplePole, build_triple_pole
 from svsa.observer.own import Observed, get_observed, remember_state
 from svsa.observer.state import predict_state
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose
 
 
 class PolesAndObserver(LawParameters):

@@ -14,11 +14,11 @@ from svsa.compilation import compiled
 from svsa.control.flat import compute_flat
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import compute_stiffness, compute_stiffness_slope
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose
 
 
 class MotorGains(LawParameters):

@@ -18,12 +18,12 @@ from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import greatest, least
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.exponential import log
 from svsa.model.lever import compute_lever_ratio, compute_lever_ratio_slope
 from svsa.model.spring import compute_elastic_torque, compute_stiffness, compute_stiffness_slope
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import greatest, least
 
 EDGE = 0.99
 

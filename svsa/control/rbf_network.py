@@ -16,11 +16,11 @@ from svsa.control.feedback_linearization import GainConstants
 from svsa.control.law import Law, Setting
 from svsa.control.ndobc import compute_ndobc
 from svsa.control.parameters import LawParameters
-from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator, compute_internal_torque
 from svsa.model.exponential import exp
 from svsa.observer.own import AT_START, remember_state
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose
 
 POSITIONS_RAD = (-1.05, -0.35, 0.35, 1.05)
 VELOCITIES_RAD_PER_S = (-1.3, 0.0, 1.3)

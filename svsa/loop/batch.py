@@ -1,8 +1,8 @@
-"""Many runs at once: the loop's functions on eight lanes side by side, and of each run a summary.
+"""Many runs at once: the loop's functions on eight side by side, and of each run a summary.
 
-What one run computes of its samples is summed up as it goes, and nothing is kept. A lane has the
-bits of the same run alone, see `svsa.lanes.number`. The law is compiled in, for itself once and
-for which effects are on: what is off in all lanes is no part of the machine code.
+What one run computes of its samples is summed up as it goes, and nothing is kept. A run has the
+bits of the same run alone, see `svsa.simd.number`. The law is compiled in, for itself once and
+for which effects are on: what is off in all runs is no part of the machine code.
 """
 
 import hashlib
@@ -20,10 +20,19 @@ from svsa.control.call import BoundLaw
 from svsa.control.law import Law
 from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
-from svsa.lanes.choice import choose, some
-from svsa.lanes.memory import store
-from svsa.lanes.number import WIDTH
-from svsa.lanes.record import (
+from svsa.loop.batch_inputs import group, join_inputs, pick_inputs, read_first_reference
+from svsa.loop.batch_law import compute_one_by_one, compute_side_by_side, find_addresses
+from svsa.loop.lane import Blocks, Inputs, LaneState, build_lane_state
+from svsa.loop.loop import act, move
+from svsa.loop.tally import SUMMARY, measure, start_tally
+from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
+from svsa.model.dynamics import compute_internal_torque
+from svsa.packed import pack_all
+from svsa.signals import Disturbance, State, Torque
+from svsa.simd.choice import choose, some
+from svsa.simd.memory import store
+from svsa.simd.number import WIDTH
+from svsa.simd.record import (
     Column,
     Shared,
     Word,
@@ -31,15 +40,6 @@ from svsa.lanes.record import (
     build_record,
     lay_out_record,
 )
-from svsa.loop.batch_inputs import group, join_inputs, pick_inputs, read_first_reference
-from svsa.loop.lane import Blocks, Inputs, LaneState, build_lane_state
-from svsa.loop.law_in_lanes import compute_one_by_one, compute_side_by_side, find_addresses
-from svsa.loop.loop import act, move
-from svsa.loop.tally import SUMMARY, measure, start_tally
-from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
-from svsa.model.dynamics import compute_internal_torque
-from svsa.packed import pack_all
-from svsa.signals import Disturbance, State, Torque
 
 
 class Start(NamedTuple):
@@ -64,10 +64,10 @@ class Beginning(NamedTuple):
 class Batch(NamedTuple):
     """Runs of one law, eight to a group; the last group repeats its last.
 
-    control: of the law, None where it is called for one lane after the other. memory: its layout,
-    see `lay_out_record`. layout: a `Beginning` of `svsa.lanes.record`, see `build_reader`. rows:
+    control: of the law, None where it is called for one run after the other. memory: its layout,
+    see `lay_out_record`. layout: a `Beginning` of `svsa.simd.record`, see `build_reader`. rows:
     (groups, rows, 8), what it stands for. memories: where the law begins, (groups, numbers, 8), or
-    (groups, 8, numbers) without a control. inputs: see `join_inputs`. lanes: how many runs there
+    (groups, 8, numbers) without a control. inputs: see `join_inputs`. runs: how many there
     are. laws: what the addresses in the rows are of.
     """
 
@@ -77,7 +77,7 @@ class Batch(NamedTuple):
     rows: np.ndarray
     memories: np.ndarray
     inputs: Inputs
-    lanes: int
+    runs: int
     laws: tuple[BoundLaw, ...] = ()
 
 
@@ -90,7 +90,7 @@ def build_batch(
 ) -> Batch:
     """Runs of a law with these blocks, constants and inputs, one of each a run.
 
-    laws: the law bound to each, of one that is not `is_for_lanes`, which has no constants then.
+    laws: the law bound to each, of one that is not `is_for_vectors`, which has no constants then.
     Raises `ParameterError` where the period or a whole number, but for the seed, is not the same
     in all of them.
     """
@@ -108,7 +108,7 @@ def build_batch(
 
 
 def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:
-    """The layout of one run's numbers. columns: of each number its bits in all lanes."""
+    """The layout of one run's numbers. columns: of each number its bits in all runs."""
     if isinstance(values, tuple):
         names = getattr(values, "_fields", ("",) * len(values))
         inner = [f"{name}.{one}" for one in names]
@@ -130,7 +130,7 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
 
 
 def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
-    """Run so many ticks from the start; an array (lanes,) of `SUMMARY`.
+    """Run so many ticks from the start; an array (runs,) of `SUMMARY`.
 
     begin: the tick at which measuring begins. Does not hold the GIL.
     """
@@ -139,9 +139,9 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
     advance = _specialize(batch.control, batch.memory, batch.layout)
     advance(batch.rows, batch.memories.copy(), batch.inputs, ticks, begin, results)
     columns = results.transpose(1, 0, 2).reshape(len(names), -1)
-    summaries = np.empty(batch.lanes, dtype=SUMMARY)
+    summaries = np.empty(batch.runs, dtype=SUMMARY)
     for name, column in zip(names, columns, strict=True):
-        summaries[name] = column[: batch.lanes]
+        summaries[name] = column[: batch.runs]
     return summaries
 
 
@@ -218,7 +218,7 @@ def advance_groups(
 
 @compiled
 def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
-    """`LaneState` of lanes that run, and of those that have ended as they were."""
+    """`LaneState` of those that run, and of those that have ended as they were."""
     return LaneState(
         choose(runs, reached.x, lane.x),
         choose(runs, reached.known, lane.known),
@@ -232,6 +232,6 @@ def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
 
 @compiled
 def write(rows: np.ndarray, first: int, values: tuple[float, ...]) -> None:
-    """Write a tuple of lanes into rows (n, 8) from `first` on."""
+    """Write a tuple of vectors into rows (n, 8) from `first` on."""
     for i in range(len(values)):
         store(rows, first + i, values[i])

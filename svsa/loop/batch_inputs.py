@@ -1,4 +1,4 @@
-"""The references and loads of many runs as arrays, so that each lane has its own."""
+"""The references and loads of many runs as arrays, so that each has its own."""
 
 from collections.abc import Sequence
 
@@ -6,16 +6,16 @@ import numpy as np
 
 from svsa.borrowed import borrow
 from svsa.compilation import compiled
-from svsa.lanes.number import WIDTH
 from svsa.loop.lane import Inputs
 from svsa.plant.disturbances import FIRST, SERIES, LoadTable
 from svsa.reference.shape import CURVE
 from svsa.reference.transition import A, Stack, compute_row
 from svsa.signals import Reference
+from svsa.simd.number import WIDTH
 
 
 def group(values: np.ndarray) -> np.ndarray:
-    """(lanes, …) → (groups, …, 8); the last group repeats its last lane."""
+    """(runs, …) → (groups, …, 8); the last group repeats its last run."""
     groups = -(-len(values) // WIDTH)
     filled = np.concatenate([values, np.repeat(values[-1:], groups * WIDTH - len(values), axis=0)])
     grouped = filled.reshape(groups, WIDTH, *values.shape[1:])
@@ -62,7 +62,7 @@ def _join(parts: Sequence[Stack] | Sequence[LoadTable], kind: int, first: int) -
 
 @compiled
 def pick_inputs(inputs: Inputs, group: int) -> Inputs:
-    """The `Inputs` of one group of lanes, borrowed, of those of all (see `join_inputs`)."""
+    """The `Inputs` of one group of runs, borrowed, of those of all (see `join_inputs`)."""
     p, s, loads = inputs.position, inputs.stiffness, inputs.loads
     return Inputs(
         Stack(borrow(p.rows[group]), borrow(p.breaks), borrow(p.coefficients)),
@@ -73,6 +73,6 @@ def pick_inputs(inputs: Inputs, group: int) -> Inputs:
 
 @compiled
 def read_first_reference(inputs: Inputs, time: float) -> Reference:
-    """`Reference` at `time` (s) of lanes whose references run since t = 0: nothing fades."""
+    """`Reference` at `time` (s) of runs whose references are on since t = 0: nothing fades."""
     p, s = compute_row(inputs.position, 0, time), compute_row(inputs.stiffness, 0, time)
     return Reference(p.d0, p.d1, p.d2, p.d3, p.d4, s.d0, s.d1, s.d2)

@@ -18,7 +18,6 @@ from svsa.borrowed import borrow
 from svsa.compilation import compiled
 from svsa.control.call import BoundLaw, Call, build_call, compute_law, read_estimate
 from svsa.control.limits import limit_torque
-from svsa.lanes.choice import choose, some
 from svsa.loop.lane import Action, Blocks, Inputs, LaneState, borrow_inputs, borrow_law, remember
 from svsa.loop.publish import publish
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
@@ -35,6 +34,7 @@ from svsa.plant.integration import compute_plant_rate, integrate_from
 from svsa.plant.sensors import are_inexact, read_sensors
 from svsa.reference.transition import compute_trajectory
 from svsa.signals import Disturbance, Measurement, Reference, State, Torque
+from svsa.simd.choice import choose, some
 
 
 @compiled

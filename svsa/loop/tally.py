@@ -5,11 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose, greatest
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.signals import Reference, State, Torque
+from svsa.simd.choice import choose, greatest
 
 
 class Tally(NamedTuple):
@@ -46,7 +46,7 @@ def start_tally(nothing: float) -> Tally:
 def measure(
     tally: Tally, counts: bool, plant: Actuator, reference: Reference, x: State, torque: Torque
 ) -> Tally:
-    """`Tally` with the tick that begins at x. counts: whether it does, of each lane."""
+    """`Tally` with the tick that begins at x. counts: whether it does, of each run."""
     t = tally
     mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
     sigma = compute_stiffness(mu, compute_deflection(x), plant.K)

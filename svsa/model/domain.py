@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose, least
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.lever import (
     compute_lever_ratio,
@@ -16,6 +15,7 @@ from svsa.model.lever import (
 from svsa.model.spring import compute_spring
 from svsa.parameters import ActuatorParameters, Limits
 from svsa.signals import State
+from svsa.simd.choice import choose, least
 
 INSIDE = 0
 NOT_FINITE = 1

@@ -8,7 +8,6 @@ same functions with other constants.
 from typing import NamedTuple
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose, some
 from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import (
     REACTION_ENERGY,
@@ -20,6 +19,7 @@ from svsa.model.spring import (
 from svsa.model.trigonometry import sin
 from svsa.parameters import ActuatorParameters
 from svsa.signals import Disturbance, State, Torque
+from svsa.simd.choice import choose, some
 
 
 class Actuator(NamedTuple):

@@ -15,8 +15,8 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.fused import fma
-from svsa.lanes.choice import choose, greatest, least
-from svsa.lanes.power import raise_two, take_exponent, take_fraction
+from svsa.simd.choice import choose, greatest, least
+from svsa.simd.power import raise_two, take_exponent, take_fraction
 
 LOG2_E = 1.4426950408889634
 LN_2 = (0.6931471805599453, 2.3190468138462996e-17)

@@ -17,7 +17,7 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.fused import fma
-from svsa.lanes.choice import choose, greatest
+from svsa.simd.choice import choose, greatest
 
 TWO_OVER_PI = 2.0 / math.pi
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33)

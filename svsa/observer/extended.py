@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose
 from svsa.model.exponential import exp
+from svsa.simd.choice import choose
 
 
 class TriplePole(NamedTuple):

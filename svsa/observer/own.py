@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose
 from svsa.model.dynamics import Actuator, InternalTorque, compute_internal_torque
 from svsa.observer.disturbance import compute_unexplained_mean
 from svsa.signals import Disturbance, State, Torque
+from svsa.simd.choice import choose
 
 AT_START = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 

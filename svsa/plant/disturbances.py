@@ -10,11 +10,11 @@ from pydantic import Field, model_validator
 from svsa.checked import BY_KIND, Checked, Number, quantity
 from svsa.compilation import compiled
 from svsa.errors import ParameterError, Violation
-from svsa.lanes.choice import choose, some
-from svsa.lanes.each import call_where
-from svsa.lanes.memory import make_alike, read
 from svsa.model.dynamics import ExternalLoad
 from svsa.model.trigonometry import sin
+from svsa.simd.choice import choose, some
+from svsa.simd.each import call_where
+from svsa.simd.memory import make_alike, read
 
 GRAVITY_M_PER_S2 = 9.81
 PAPER_TORQUE_NM = 2.0
@@ -157,7 +157,7 @@ KIND, W2, W4, W6, START, END, OMEGA, PHASE, INERTIA, MOMENT, FIRST, LENGTH = ran
 class LoadTable(NamedTuple):
     """All loads of a session as arrays for the compiled loop.
 
-    rows: (n, 12) by the column names above, START and END in ticks; (n, 12, 8) for lanes that have
+    rows: (n, 12) by the column names above, START and END in ticks; (n, 12, 8) for runs that have
     other loads each. points: (m, 4) time since onset (s) and torques (N·m) of every series load,
     each from FIRST on. changing: whether one of them changes within a period.
     """

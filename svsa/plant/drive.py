@@ -1,9 +1,9 @@
 """The drives: from the torque that is asked for to the torque that the motors make."""
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose, some
 from svsa.model.exponential import exp, expm1
 from svsa.signals import Torque
+from svsa.simd.choice import choose, some
 
 
 @compiled

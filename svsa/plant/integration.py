@@ -1,7 +1,6 @@
 """The plant through one control period or many: classical Runge–Kutta steps, order 4."""
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose, some
 from svsa.model.dynamics import Actuator, ExternalLoad, compute_rate, shift
 from svsa.plant.disturbances import LoadTable, compute_load
 from svsa.plant.drive import compute_lagged_torque
@@ -9,6 +8,7 @@ from svsa.plant.effects import Bench
 from svsa.plant.friction import compute_friction
 from svsa.plant.stops import Stops, hit_stops
 from svsa.signals import State, Torque
+from svsa.simd.choice import choose, some
 
 
 @compiled

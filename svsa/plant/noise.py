@@ -9,9 +9,9 @@ import math
 import numpy as np
 
 from svsa.compilation import compiled
-from svsa.lanes.bits import as_bits, as_float
 from svsa.model.exponential import log
 from svsa.model.trigonometry import cos
+from svsa.simd.bits import as_bits, as_float
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX1 = np.uint64(0xBF58476D1CE4E5B9)

@@ -3,10 +3,10 @@
 import numpy as np
 
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose, some
 from svsa.plant.effects import Bench
 from svsa.plant.noise import draw_normal
 from svsa.signals import Measurement, State
+from svsa.simd.choice import choose, some
 
 
 @compiled

@@ -5,9 +5,9 @@ from typing import Literal
 
 from svsa.checked import Checked, Number, quantity
 from svsa.compilation import compiled
-from svsa.lanes.choice import choose, some
 from svsa.model.trigonometry import sin_cos
 from svsa.reference.shape import FULL_TURN_RAD, SINE, TRANSITION, Derivatives, Shape
+from svsa.simd.choice import choose, some
 
 
 class ConstantPosition(Checked):

@@ -16,9 +16,6 @@ import numpy as np
 
 from svsa.compilation import compiled
 from svsa.errors import StateError
-from svsa.lanes.choice import choose, some
-from svsa.lanes.each import call_where
-from svsa.lanes.memory import read
 from svsa.reference.chirp import compute_chirp
 from svsa.reference.curve import DEGREE
 from svsa.reference.fade import blend, compute_fade
@@ -26,6 +23,9 @@ from svsa.reference.polynomial import compute_polynomial
 from svsa.reference.shape import CHIRP, CURVE, MAX_NUMBERS, SINE, Derivatives
 from svsa.reference.sine import compute_sine
 from svsa.reference.trajectories import Trajectory
+from svsa.simd.choice import choose, some
+from svsa.simd.each import call_where
+from svsa.simd.memory import read
 
 MAX_FADES = 32
 
@@ -35,7 +35,7 @@ KIND, A, B, C, D, E, F, START, FADE = range(3 + MAX_NUMBERS)
 class Stack(NamedTuple):
     """A reference as arrays for the compiled loop.
 
-    rows: (n, 9): kind, numbers, start and fade (s); (n, 9, 8) for lanes that have other references
+    rows: (n, 9): kind, numbers, start and fade (s); (n, 9, 8) for runs that have other references
     each. breaks, coefficients: (m,) and (m, 10), of every curve (see `Curve`); A and B of its row
     are where it begins and how long it is.
     """

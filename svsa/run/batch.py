@@ -5,10 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from svsa.control.installed import get_law
-from svsa.lanes.record import lay_out_record
 from svsa.loop.batch import Batch, build_batch, run_batch
+from svsa.loop.batch_law import is_for_vectors
 from svsa.loop.lane import Inputs
-from svsa.loop.law_in_lanes import is_for_lanes
 from svsa.loop.tally import SUMMARY
 from svsa.plant.disturbances import LoadTable, build_load_table
 from svsa.reference.trajectories import Trajectory
@@ -16,6 +15,7 @@ from svsa.reference.transition import Stack, build_stack
 from svsa.run.blocks import bind_law, build_blocks, build_constants, compute_start_ratio
 from svsa.run.configuration import Configuration
 from svsa.run.loads import follow_loads
+from svsa.simd.record import lay_out_record
 
 
 def run_configurations(
@@ -56,7 +56,7 @@ def build_run_batch(configurations: Sequence[Configuration], steps: int = 1) -> 
     parts = list(zip(lanes, blocks, strict=True))
     first = build_constants(*lanes[0], blocks[0])
     inputs = _build_inputs(configurations)
-    if is_for_lanes(law.control, blocks[0].nominal, first, lay_out_record(law.memory())):
+    if is_for_vectors(law.control, blocks[0].nominal, first, lay_out_record(law.memory())):
         constants = [build_constants(*lane, own) for lane, own in parts]
         return build_batch(law, blocks, constants, (), inputs)
     return build_batch(law, blocks, (), [bind_law(*lane, own) for lane, own in parts], inputs)

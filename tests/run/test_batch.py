@@ -110,14 +110,14 @@ def compare(configurations: list[Configuration]) -> np.ndarray:
 
 @settings(max_examples=8, deadline=None)
 @given(drawn=st.lists(changes, min_size=1, max_size=10))
-def test_every_lane_is_the_run_alone_with_any_parameters_effects_and_seed(drawn: list) -> None:
+def test_every_run_is_as_it_is_alone_with_any_parameters_effects_and_seed(drawn: list) -> None:
     """One with every effect among them, so that one machine code serves them all."""
     first = build("ndobc", effects=EVERY_EFFECT, seed=7, loads=LOADS)
     compare([first, *(build("ndobc", loads=LOADS, **one) for one in drawn)])
 
 
-def test_a_law_keeps_its_memory_in_each_lane() -> None:
-    """And in lanes without any effect, the last group not full."""
+def test_a_law_keeps_its_memory_in_each_run() -> None:
+    """And without any effect, the last group not full."""
     design = svsa.load_prototype()
     shares = np.linspace(0.7, 1.3, 11)
     plants = [
@@ -129,7 +129,7 @@ def test_a_law_keeps_its_memory_in_each_lane() -> None:
 
 
 def test_a_run_that_ends_stays_where_it_ended_and_stops_no_other() -> None:
-    """Each at its own tick; a lane that holds is no fault of the lanes beside it."""
+    """Each at its own tick; one that holds is no fault of those beside it."""
     masses = np.linspace(0.6, 1.4, 8)
     design = svsa.load_prototype()
     plants = [
@@ -144,7 +144,7 @@ def test_a_run_that_ends_stays_where_it_ended_and_stops_no_other() -> None:
 
 @settings(max_examples=12, deadline=None)
 @given(drawn=st.lists(what_is_asked, min_size=2, max_size=11))
-def test_every_lane_follows_references_and_bears_loads_of_its_own(drawn: list) -> None:
+def test_every_run_follows_references_and_bears_loads_of_its_own(drawn: list) -> None:
     """Side by side in one group, of every kind, and each the run alone."""
     compare([build("fl_integral", **one) for one in drawn])
 
@@ -176,8 +176,8 @@ def is_at_once(batch: Batch) -> bool:
     return batch.control is not None
 
 
-def test_a_law_that_branches_on_its_state_is_called_for_one_lane_after_the_other() -> None:
-    """Other parameters, whole numbers among them, in each lane; one lane ends before the others."""
+def test_a_law_that_branches_on_its_state_is_called_for_one_run_after_the_other() -> None:
+    """Other parameters, whole numbers among them, in each; one ends before the others."""
     configurations = [
         build(
             "ilc",
@@ -200,7 +200,7 @@ def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -
 
 @pytest.mark.parametrize("law", ["ndobc_w", "lqi"])
 def test_laws_with_tuples_and_records_within_their_memory_go_side_by_side(law: str) -> None:
-    """Each lane as the run alone, on the rig, where a motor reaches its limit."""
+    """Each as the run alone, on the rig, where a motor reaches its limit."""
     design = svsa.load_prototype()
     plants = [
         design.actuator.changed(link_inertia_kg_m2=share * design.actuator.link_inertia_kg_m2)

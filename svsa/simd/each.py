@@ -1,4 +1,4 @@
-"""A function of floats called for one lane after the other: for what cannot go side by side."""
+"""A function of floats called for one element after the other: for what cannot go side by side."""
 
 from collections.abc import Callable
 from typing import Any, cast
@@ -6,11 +6,11 @@ from typing import Any, cast
 from numba.core import types
 from numba.extending import intrinsic, overload
 
-from svsa.lanes.bits import BITS, Bits
-from svsa.lanes.choice import choose, list_kinds, some
-from svsa.lanes.number import INLINED, LANES, TRUTHS, WIDTH, Lanes, Truths
+from svsa.simd.bits import BITS, Bits
+from svsa.simd.choice import choose, list_kinds, some
+from svsa.simd.number import INLINED, MASK, VECTOR, WIDTH, Mask, Vector
 
-_OF_ONE = {LANES: types.float64, TRUTHS: types.boolean, BITS: types.uint64}
+_OF_ONE = {VECTOR: types.float64, MASK: types.boolean, BITS: types.uint64}
 
 
 def _list_parts(kind: Any) -> list[Any] | None:
@@ -26,13 +26,13 @@ def _find_kind_of_one(kind: Any) -> Any:
 
 
 @intrinsic
-def _take(typing: Any, values: Any, lane: Any) -> Any:
-    def take(builder: Any, context: Any, kind: Any, value: Any, lane: Any) -> Any:
-        if isinstance(kind, Lanes | Truths | Bits):
-            return builder.extract_element(value, lane)
+def _take(typing: Any, values: Any, element: Any) -> Any:
+    def take(builder: Any, context: Any, kind: Any, value: Any, element: Any) -> Any:
+        if isinstance(kind, Vector | Mask | Bits):
+            return builder.extract_element(value, element)
         if (parts := _list_parts(kind)) is not None:
             taken = [
-                take(builder, context, part, builder.extract_value(value, i), lane)
+                take(builder, context, part, builder.extract_value(value, i), element)
                 for i, part in enumerate(parts)
             ]
             return context.make_tuple(builder, _find_kind_of_one(kind), taken)
@@ -45,8 +45,8 @@ def _take(typing: Any, values: Any, lane: Any) -> Any:
 
 
 @intrinsic
-def _put(typing: Any, values: Any, lane: Any, one: Any) -> Any:
-    def put(builder: Any, context: Any, kind: Any, value: Any, lane: Any, given: Any) -> Any:
+def _put(typing: Any, values: Any, element: Any, one: Any) -> Any:
+    def put(builder: Any, context: Any, kind: Any, value: Any, element: Any, given: Any) -> Any:
         if (parts := _list_parts(kind)) is not None:
             changed = [
                 put(
@@ -54,13 +54,13 @@ def _put(typing: Any, values: Any, lane: Any, one: Any) -> Any:
                     context,
                     part,
                     builder.extract_value(value, i),
-                    lane,
+                    element,
                     builder.extract_value(given, i),
                 )
                 for i, part in enumerate(parts)
             ]
             return context.make_tuple(builder, kind, changed)
-        return builder.insert_element(value, given, lane)
+        return builder.insert_element(value, given, element)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return put(builder, context, values, *arguments)
@@ -69,23 +69,23 @@ def _put(typing: Any, values: Any, lane: Any, one: Any) -> Any:
 
 
 take = cast("Callable[[Any, int], Any]", _take)
-"""What one lane has of numbers, truths, or tuples of them; all else as it is, in compiled code."""
+"""One element of vectors, masks, or tuples of them, all else as it is; in compiled code only."""
 put = cast("Callable[[Any, int, Any], Any]", _put)
-"""Numbers, or tuples of them, with another one in one lane, in compiled functions only."""
+"""Vectors, or tuples of them, with another number in one element, in compiled functions only."""
 
 
 def call_where(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
-    """function(*arguments) where the condition holds, else `otherwise`: in each lane for itself.
+    """function(*arguments) where the condition holds, else `otherwise`: in each element for itself.
 
     The function is compiled, takes floats and returns one, or a tuple of them, as `otherwise` is.
-    It is not called for a lane in which the condition does not hold.
+    It is not called for an element in which the condition does not hold.
     """
     return function(*arguments) if condition else otherwise
 
 
 @overload(call_where, jit_options=INLINED)
 def choose_call(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
-    """Once for a float, in a loop for lanes."""
+    """Once for a float, in a loop for a vector."""
 
     def call_once(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
         return function(*arguments) if condition else otherwise
@@ -93,9 +93,9 @@ def choose_call(condition: Any, function: Any, arguments: Any, otherwise: Any) -
     def call_each(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
         values = choose(condition, otherwise, otherwise)
         if some(condition):
-            for lane in range(WIDTH):
-                if take(condition, lane):
-                    values = put(values, lane, function(*take(arguments, lane)))
+            for element in range(WIDTH):
+                if take(condition, element):
+                    values = put(values, element, function(*take(arguments, element)))
         return values
 
-    return call_each if isinstance(condition, Truths) else call_once
+    return call_each if isinstance(condition, Mask) else call_once

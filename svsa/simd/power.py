@@ -1,4 +1,4 @@
-"""Powers of 2 put into a double and taken out of it, in floats and in lanes: exact."""
+"""Powers of 2 put into a double and taken out of it, in floats and in vectors: exact."""
 
 from collections.abc import Callable
 from typing import Any, cast
@@ -7,7 +7,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
 
-from svsa.lanes.number import LANES, VECTOR, WIDTH, Lanes
+from svsa.simd.number import DOUBLES, VECTOR, WIDTH, Vector
 
 _FRACTION_BITS, _BIAS = 52, 1023
 _FRACTION = (1 << _FRACTION_BITS) - 1
@@ -15,15 +15,15 @@ _FRACTION = (1 << _FRACTION_BITS) - 1
 
 def _choose_kinds(number: Any) -> tuple[Any, Any, Any, Callable[[int], Any]]:
     """Numba's type, LLVM's of the doubles and of their bits, and constants of the bits."""
-    if isinstance(number, Lanes):
+    if isinstance(number, Vector):
         bits = ir.VectorType(ir.IntType(64), WIDTH)
-        return LANES, VECTOR, bits, lambda one: ir.Constant(bits, [one] * WIDTH)
+        return VECTOR, DOUBLES, bits, lambda one: ir.Constant(bits, [one] * WIDTH)
     return types.float64, ir.DoubleType(), ir.IntType(64), ir.IntType(64)
 
 
 @intrinsic
 def _raise_two(typing: Any, exponent: Any) -> Any:
-    if not isinstance(exponent, types.Float | Lanes):
+    if not isinstance(exponent, types.Float | Vector):
         return None
     kind, double, bits, constant = _choose_kinds(exponent)
 
@@ -43,7 +43,7 @@ def _raise_two(typing: Any, exponent: Any) -> Any:
 
 @intrinsic
 def _take_fraction(typing: Any, number: Any) -> Any:
-    if not isinstance(number, types.Float | Lanes):
+    if not isinstance(number, types.Float | Vector):
         return None
     kind, double, bits, constant = _choose_kinds(number)
 
@@ -57,7 +57,7 @@ def _take_fraction(typing: Any, number: Any) -> Any:
 
 @intrinsic
 def _take_exponent(typing: Any, number: Any) -> Any:
-    if not isinstance(number, types.Float | Lanes):
+    if not isinstance(number, types.Float | Vector):
         return None
     kind, double, bits, constant = _choose_kinds(number)
 

@@ -1,4 +1,4 @@
-"""Tuples and records of lanes: constants read by their layout, a memory by name."""
+"""Tuples and records of vectors: constants read by their layout, a memory by name."""
 
 import operator
 from dataclasses import dataclass
@@ -16,30 +16,30 @@ from numba.extending import (
     register_model,
 )
 
-from svsa.lanes.bits import BITS, WORDS
-from svsa.lanes.memory import ALIGNMENT, are_rows, point
-from svsa.lanes.number import LANES, VECTOR, Lanes, learn
+from svsa.simd.bits import BITS, WORDS
+from svsa.simd.memory import ALIGNMENT, are_rows, point
+from svsa.simd.number import DOUBLES, VECTOR, Vector, learn
 
 _INDEX = ir.IntType(64)
 
 
 @dataclass(frozen=True)
 class Column:
-    """A number that differs from lane to lane: in this row of an array (rows, 8)."""
+    """A number of each run's own: in this row of an array (rows, 8)."""
 
     row: int
 
 
 @dataclass(frozen=True)
 class Shared:
-    """A number that is the same in all lanes: the first one of this row."""
+    """A number that is the same in all eight: the first one of this row."""
 
     row: int
 
 
 @dataclass(frozen=True)
 class Word:
-    """A whole number that differs from lane to lane, as bits in this row of an array (rows, 8)."""
+    """A whole number of each run's own, as bits in this row of an array (rows, 8)."""
 
     row: int
 
@@ -83,7 +83,7 @@ def find_kind(layout: Any) -> Any:
     """The numba type of what `build_reader` reads by this layout."""
     match layout:
         case Column():
-            return LANES
+            return VECTOR
         case Word():
             return BITS
         case Shared():
@@ -117,7 +117,7 @@ def _count_rows(layout: Any) -> int:
     return layout if isinstance(layout, int) else sum(_count_rows(part) for _, part in layout)
 
 
-class LaneRecord(types.Type):
+class VectorRecord(types.Type):
     """Rows of an array (rows, 8) that compiled functions read and write by name."""
 
     def __init__(self, layout: Any) -> None:
@@ -126,78 +126,78 @@ class LaneRecord(types.Type):
         for name, part in layout:
             self.parts[name] = row, part
             row += _count_rows(part)
-        super().__init__(name=f"LaneRecord{layout}")
+        super().__init__(name=f"VectorRecord{layout}")
 
 
-class LaneSeries(types.Type):
+class VectorSeries(types.Type):
     """Rows of an array (rows, 8) that compiled functions read and write by number."""
 
     def __init__(self) -> None:
-        super().__init__(name="LaneSeries")
+        super().__init__(name="VectorSeries")
 
 
-SERIES = LaneSeries()
+SERIES = VectorSeries()
 
 
-@register_model(LaneRecord)
-@register_model(LaneSeries)
-class _LaneRecordModel(models.PrimitiveModel):
+@register_model(VectorRecord)
+@register_model(VectorSeries)
+class _VectorRecordModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
-        super().__init__(manager, kind, VECTOR.as_pointer())
+        super().__init__(manager, kind, DOUBLES.as_pointer())
 
 
 def _find_part_kind(part: Any) -> Any:
     if part is None:
-        return LANES
-    return SERIES if isinstance(part, int) else LaneRecord(part)
+        return VECTOR
+    return SERIES if isinstance(part, int) else VectorRecord(part)
 
 
-class _LaneRecordAttributes(AttributeTemplate):
-    key = LaneRecord
+class _VectorRecordAttributes(AttributeTemplate):
+    key = VectorRecord
 
     def generic_resolve(self, value: Any, attr: str) -> Any:
         return _find_part_kind(value.parts[attr][1]) if attr in value.parts else None
 
 
 _register_attributes: Any = infer_getattr
-_register_attributes(_LaneRecordAttributes)
+_register_attributes(_VectorRecordAttributes)
 
 
-@lower_getattr_generic(LaneRecord)
+@lower_getattr_generic(VectorRecord)
 def _lower_read(context: Any, builder: Any, kind: Any, value: Any, name: str) -> Any:
     row, part = kind.parts[name]
     place = builder.gep(value, [_INDEX(row)])
     return builder.load(place, align=ALIGNMENT) if part is None else place
 
 
-@lower_setattr_generic(LaneRecord)
+@lower_setattr_generic(VectorRecord)
 def _lower_write(context: Any, builder: Any, signature: Any, arguments: Any, name: str) -> Any:
     record, value = arguments
     kind, given = signature.args
     place = builder.gep(record, [_INDEX(kind.parts[name][0])])
-    builder.store(context.cast(builder, value, given, LANES), place, align=ALIGNMENT)
+    builder.store(context.cast(builder, value, given, VECTOR), place, align=ALIGNMENT)
 
 
 def _choose_signature_of_read(context: Any, *kinds: Any) -> Any:
     fits = len(kinds) == 2 and kinds[0] == SERIES and isinstance(kinds[1], types.Integer)
-    return signature(LANES, SERIES, types.intp) if fits else None
+    return signature(VECTOR, SERIES, types.intp) if fits else None
 
 
 def _choose_signature_of_write(context: Any, *kinds: Any) -> Any:
     fits = len(kinds) == 3 and kinds[0] == SERIES and isinstance(kinds[1], types.Integer)
-    return signature(types.void, SERIES, types.intp, LANES) if fits else None
+    return signature(types.void, SERIES, types.intp, VECTOR) if fits else None
 
 
 learn(operator.getitem, _choose_signature_of_read)
 learn(operator.setitem, _choose_signature_of_write)
 
 
-@lower_builtin(operator.getitem, LaneSeries, types.intp)
+@lower_builtin(operator.getitem, VectorSeries, types.intp)
 def _lower_read_number(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return builder.load(builder.gep(arguments[0], [arguments[1]]), align=ALIGNMENT)
 
 
-@lower_builtin(operator.setitem, LaneSeries, types.intp, Lanes)
+@lower_builtin(operator.setitem, VectorSeries, types.intp, Vector)
 def _lower_write_number(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     place = builder.gep(arguments[0], [arguments[1]])
     builder.store(arguments[2], place, align=ALIGNMENT)
@@ -208,7 +208,7 @@ def build_record(layout: Any) -> Any:
     """A function of compiled code that has an array (rows, 8) read and written as this `Layout`."""
 
     def view(typing: Any, rows: Any) -> Any:
-        kind = LaneRecord(layout)
+        kind = VectorRecord(layout)
 
         def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
             return point(context, builder, rows, arguments[0], _INDEX(0))

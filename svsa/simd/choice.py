@@ -1,8 +1,9 @@
-"""The words that take the place of `if`, `min` and `max` in an equation that lanes go through.
+"""The words that take the place of `if`, `min` and `max` in an equation that vectors go through.
 
-What differs from lane to lane is no branch: both sides are computed, and each lane takes its own.
+What differs from element to element is no branch: both sides are computed, and each element takes
+its own.
 On floats these are what they say, with the same bits; a side that is not taken costs its time and
-may be anything, NaN too. A switch that is the same for every lane stays an `if` of a float, or of
+may be anything, NaN too. A switch that is the same for all eight stays an `if` of a float, or of
 `some`.
 """
 
@@ -13,7 +14,7 @@ from numba.core import cgutils, types
 from numba.core.typing.templates import signature
 from numba.extending import lower_builtin
 
-from svsa.lanes.number import LANES, WIDTH, Lanes, Truths, learn
+from svsa.simd.number import VECTOR, WIDTH, Mask, Vector, learn
 
 
 def choose(condition: Any, a: Any, b: Any) -> Any:
@@ -32,7 +33,7 @@ def greatest(a: Any, b: Any) -> Any:
 
 
 def some(condition: Any) -> bool:
-    """Whether it holds in any lane."""
+    """Whether it holds in any element."""
     return condition
 
 
@@ -44,8 +45,8 @@ def _unify(context: Any, condition: Any, a: Any, b: Any) -> Any:
         if None in kinds or len(list_kinds(a)) != len(list_kinds(b)):
             return None
         return types.BaseTuple.from_types(kinds, getattr(a, "instance_class", None))
-    if isinstance(condition, Truths) and all(isinstance(x, types.Number | Lanes) for x in (a, b)):
-        return LANES
+    if isinstance(condition, Mask) and all(isinstance(x, types.Number | Vector) for x in (a, b)):
+        return VECTOR
     return context.unify_types(a, b)
 
 
@@ -55,7 +56,7 @@ def list_kinds(kind: Any) -> list[Any]:
 
 
 def _choose_signature(context: Any, condition: Any, a: Any, b: Any) -> Any:
-    if not isinstance(condition, types.Boolean | Truths):
+    if not isinstance(condition, types.Boolean | Mask):
         return None
     kind = _unify(context, condition, a, b)
     return None if kind is None else signature(kind, condition, a, b)
@@ -66,7 +67,7 @@ learn(choose, _choose_signature)
 
 @lower_builtin(choose, types.Any, types.Any, types.Any)
 def _lower_choose(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    """Element by element, so that lanes of a tuple are chosen each for itself."""
+    """Part by part of a tuple, so that each is chosen for itself."""
 
     def generate(kind: Any, kind_a: Any, a: Any, kind_b: Any, b: Any) -> Any:
         if not isinstance(kind, types.BaseTuple):
@@ -86,7 +87,7 @@ def _lower_choose(context: Any, builder: Any, signature: Any, arguments: Any) ->
 
 def _define_extreme(function: Any, sign: str) -> None:
     def choose_signature(context: Any, *kinds: Any) -> Any:
-        if not all(isinstance(kind, types.Number | Lanes) for kind in kinds):
+        if not all(isinstance(kind, types.Number | Vector) for kind in kinds):
             return None
         kind = context.unify_types(*kinds)
         return None if kind is None else signature(kind, kind, kind)
@@ -106,7 +107,7 @@ _define_extreme(greatest, ">")
 
 
 def _choose_signature_of_some(context: Any, condition: Any) -> Any:
-    is_condition = isinstance(condition, types.Boolean | Truths)
+    is_condition = isinstance(condition, types.Boolean | Mask)
     return signature(types.boolean, condition) if is_condition else None
 
 
@@ -118,7 +119,7 @@ def _lower_some_of_one(context: Any, builder: Any, signature: Any, arguments: An
     return arguments[0]
 
 
-@lower_builtin(some, Truths)
+@lower_builtin(some, Mask)
 def _lower_some(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     bits = builder.bitcast(arguments[0], ir.IntType(WIDTH))
     return cgutils.is_not_null(builder, bits)

@@ -1,10 +1,10 @@
 """Eight doubles side by side as one number of compiled functions, and eight truths of them.
 
 numba compiles a function for the types that it is called with: an equation that is written for one
-actuator takes a float, or `LANES`, and a lane gets the bits that the float would. Every operation
-is one of LLVM's on vectors; nothing depends on what a compiler finds out about a loop. A float
-beside lanes is the same in all of them. Truths of lanes (`TRUTHS`) are nothing that an `if` takes:
-see `svsa.lanes.choice`.
+actuator takes a float, or `VECTOR`, and an element gets the bits that the float would. Every
+operation is one of LLVM's on vectors; nothing depends on what a compiler finds out about a loop. A
+float beside a vector is the same in all of it. Truths of vectors (`MASK`) are nothing that an `if`
+takes: see `svsa.simd.choice`.
 """
 
 import math
@@ -25,12 +25,12 @@ from numba.extending import (
 )
 
 WIDTH = 8
-VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
+DOUBLES = ir.VectorType(ir.DoubleType(), WIDTH)
 INLINED: Any = {"forceinline": True, "error_model": "numpy"}
 """How numba compiles what is chosen by the types of a call."""
 
 
-class Lanes(types.Type):
+class Vector(types.Type):
     """Eight doubles. A number converts to eight of it."""
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
@@ -38,43 +38,43 @@ class Lanes(types.Type):
         return Conversion.safe if isinstance(other, types.Number) else None
 
 
-class Truths(types.Type):
+class Mask(types.Type):
     """Eight truths. A truth converts to eight of it."""
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
-        """A truth for all lanes."""
+        """A truth for all eight."""
         return Conversion.safe if isinstance(other, types.Boolean) else None
 
 
-LANES, TRUTHS = Lanes("lanes"), Truths("truths")
+VECTOR, MASK = Vector("vector"), Mask("mask")
 
 
-@register_model(Lanes)
-class _LanesModel(models.PrimitiveModel):
+@register_model(Vector)
+class _VectorModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
-        super().__init__(manager, kind, VECTOR)
+        super().__init__(manager, kind, DOUBLES)
 
 
-@register_model(Truths)
-class _TruthsModel(models.PrimitiveModel):
+@register_model(Mask)
+class _MaskModel(models.PrimitiveModel):
     def __init__(self, manager: Any, kind: Any) -> None:
         super().__init__(manager, kind, ir.VectorType(ir.IntType(1), WIDTH))
 
 
 def spread(builder: Any, number: Any) -> Any:
-    """The vector that has this number, or truth, in every lane; LLVM code."""
+    """The vector that has this number, or truth, in every element; LLVM code."""
     vector = ir.VectorType(number.type, WIDTH)
     one = builder.insert_element(ir.Constant(vector, ir.Undefined), number, ir.IntType(32)(0))
     order = ir.Constant(ir.VectorType(ir.IntType(32), WIDTH), [0] * WIDTH)
     return builder.shuffle_vector(one, ir.Constant(vector, ir.Undefined), order)
 
 
-@lower_cast(types.Number, Lanes)
+@lower_cast(types.Number, Vector)
 def _spread_number(context: Any, builder: Any, fromty: Any, toty: Any, value: Any) -> Any:
     return spread(builder, context.cast(builder, value, fromty, types.float64))
 
 
-@lower_cast(types.Boolean, Truths)
+@lower_cast(types.Boolean, Mask)
 def _spread_truth(context: Any, builder: Any, fromty: Any, toty: Any, value: Any) -> Any:
     return spread(builder, value)
 
@@ -98,7 +98,7 @@ def learn(operation: Any, choose_signature: Callable[..., Any]) -> None:
 def define(
     operation: Any, generate: Callable[..., Any], result: types.Type, *operands: types.Type
 ) -> None:
-    """Let compiled functions know an operation where one of its operands is of lanes.
+    """Let compiled functions know an operation where one of its operands is a vector.
 
     generate: (builder, *values) → value, LLVM code.
     """
@@ -121,7 +121,7 @@ def call_vector(name: str) -> Callable[..., Any]:
     """LLVM's function of this name on vectors of doubles."""
 
     def generate(builder: Any, *values: Any) -> Any:
-        kind = ir.FunctionType(VECTOR, [VECTOR] * len(values))
+        kind = ir.FunctionType(DOUBLES, [DOUBLES] * len(values))
         name_of_kind = f"{name}.v{WIDTH}f64"
         function = cgutils.get_or_insert_function(builder.module, kind, name_of_kind)
         return builder.call(function, values)
@@ -138,9 +138,9 @@ def _compare(sign: str) -> Callable[..., Any]:
 
 for _name, _instruction in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul"), ("truediv", "fdiv")):
     for _operation in (getattr(operator, _name), getattr(operator, f"i{_name}")):
-        define(_operation, getattr(ir.IRBuilder, _instruction), LANES, LANES, LANES)
+        define(_operation, getattr(ir.IRBuilder, _instruction), VECTOR, VECTOR, VECTOR)
 for _operation, _name in ((np.floor, "llvm.floor"), (math.sqrt, "llvm.sqrt"), (abs, "llvm.fabs")):
-    define(_operation, call_vector(_name), LANES, LANES)
+    define(_operation, call_vector(_name), VECTOR, VECTOR)
 for _operation, _sign in (
     (operator.lt, "<"),
     (operator.le, "<="),
@@ -149,7 +149,7 @@ for _operation, _sign in (
     (operator.eq, "=="),
     (operator.ne, "!="),
 ):
-    define(_operation, _compare(_sign), TRUTHS, LANES, LANES)
-define(operator.neg, ir.IRBuilder.fneg, LANES, LANES)
-define(operator.and_, ir.IRBuilder.and_, TRUTHS, TRUTHS, TRUTHS)
-define(operator.or_, ir.IRBuilder.or_, TRUTHS, TRUTHS, TRUTHS)
+    define(_operation, _compare(_sign), MASK, VECTOR, VECTOR)
+define(operator.neg, ir.IRBuilder.fneg, VECTOR, VECTOR)
+define(operator.and_, ir.IRBuilder.and_, MASK, MASK, MASK)
+define(operator.or_, ir.IRBuilder.or_, MASK, MASK, MASK)

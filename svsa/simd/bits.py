@@ -10,14 +10,14 @@ from numba.core.typeconv.castgraph import Conversion
 from numba.core.typing.templates import signature
 from numba.extending import lower_builtin, lower_cast, models, register_model
 
-from svsa.lanes.number import LANES, VECTOR, WIDTH, define, learn, spread
+from svsa.simd.number import DOUBLES, VECTOR, WIDTH, define, learn, spread
 
 
 class Bits(types.Type):
     """Eight whole numbers ≥ 0, modulo 2⁶⁴. One of them converts to eight of it."""
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
-        """A whole number for all lanes."""
+        """A whole number for all eight."""
         return Conversion.safe if other == types.uint64 else None
 
 
@@ -63,7 +63,7 @@ def _choose_signature_of_bits(context: Any, kind: Any) -> Any:
 
 def _choose_signature_of_float(context: Any, kind: Any) -> Any:
     if kind == BITS:
-        return signature(LANES, BITS)
+        return signature(VECTOR, BITS)
     return signature(types.float64, types.uint64) if kind == types.uint64 else None
 
 
@@ -83,5 +83,5 @@ def _lower_as_float(context: Any, builder: Any, signature: Any, arguments: Any) 
 
 
 @lower_builtin(as_float, Bits)
-def _lower_as_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    return builder.uitofp(arguments[0], VECTOR)
+def _lower_as_vector(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    return builder.uitofp(arguments[0], DOUBLES)

@@ -1,4 +1,4 @@
-"""Eight doubles side by side: each lane has the bits that the float by itself has.
+"""Eight doubles side by side: each element has the bits that the float by itself has.
 
 These tests pin what is used of numba's inside: a release that changes it fails here.
 """
@@ -14,11 +14,11 @@ from numba.core.errors import TypingError
 
 from svsa.compilation import compiled
 from svsa.fused import fma
-from svsa.lanes.choice import choose, greatest, least, some
-from svsa.lanes.memory import load, store
-from svsa.lanes.number import WIDTH
 from svsa.model.exponential import exp, expm1, log, log1p, tanh
 from svsa.model.trigonometry import acos, sin_cos
+from svsa.simd.choice import choose, greatest, least, some
+from svsa.simd.memory import load, store
+from svsa.simd.number import WIDTH
 
 SPECIAL = (0.0, -0.0, math.inf, -math.inf, math.nan, 5e-324, 1e308, -1.0, 0.5)
 NUMBERS = st.floats(allow_nan=True, width=64) | st.sampled_from(SPECIAL)
@@ -52,7 +52,7 @@ def calculate_functions(x, y):
 
 
 @compiled
-def run_lanes(function, rows, out):
+def run_vectors(function, rows, out):
     a, b = function(load(rows, 0), load(rows, 1))
     store(out, 0, a)
     store(out, 1, b)
@@ -73,9 +73,9 @@ def assert_same_bits(a: np.ndarray, b: np.ndarray) -> None:
 @pytest.mark.parametrize("function", [calculate, decide])
 @settings(max_examples=200, deadline=None)
 @given(x=ROW, y=ROW)
-def test_a_lane_has_the_bits_of_the_float(function, x, y) -> None:
+def test_an_element_has_the_bits_of_the_float(function, x, y) -> None:
     rows, out = np.array([x, y]), np.empty((2, WIDTH))
-    run_lanes(function, rows, out)
+    run_vectors(function, rows, out)
     assert_same_bits(out, np.array([function(*pair) for pair in rows.T]).T)
 
 
@@ -84,9 +84,9 @@ def test_a_lane_has_the_bits_of_the_float(function, x, y) -> None:
     x=st.lists(st.floats(1e-250, 1e9) | st.floats(-1e9, -1e-250), min_size=WIDTH, max_size=WIDTH),
     y=st.lists(st.floats(0.0, 0.5), min_size=WIDTH, max_size=WIDTH),
 )
-def test_own_functions_are_the_same_in_a_lane(x, y) -> None:
+def test_own_functions_are_the_same_in_a_vector(x, y) -> None:
     rows, out = np.array([x, y]), np.empty((2, WIDTH))
-    run_lanes(calculate_functions, rows, out)
+    run_vectors(calculate_functions, rows, out)
     assert_same_bits(out, np.array([calculate_functions(*pair) for pair in rows.T]).T)
 
 
@@ -100,28 +100,28 @@ def test_the_lesser_and_the_greater_keep_the_order_of_a_number_that_is_none() ->
     assert limit.py_func(-5.0, 3.0) == -3.0, "in Python too"
 
 
-@pytest.mark.parametrize("lane", range(WIDTH))
-def test_one_lane_is_some(lane: int) -> None:
+@pytest.mark.parametrize("element", range(WIDTH))
+def test_one_element_is_some(element: int) -> None:
     rows = np.zeros((2, WIDTH))
     assert not ask_some(rows)
-    rows[0, lane] = 1.0
+    rows[0, element] = 1.0
     assert ask_some(rows)
 
 
-def test_an_if_on_what_differs_between_lanes_is_refused() -> None:
+def test_an_if_on_what_differs_within_a_vector_is_refused() -> None:
     @compiled
     def branch(rows):
         if load(rows, 0) > 0.0:
             return 1.0
         return 0.0
 
-    with pytest.raises(TypingError, match="truths"):
+    with pytest.raises(TypingError, match="mask"):
         branch(np.zeros((1, WIDTH)))
 
 
 def test_the_machine_code_works_on_vectors() -> None:
     """Multiply-adds of eight, or of the halves or quarters that a narrower machine has."""
-    run_lanes(calculate, np.ones((2, WIDTH)), np.empty((2, WIDTH)))
-    code = next(iter(run_lanes.inspect_llvm().values()))
+    run_vectors(calculate, np.ones((2, WIDTH)), np.empty((2, WIDTH)))
+    code = next(iter(run_vectors.inspect_llvm().values()))
     assert "llvm.fma.v8f64" in code
     assert "fmul double" not in code

@@ -1,6 +1,6 @@
-"""The law of lanes: all at once, or one after the other where it looks at its numbers.
+"""The law of eight runs: all at once, or one after the other where it looks at its numbers.
 
-A law with an `if`, or an index, by what differs from lane to lane does not compile for lanes. It
+A law with an `if`, or an index, by what differs from run to run does not compile for vectors. It
 is called by its address, as the loop of one run does; the rest of the tick is computed at once.
 """
 
@@ -13,17 +13,19 @@ from numba.core.errors import NumbaError
 
 from svsa.compilation import compiled
 from svsa.control.call import BoundLaw, Call, compute_law
-from svsa.lanes.choice import choose
-from svsa.lanes.each import put, take
-from svsa.lanes.number import WIDTH
-from svsa.lanes.record import Column, LaneRecord, find_kind
 from svsa.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED
 from svsa.model.dynamics import Actuator
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import choose
+from svsa.simd.each import put, take
+from svsa.simd.number import WIDTH
+from svsa.simd.record import Column, VectorRecord, find_kind
 
 
-def is_for_lanes(control: Any, nominal: Actuator, constants: tuple[Any, ...], memory: Any) -> bool:
-    """Whether a law's function compiles for lanes; compiled where it has not been before.
+def is_for_vectors(
+    control: Any, nominal: Actuator, constants: tuple[Any, ...], memory: Any
+) -> bool:
+    """Whether a law's function compiles for vectors; compiled where it has not been before.
 
     memory: its layout, see `lay_out_record`.
     """
@@ -43,7 +45,7 @@ _SIGNALS = (AT_REST, NO_REFERENCE, UNDISTURBED, NO_TORQUE)
 @cache
 def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
     signals = [find_kind(_lay_out(signal)) for signal in _SIGNALS]
-    kinds = nominal, constants, LaneRecord(memory), *signals, numba.float64
+    kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64
     try:
         control.get_call_template(kinds, {})
     except NumbaError:
@@ -76,32 +78,32 @@ def compute_one_by_one(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """u of lanes that run, `Torque`, N·m; 0 of the others, whose law is not called.
+    """u of those that run, `Torque`, N·m; 0 of the others, whose law is not called.
 
-    constants: `Addresses` of every lane's law, which has the nominal model, too. memories: (8,
+    constants: `Addresses` of every run's law, which has the nominal model, too. memories: (8,
     words), written. Else as `Law` says.
     """
     nothing = Torque(0.0, 0.0)
     torque = choose(runs, nothing, nothing)
-    for lane in range(WIDTH):
-        if take(runs, lane):
-            law = take(constants, lane)
+    for i in range(WIDTH):
+        if take(runs, i):
+            law = take(constants, i)
             call = Call(
                 law.function_address,
                 law.nominal_address,
                 law.constants_address,
-                memories[lane].ctypes.data,
+                memories[i].ctypes.data,
                 0,
             )
             asked = compute_law(
                 call,
-                take(x, lane),
-                take(reference, lane),
-                take(estimate, lane),
-                take(applied, lane),
+                take(x, i),
+                take(reference, i),
+                take(estimate, i),
+                take(applied, i),
                 period,
             )
-            torque = put(torque, lane, asked)
+            torque = put(torque, i, asked)
     return torque
 
 
@@ -120,5 +122,5 @@ def compute_side_by_side(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """u of all lanes at once, `Torque`, N·m: `law` compiled for lanes."""
+    """u of all eight at once, `Torque`, N·m: `law` compiled for vectors."""
     return law(nominal, constants, memory, x, reference, estimate, applied, period)
