@@ -36,9 +36,11 @@ def test_a_simulation_shows_no_bench_and_no_mark(own_page: Page, lab: Lab) -> No
     expect(own_page).to_have_title("SVSA Lab")
 
 
-@pytest.mark.parametrize(("emulated", "name"), [(True, "EMULATED"), (False, "REAL BENCH")])
+@pytest.mark.parametrize(
+    ("emulated", "name"), [(True, "EMULATED"), (False, "REAL BENCH"), (None, "BENCH")]
+)
 def test_the_mark_is_in_band_view_status_bar_and_tab(
-    page: Page, lab: Lab, emulated: bool, name: str
+    page: Page, lab: Lab, emulated: bool | None, name: str
 ) -> None:
     PatchedBench(page, emulated=emulated)
     open_page(page, lab)
@@ -166,3 +168,54 @@ def test_the_work_is_seen_without_scrolling_on_a_running_bench(page: Page, lab: 
         for part in [*parts, plot]:
             expect(part).to_be_in_viewport(ratio=1)
         expect(below).to_have_count(rest)
+
+
+def test_what_takes_no_command_yet_offers_none(page: Page, lab: Lab) -> None:
+    starting = BENCH["loop"] | {"alive": False, "state": "starting", "step": "opening the bus"}
+    patched = PatchedBench(page, emulated=None, loop=starting | {"starting_s": 2.0})
+    open_page(page, lab)
+    bar = page.get_by_role("region", name="Status", exact=True)
+    expect(bar.get_by_text("Starting")).to_be_visible()
+    expect(
+        page.get_by_role("list", name="State of the bench").locator("[aria-current]")
+    ).to_have_count(0)
+    for name in ("Fig. 4A", "Record"):
+        expect(page.get_by_role("button", name=name, exact=True)).to_be_disabled()
+    load = page.get_by_role("button", name=re.compile("3 kg"))
+    expect(load).to_be_disabled()
+    patched.change(loop=BENCH["loop"], emulated=True)
+    expect(load).to_be_enabled()
+    expect(page.get_by_role("button", name="Fig. 4A", exact=True)).to_be_enabled()
+
+
+def test_of_a_bench_that_was_never_opened_nobody_asks_who_stopped_it(page: Page, lab: Lab) -> None:
+    lost = BENCH["loop"] | {"alive": False, "state": "gone", "silent_s": 3.0}
+    patched = PatchedBench(page, status="fault", current_a=None, loop=lost)
+    open_page(page, lab)
+    page.get_by_role("button", name="Details").click()
+    loop = page.get_by_role("region", name="Control loop")
+    expect(loop.get_by_text("Nobody is known to have stopped")).to_be_visible()
+    unheard = {"ticks": 0, "silent_s": None, "state": "not_opened"}
+    patched.change(loop=lost | unheard, ages_s=[1000, 1000, 1000])
+    expect(loop.get_by_text("Nobody is known to have stopped")).to_have_count(0)
+    expect(loop.get_by_role("heading")).to_contain_text("not opened")
+    drives = page.get_by_role("region", name="Drives and encoders")
+    expect(drives.get_by_text(re.compile("\\d A$"))).to_have_count(0)
+    expect(page.get_by_text("The bench is not open.")).to_be_visible()
+
+
+@pytest.mark.parametrize("size", [(390, 844), (820, 1180), (1280, 720)])
+def test_nothing_of_a_bench_is_covered_or_cut(page: Page, lab: Lab, size: tuple[int, int]) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    PatchedBench(page, status="ramp", emulated=False, homing=HOMED, ages_s=[1000, 1000, 0.001])
+    open_page(page, lab)
+    bar = page.get_by_role("region", name="Status", exact=True)
+    control = bar.get_by_role("button", name="Take control").bounding_box()
+    stop = bar.get_by_role("button", name="Quick stop").bounding_box()
+    assert control is not None and stop is not None
+    assert control["x"] + control["width"] < stop["x"]
+    page.get_by_role("button", name="Details").click()
+    cut = page.locator(".bench-card").evaluate_all(
+        "cards => cards.filter(one => one.scrollWidth > one.clientWidth).map(one => one.ariaLabel)"
+    )
+    assert cut == []

@@ -71,6 +71,8 @@ describe("the states of a bench", () => {
     const closed = bench({ status: "fault", loop: { state: "not_opened" } });
     expect(adviceFor(closed), "nothing was lost that never ticked").toBe("notOpened");
     expect(adviceFor(bench({ status: "ready", homing: UNHOMED }))).toBe("home");
+    const guarded = bench({ status: "ready", dead_man: true });
+    expect([adviceFor(guarded), adviceFor(guarded, true)]).toEqual(["hold", "run"]);
     expect(adviceFor(bench({ status: "reset" }))).toBe("wait");
     expect(adviceFor(bench({ status: "fault" }))).toBe("clear");
     expect(needsDetails(bench({ status: "ready", homing: UNHOMED }))).toBe(true);

@@ -16,6 +16,7 @@ from svsa.signals import Disturbance, State, Torque
 POSITION_MARGIN_RAD = 0.2
 WARM = 0.9
 OVERLOAD = 1.05
+_AXES = {"link": "the link", "motor1": "motor 1", "motor2": "motor 2"}
 _STILL = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -30,7 +31,7 @@ class MotorGuard:
 
     def __init__(self, name: str, motor: MotorSettings, torque_max: float, rate: float) -> None:
         scale = abs(build_motor_scale(motor).torque_per_ma) * 1000.0
-        self._name, self._motor = name, motor
+        self._name, self._title, self._motor = name, _AXES[name].capitalize(), motor
         self._most, self._peak = torque_max, motor.peak_current_a * scale
         self._nominal = motor.nominal_current_a * scale
         self._scale, self._rate = scale, rate
@@ -61,6 +62,7 @@ class MotorGuard:
         if abs(velocity) > motor.speed_max_rad_per_s:
             return _exceeded(
                 "overspeed",
+                f"{self._title} turned with",
                 f"{name}_velocity_rad_per_s",
                 velocity,
                 motor.speed_max_rad_per_s,
@@ -69,14 +71,16 @@ class MotorGuard:
         beyond = max(angle - motor.position_max_rad, motor.position_min_rad - angle)
         if beyond > POSITION_MARGIN_RAD:
             end = motor.position_max_rad if angle > 0.0 else motor.position_min_rad
-            return _exceeded("position_limit", f"{name}_position_rad", angle, end, "rad")
+            words = f"{self._title} stood at"
+            return _exceeded("position_limit", words, f"{name}_position_rad", angle, end, "rad")
         return None
 
     def find_overload(self) -> Alarm | None:
         """Whether the winding is warmer than any torque that was asked for makes it."""
         if self.heat <= OVERLOAD:
             return None
-        return _exceeded("overload", f"{self._name}_heat", self.heat, OVERLOAD, "")
+        words = f"{self._title} is too warm: its heat (I²t, 1 is what its winding bears) was"
+        return _exceeded("overload", words, f"{self._name}_heat", self.heat, OVERLOAD, "")
 
 
 class Guard:
@@ -154,10 +158,12 @@ class Guard:
         safety = self._safety
         if abs(known.dq) > safety.link_speed_max_rad_per_s:
             most = safety.link_speed_max_rad_per_s
-            return _exceeded("overspeed", "velocity_rad_per_s", known.dq, most, "rad/s")
+            words = "The link turned with"
+            return _exceeded("overspeed", words, "velocity_rad_per_s", known.dq, most, "rad/s")
         if abs(known.q) > safety.link_position_max_rad:
             most = safety.link_position_max_rad
-            return _exceeded("position_limit", "position_rad", known.q, most, "rad")
+            words = "The link stood at"
+            return _exceeded("position_limit", words, "position_rad", known.q, most, "rad")
         code = check_packed_domain(self._bounds, known)
         if code == INSIDE:
             return None
@@ -175,9 +181,9 @@ class Guard:
             return None
         name, velocity = ("motor1", known.dtheta1) if shakes1 else ("motor2", known.dtheta2)
         words = (
-            f"{name} shakes: it turned around {REVERSALS} times within {WINDOW_S:g} s. The loop is"
-            " unstable: an encoder stands still or counts the wrong way, feedback comes late, or"
-            " the gains are too high."
+            f"{_AXES[name].capitalize()} shakes: it turned around {REVERSALS} times within"
+            f" {WINDOW_S:g} s. The loop is unstable: an encoder stands still or counts the wrong"
+            " way, feedback comes late, or the gains are too high."
         )
         return Alarm("vibration", words, {f"{name}_velocity_rad_per_s": velocity})
 
@@ -185,10 +191,14 @@ class Guard:
         most = self._safety.disturbance_max_nm
         for name, value in zip(("link", "motor1", "motor2"), estimate, strict=True):
             if abs(value) > most:
-                return _exceeded("implausible", f"estimate_{name}_nm", value, most, "N·m")
+                words = f"The observer sees a torque on {_AXES[name]} that no load makes: it was"
+                return _exceeded("implausible", words, f"estimate_{name}_nm", value, most, "N·m")
         return None
 
 
-def _exceeded(code: str, name: str, value: float, most: float, unit: str) -> Alarm:
-    words = f"{name} was {value:.4g} {unit}: its limit is {most:.4g} {unit}.".replace(" :", ":")
-    return Alarm(code, words, {name: value, f"{name}_limit": most})
+def _exceeded(code: str, subject: str, name: str, value: float, most: float, unit: str) -> Alarm:
+    """subject: what exceeds its limit, for people; name: the same for scripts."""
+    words = f"{subject} {value:.4g} {unit}: the limit is {most:.4g} {unit}."
+    return Alarm(
+        code, words.replace(" :", ":").replace(" .", "."), {name: value, f"{name}_limit": most}
+    )

@@ -84,7 +84,9 @@ def test_heat_counts_what_the_drive_makes_where_that_is_more() -> None:
     alarm = guard.find_overload()
     assert alarm is not None
     assert alarm.code == "overload"
-    assert "motor2" in alarm.message
+    assert alarm.message.startswith("Motor 2 is too warm: its heat")
+    assert alarm.message.endswith("the limit is 1.05.")
+    assert alarm.values["motor2_heat_limit"] == 1.05
 
 
 def test_heat_counts_the_time_that_has_really_passed() -> None:
@@ -167,7 +169,7 @@ def test_a_torque_that_no_load_makes_ends_the_run(axis: int, sign: float) -> Non
     alarm = guard.check(Torque(0.0, 0.0), AT_REST, Disturbance(*above))
     assert alarm is not None
     assert alarm.code == "implausible"
-    assert ("link", "motor1", "motor2")[axis] in alarm.message
+    assert f"torque on {('the link', 'motor 1', 'motor 2')[axis]} that no load" in alarm.message
 
 
 def test_counts_that_are_late_are_not_frozen() -> None:

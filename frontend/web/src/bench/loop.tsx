@@ -7,6 +7,14 @@ import { barsOf, decadesIn } from "./lateness";
 const { loop: words } = text.bench;
 const WIDTH = 240;
 const HEIGHT = 64;
+const SIGNS = { ticking: "✓", starting: "◌", silent: "▲", gone: "▲", not_opened: "▲" } as const;
+const LEVELS = {
+  ticking: "is-good",
+  starting: "",
+  silent: "is-bad",
+  gone: "is-bad",
+  not_opened: "is-bad",
+} as const;
 const count = (value: number) => value.toLocaleString("en");
 
 /** How late the ticks were, a bar a bin, on a logarithmic axis of counts. */
@@ -91,8 +99,8 @@ export function Loop({ loop }: { loop: LoopState }) {
       <h2>
         {words.heading}{" "}
         {isLive.value ? (
-          <small class={loop.alive ? "is-good" : "is-bad"}>
-            <span aria-hidden="true">{loop.alive ? "✓" : "▲"}</span> {words.states[loop.state]}
+          <small class={LEVELS[loop.state]}>
+            <span aria-hidden="true">{SIGNS[loop.state]}</span> {words.states[loop.state]}
             {loop.alive && `, ${text.status.rate(loop.rate_hz)}`}
             {loop.silent_s !== null && ` ${words.since(formatLapse(loop.silent_s))}`}
           </small>

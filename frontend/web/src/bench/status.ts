@@ -58,6 +58,7 @@ export type Advice =
   | "wait"
   | "home"
   | "run"
+  | "hold"
   | "running"
   | "ramping"
   | "clear";
@@ -69,15 +70,16 @@ function adviceBeforeArming({ problems, supervised, ages_s: ages }: BenchState):
   return ["lost", "unheard"].includes(freshnessOf(ages[2])) ? "unheard" : "arm";
 }
 
-/** The next thing to do. */
-export function adviceFor(bench: BenchState): Advice {
+/** The next thing to do. held: the dead-man's switch. */
+export function adviceFor(bench: BenchState, held = false): Advice {
   if (isStarting(bench)) return "starting";
   if (isLoopLost(bench)) return isNeverOpened(bench) ? "notOpened" : "loop";
   switch (bench.status) {
     case "off":
       return adviceBeforeArming(bench);
     case "ready":
-      return isHomed(bench) ? "run" : "home";
+      if (!isHomed(bench)) return "home";
+      return allowedOn(bench, held).run ? "run" : "hold";
     case "run":
       return "running";
     case "ramp":

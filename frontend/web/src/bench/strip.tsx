@@ -6,6 +6,7 @@ import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
+import { isHeld } from "./hold";
 import { HoldRow } from "./holdrow";
 import { adviceFor, isStarting, needsDetails, placeOf, STAGES } from "./status";
 
@@ -39,7 +40,7 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
   const isOpen = chosen?.isNeeded === isNeeded ? chosen.isOpen : isNeeded;
   const kind = mark.value ?? "real";
   const status = isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
-  const advice = text.bench.advice[adviceFor(bench)];
+  const advice = text.bench.advice[adviceFor(bench, isHeld.value)];
   return (
     <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
       <div class="bench-strip">
@@ -47,7 +48,7 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
           <strong>{text.mark[kind].name}</strong>
           <small>{text.mark[kind].means}</small>
         </p>
-        <Progress status={isLive.value ? bench.status : null} />
+        <Progress status={isLive.value && !isStarting(bench) ? bench.status : null} />
         <p class="bench-advice" role="status">
           <strong>{isLive.value ? status : text.bench.unknown}</strong>
           <span>{isLive.value ? advice : text.bench.lastHeard(status)}</span>

@@ -1,6 +1,6 @@
 import { useRef } from "preact/hooks";
 import type { SessionState } from "../api/types";
-import { mayCommand } from "../state/control";
+import { takesCommands } from "../state/control";
 import { text } from "../text/en";
 import { Controller } from "./controller";
 import { GroupIndex } from "./groupindex";
@@ -15,7 +15,7 @@ import { Stiffness } from "./stiffness";
 export function Controls({ state }: { state: SessionState }) {
   const groups = useRef<HTMLDivElement>(null);
   return (
-    <fieldset class="controls" disabled={!mayCommand.value} aria-label={text.controls.heading}>
+    <fieldset class="controls" disabled={!takesCommands.value} aria-label={text.controls.heading}>
       <div class="groups" ref={groups}>
         <Motion state={state} />
         <Stiffness state={state} />

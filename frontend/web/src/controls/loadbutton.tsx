@@ -1,7 +1,7 @@
 import { useState } from "preact/hooks";
 import type { SessionState } from "../api/types";
 import { CONTROL, toggleWeight } from "../state/commands";
-import { mayCommand } from "../state/control";
+import { takesCommands } from "../state/control";
 import { hungWeights, isRealBench, nextWeightAt, weightForm } from "../state/load";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
@@ -51,7 +51,7 @@ export function LoadButton({ state }: { state: SessionState }) {
         type="button"
         class={`load-button ${isHung ? "is-hung" : ""}`}
         aria-keyshortcuts="l"
-        disabled={isBusy || !mayCommand.value || state.status === "fault"}
+        disabled={isBusy || !takesCommands.value || state.status === "fault"}
         onClick={() => void press()}
       >
         <WeightPicture isHung={isHung} />

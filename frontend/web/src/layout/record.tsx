@@ -1,6 +1,6 @@
 import type { SessionState } from "../api/types";
 import { toggleRecording } from "../state/commands";
-import { mayCommand } from "../state/control";
+import { mayCommand, takesCommands } from "../state/control";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { formatSeconds } from "../units";
@@ -21,7 +21,7 @@ export function RecordButton({ state }: { state: SessionState }) {
       <button
         type="button"
         class="button record"
-        disabled={recording !== null || !mayCommand.value}
+        disabled={recording !== null || !takesCommands.value}
         title={text.recording.startHint}
         aria-keyshortcuts="r"
         onClick={() => void toggleRecording(state)}

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { BenchState, SessionState } from "../api/types";
+import { isStarting } from "../bench/status";
 import { ControlCell } from "../control/cell";
 import { StopButton } from "../safety/stopbutton";
 import { isLive, missedSamples, phase, session } from "../state/session";
@@ -12,9 +13,12 @@ import { CornerMark } from "./marks";
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
 const PHASE_SIGNS = { live: "●", connecting: "◌", lost: "○", locked: "○", ended: "○" } as const;
 
+const wordOf = (bench: BenchState): string =>
+  isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
+
 function SessionPill({ state: { status, bench } }: { state: SessionState }) {
   const isStandingBench = bench !== null && status === "paused";
-  const word = bench === null ? text.status[status] : text.bench.status[bench.status];
+  const word = bench === null ? text.status[status] : wordOf(bench);
   if (!isLive.value) {
     return (
       <span class="pill is-unknown" title={text.status.lastKnown(word)}>
@@ -71,9 +75,10 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
     );
   }
   if (!loop.alive) {
+    const isBad = loop.state !== "starting";
     return (
-      <Cell name={text.status.loop} class="is-loop is-bad">
-        <span aria-hidden="true">▲</span> {text.bench.loop.states[loop.state]}
+      <Cell name={text.status.loop} class={`is-loop ${isBad ? "is-bad" : ""}`}>
+        <span aria-hidden="true">{isBad ? "▲" : "◌"}</span> {text.bench.loop.states[loop.state]}
       </Cell>
     );
   }

@@ -3,7 +3,7 @@ import { putSpeed, reset, runFigure, step } from "../api/client";
 import type { Figure, SessionState, Speed } from "../api/types";
 import { perform } from "../state/actions";
 import { toggleRun } from "../state/commands";
-import { mayCommand } from "../state/control";
+import { mayCommand, takesCommands } from "../state/control";
 import { presetOf } from "../state/effects";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
@@ -24,7 +24,7 @@ function run(figure: Figure, { bench, configuration }: SessionState) {
 
 export function FigurePicker({ state }: { state: SessionState }) {
   return (
-    <fieldset class="figures" disabled={!mayCommand.value}>
+    <fieldset class="figures" disabled={!takesCommands.value}>
       <legend>{text.figures.heading}</legend>
       {FIGURES.map((figure) => (
         <button

@@ -18,6 +18,12 @@ export const otherHolder = computed(() =>
 /** Whether what this page sends is taken: it is connected, and nobody else is in control. */
 export const mayCommand = computed(() => isLive.value && otherHolder.value === null);
 
+/** Whether the session takes a command: the loop of a bench answers to none before it ticks. */
+export const takesCommands = computed(() => {
+  const bench = session.value?.bench ?? null;
+  return mayCommand.value && (bench === null || bench.loop.state === "ticking");
+});
+
 /** Whether the user is being asked before control is taken: for a name, or for a taking over. */
 export const isAsked = signal(false);
 

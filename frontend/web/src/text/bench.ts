@@ -6,7 +6,7 @@ export const benchText = {
     unknown: {
       name: "BENCH",
       title: "Bench",
-      means: "real or emulated? not known yet: keep clear",
+      means: "not heard yet: keep clear",
     },
   },
   stop: {
@@ -91,7 +91,8 @@ export const benchText = {
       arm: "It may be armed.",
       wait: "The drives are coming up…",
       home: "Confirm the zero marks.",
-      run: "Ready: run it.",
+      run: "Run it.",
+      hold: "Hold the dead-man's switch, and run it.",
       running: "The controller has the motors.",
       ramping: "The torque goes to zero…",
       clear: "Clear the fault when it is safe.",
@@ -125,7 +126,7 @@ export const benchText = {
       age: "Last heard",
       names: ["Motor 1", "Motor 2", "Deflection"],
       levels: { fresh: "fresh", stale: "stale", lost: "lost" },
-      silent: "not heard; it speaks once it is armed",
+      silent: "silent until armed",
       unheard: "not heard yet",
       notKnown: "not known: no connection",
       none: "–",
