@@ -20,6 +20,7 @@ from svsa_server.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
 from svsa_server.routes import (
+    arena,
     bench,
     control,
     design,
@@ -85,6 +86,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         references,
         runs,
         tunings,
+        arena,
         outcomes,
     ):
         api.include_router(part.router)

@@ -17,8 +17,9 @@ class Settings(BaseSettings):
     SVSA_MOST_SESSIONS: private sessions at once. SVSA_IDLE_S: how long one lives unused, s.
     SVSA_CONTROL_S: how long control of a session outlives the last stream and call of whoever
     has it, s.
-    SVSA_MOST_EXPORTS: exports, replays, comparisons and maps that are worked at or wait.
     SVSA_MOST_TUNINGS: tunings of laws that are worked at, one at a time, or wait.
+    SVSA_MOST_EXPORTS: exports, replays, comparisons, maps and laws in the arena that are worked at
+    or wait.
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
     SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
     """

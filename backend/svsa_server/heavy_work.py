@@ -1,4 +1,4 @@
-"""Exports, replays, comparisons and maps of stability: in processes of their own, few at a time.
+"""Exports, replays, comparisons, maps, laws in the arena: in processes of their own, few at once.
 
 They take seconds of computing, which would make every live session late. A worker has a low
 priority: a tenth of a core that something else is always busy on, where with the lowest of all it
@@ -49,8 +49,8 @@ class HeavyWork:
         """What the job returns, done in a worker; raises what it raises, and `BusyError`."""
         if self._taken >= self._most:
             raise BusyError(
-                f"{self._taken} exports, replays, comparisons and maps are being worked at, which"
-                f" is all this lab takes at once: try again in {RETRY_AFTER_S} s."
+                f"{self._taken} exports, replays, comparisons, maps and laws in the arena are being"
+                f" worked at, which is all this lab takes at once: try again in {RETRY_AFTER_S} s."
             )
         self._taken += 1
         try:

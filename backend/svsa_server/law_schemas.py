@@ -8,6 +8,7 @@ from svsa.control.installed import (
     LawError,
     check_installed,
     get_law,
+    get_notes,
     has_own_parameters,
     list_law_names,
 )
@@ -51,6 +52,7 @@ class LawState(BaseModel):
     summary: str
     equation: str = Field(description="KaTeX")
     source: str = Field(description="Number of the paper's equation, a DOI, or empty")
+    notes: str = Field(description="Idea, equations and limits in words, or empty")
     estimate: EstimateSource = Field(description="Whose ŵ it acts on")
     takes_gains: bool = Field(description="Its parameters are the session's gains, of Eq 25")
     parameters: list[ParameterState] = Field(description="Its own; none where it takes gains")
@@ -72,6 +74,7 @@ def _describe(name: str) -> LawState:
             summary="",
             equation="",
             source="",
+            notes="",
             estimate="none",
             takes_gains=False,
             parameters=[],
@@ -83,6 +86,7 @@ def _describe(name: str) -> LawState:
         summary=law.summary,
         equation=law.equation,
         source=law.source,
+        notes=get_notes(name),
         estimate=law.estimate,
         takes_gains=not is_own,
         parameters=_list_parameters(law.parameters) if is_own else [],

@@ -3,6 +3,7 @@ const ROOMS = [
   ["main"],
   ["debug", "docs", "replay"],
   ["layout"],
+  ["arena"],
   ["keys"],
   ["runs"],
   ["controls", "control", "learning", "safety", "scene", "script"],

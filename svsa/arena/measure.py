@@ -64,36 +64,38 @@ def measure_law(entry: Entry, tell: Tell = lambda done: None, seed: int = PUBLIC
     """The row of a law. tell: is given the share that is done. seed: of the draws' season."""
     results = {scenario.name: run_scenario(scenario, entry) for scenario in SINGLE}
     tell(0.15)
-    unloading_faults = sum(run_scenario(one, entry).fault is not None for one in UNLOADINGS)
+    unloadings = [one.name for one in UNLOADINGS if run_scenario(one, entry).fault is not None]
     tell(0.3)
     largest_step = find_largest_step(entry)
     tell(0.4)
     draws = [(one, run_scenario(one, entry)) for one in build_draws(seed)]
     errors = [measure_rms(result, one.measured_s, one.duration_s) for one, result in draws]
     middle = median(math.inf if error is None else error for error in errors)
-    fails = sum(not has_held(result, one) for one, result in draws)
+    failed = tuple(one.name for one, result in draws if not has_held(result, one))
     tell(0.65)
     sweeps = tuple(run_sweep(sweep, entry) for sweep in build_sweeps())
     tell(0.95)
     outcomes = tuple(build_outcome(scenario, results[scenario.name]) for scenario in SINGLE)
-    parts = build_parts(sweeps, len(draws), fails, outcomes)
+    parts = build_parts(sweeps, len(draws), len(failed), outcomes)
     ideal, rig = results[IDEAL_4A.name], results[RIG_4A.name]
     return Row(
         law=entry.law,
         ideal_4a=FigureErrors(**_measure_figure(ideal)),
         rig_4a=RigErrors(**_measure_figure(rig), recovery_s=_find_recovery(rig)),
         unloading_peak_deg=measure_peak(results[UNLOADING.name], OFF_S, UNLOADING.duration_s),
-        unloading_faults_of_48=unloading_faults,
+        unloading_faults_of_48=len(unloadings),
         sine_2hz_rms_deg=measure_rms(results[SINE_2HZ.name], *STEADY_S),
         mass_rms_deg=measure_rms(results[MASS.name], *STEADY_S),
         draws_median_deg=middle if math.isfinite(middle) else None,
         draws_faults=sum(result.fault is not None for _, result in draws),
-        draws_fails=fails,
+        draws_fails=len(failed),
         largest_link_step_nm=largest_step,
         score=compute_score(parts),
         parts=parts,
         sweeps=sweeps,
         outcomes=outcomes,
+        unloadings_failed=tuple(unloadings),
+        draws_failed=failed,
         corners_fails_of_8=sum(not has_held(run_scenario(one, entry), one) for one in CORNERS),
     )
 

@@ -1,5 +1,6 @@
 """A law's row of the arena's table, and what stands behind it."""
 
+import math
 from typing import Any
 
 from svsa.checked import Checked, Number, Whole, quantity
@@ -85,6 +86,10 @@ class Row(Checked):
     parts: ScoreParts = quantity("", "Parts of the score")
     sweeps: tuple[SweepOutcome, ...] = quantity("", "The six sweeps of robustness")
     outcomes: tuple[Outcome, ...] = quantity("", "Every scenario that is told by itself")
+    unloadings_failed: tuple[str, ...] = quantity(
+        "", "Names of the unloadings that ended in a fault"
+    )
+    draws_failed: tuple[str, ...] = quantity("", "Names of the draws that did not hold")
     corners_fails_of_8: Whole = quantity("", "±50 % corners that ended in a fault or above 1°")
 
     @property
@@ -96,6 +101,20 @@ class Row(Checked):
         """How it went through the scenario of this name."""
         return next(one for one in self.outcomes if one.scenario == scenario)
 
+    def agrees_with(self, other: "Row") -> bool:
+        """Whether it says the same, numbers to nine digits: sums differ in the last with processors."""
+        return _agree(self.model_dump(), other.model_dump())
+
     def to_json(self) -> dict[str, Any]:
         """The row as `svsa arena run --json` prints it: `TABLE`, and nothing else."""
         return {name: value for name, value in self.model_dump().items() if name in TABLE}
+
+
+def _agree(one: Any, other: Any) -> bool:
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_agree(one[key], other[key]) for key in one)
+    if isinstance(one, tuple) and isinstance(other, tuple):
+        return len(one) == len(other) and all(map(_agree, one, other))
+    if isinstance(one, float) and isinstance(other, float):
+        return math.isclose(one, other, rel_tol=1e-9)
+    return one == other

@@ -3,7 +3,9 @@
 FL and NDOBC are found as anybody's are. A law is imported when it is first asked for.
 """
 
+import inspect
 from functools import cache
+from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 from typing import Annotated, Any
 
@@ -90,6 +92,16 @@ def get_title(name: str) -> str:
     if is_usable(name):
         return get_law(name).title
     return f"{name} (does not load)" if name in _find_entries() else f"{name} (not installed)"
+
+
+def get_notes(name: str) -> str:
+    """What the file of a law says of it: idea, equations, what it assumes, where it fails.
+
+    Empty for a law that cannot be used, or that says nothing.
+    """
+    if not is_usable(name):
+        return ""
+    return inspect.getdoc(import_module(_find_entries()[name].module)) or ""
 
 
 def has_own_parameters(name: str) -> bool:

@@ -29,6 +29,7 @@ import "./runs/runs.css";
 import "./runs/table.css";
 import "./runs/run.css";
 import "./runs/overlay.css";
+import "./arena/arena.css";
 import "./script/script.css";
 import { render } from "preact";
 import { watchHold } from "./bench/hold";

@@ -2,7 +2,7 @@ import { beforeEach, expect, it, vi } from "vitest";
 import type { LawRow } from "../src/api/types";
 
 const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
-  ...{ name, title: name.toUpperCase(), summary: "", equation: "u=0", source: "" },
+  ...{ name, title: name.toUpperCase(), summary: "", equation: "u=0", source: "", notes: "" },
   ...{ estimate: "none", takes_gains: false, parameters: [], problem: null },
   ...changes,
 });

@@ -1,3 +1,4 @@
+import { ArenaPage } from "../arena/page";
 import { BenchStrip } from "../bench/strip";
 import { Controls } from "../controls/controls";
 import { LoadButton } from "../controls/loadbutton";
@@ -6,7 +7,7 @@ import { HelpSheet } from "../keys/help";
 import { LearnPanel } from "../learning/panel";
 import { Tour } from "../learning/tour";
 import { Plots } from "../plots/plots";
-import { place } from "../runs/place";
+import { isOfRuns, place } from "../runs/place";
 import { PrivateBanner } from "../runs/private";
 import { Runs } from "../runs/runs";
 import { CallsDrawer } from "../script/drawer";
@@ -38,8 +39,10 @@ export function App() {
       <Banners />
       <HelpSheet />
       {phase.value === "locked" && <Login />}
-      {at.kind !== "lab" ? (
+      {isOfRuns(at) ? (
         <Runs at={at} />
+      ) : at.kind === "arena" ? (
+        <ArenaPage />
       ) : state === null ? (
         phase.value !== "ended" && <main class="waiting-page">{text.connection.waiting}</main>
       ) : (

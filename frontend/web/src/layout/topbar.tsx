@@ -1,3 +1,4 @@
+import { ArenaButton } from "../arena/page";
 import { HelpButton } from "../keys/help";
 import { LearnButton } from "../learning/panel";
 import { place } from "../runs/place";
@@ -53,6 +54,7 @@ export function TopBar() {
       )}
       <div class="topbar-end">
         <LearnButton />
+        <ArenaButton />
         <RunsButton />
         <CallsButton />
         <HelpButton />

@@ -1,13 +1,17 @@
-/** Where the reader is: the lab, the list of runs, one run at a moment, or several laid over. */
+/** Where the reader is: the lab, the arena, the list of runs, one run at a moment, or several laid over. */
 import { signal } from "@preact/signals";
 
 export type Place =
   | { kind: "lab" }
+  | { kind: "arena" }
   | { kind: "list" }
   | { kind: "run"; run: string; timeS: number }
   | { kind: "overlay"; runs: readonly string[] };
 
-const PARTS = ["runs", "run", "t", "overlay"] as const;
+/** Places that are recorded runs. */
+export type RunsPlace = Exclude<Place, { kind: "lab" | "arena" }>;
+
+const PARTS = ["arena", "runs", "run", "t", "overlay"] as const;
 const SEPARATOR = ",";
 
 /** Reads a query such as "?run=20260102-030405-9f8e7d6c&t=12.3". */
@@ -20,6 +24,7 @@ export function readPlace(query: string): Place {
   }
   const runs = (parts.get("overlay") ?? "").split(SEPARATOR).filter((id) => id !== "");
   if (runs.length > 0) return { kind: "overlay", runs };
+  if (parts.has("arena")) return { kind: "arena" };
   return { kind: parts.has("runs") ? "list" : "lab" };
 }
 
@@ -27,6 +32,7 @@ export function readPlace(query: string): Place {
 export function writePlace(place: Place, query: string): string {
   const parts = new URLSearchParams(query);
   for (const part of PARTS) parts.delete(part);
+  if (place.kind === "arena") parts.set("arena", "all");
   if (place.kind === "list") parts.set("runs", "all");
   if (place.kind === "overlay") parts.set("overlay", place.runs.join(SEPARATOR));
   if (place.kind === "run") {
@@ -36,6 +42,8 @@ export function writePlace(place: Place, query: string): string {
   const text = parts.toString().replaceAll("%2C", SEPARATOR);
   return text === "" ? "" : `?${text}`;
 }
+
+export const isOfRuns = (at: Place): at is RunsPlace => at.kind !== "lab" && at.kind !== "arena";
 
 export const place = signal<Place>(readPlace(location.search));
 
@@ -55,7 +63,7 @@ export function keepMoment(run: string, timeS: number): void {
 }
 
 export function toggleRuns(): void {
-  goTo({ kind: place.peek().kind === "lab" ? "list" : "lab" });
+  goTo({ kind: isOfRuns(place.peek()) ? "lab" : "list" });
 }
 
 export function followHistory(): void {

@@ -3,11 +3,11 @@ import { text } from "../text/en";
 import { deleted, takeBack } from "./list";
 import { ListPage } from "./listpage";
 import { OverlayPage } from "./overlaypage";
-import { type Place, place, toggleRuns } from "./place";
+import { isOfRuns, place, type RunsPlace, toggleRuns } from "./place";
 import { runsProblem } from "./problem";
 import { RunPage } from "./runpage";
 
-function Inside({ at }: { at: Exclude<Place, { kind: "lab" }> }) {
+function Inside({ at }: { at: RunsPlace }) {
   if (at.kind === "list") return <ListPage />;
   if (at.kind === "overlay") return <OverlayPage runs={at.runs} />;
   return <RunPage key={at.run} run={at.run} timeS={at.timeS} />;
@@ -41,7 +41,7 @@ function Undo() {
 }
 
 /** The recorded runs, in the place of the lab. */
-export function Runs({ at }: { at: Exclude<Place, { kind: "lab" }> }) {
+export function Runs({ at }: { at: RunsPlace }) {
   useEffect(() => {
     runsProblem.value = "";
   }, [at.kind]);
@@ -57,7 +57,7 @@ export function Runs({ at }: { at: Exclude<Place, { kind: "lab" }> }) {
 }
 
 export function RunsButton() {
-  const isOpen = place.value.kind !== "lab";
+  const isOpen = isOfRuns(place.value);
   return (
     <button
       type="button"

@@ -1,4 +1,5 @@
 /** Every word of the page, by area. */
+import { arenaText } from "./arena";
 import { benchText } from "./bench";
 import { controlText } from "./control";
 import { controlsText } from "./controls";
@@ -20,6 +21,7 @@ export const text = {
   ...plotsText,
   ...controlsText,
   ...controlText,
+  ...arenaText,
   ...benchText,
   ...designText,
   ...stabilityText,

@@ -1,0 +1,54 @@
+"""The arena: what was published of the laws, the same measured here, and any of its runs seen."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Path, Request
+
+from svsa.arena.find import find_scenario
+from svsa.arena.measure import Entry, measure_law
+from svsa.arena.results import Results, load_published
+from svsa.control.installed import BASELINE, PAPERS_LAW, InstalledLaw
+from svsa.run.configuration import Lane
+from svsa_server.arena_schemas import MeasuredRow, ScenarioRequest
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, Work
+from svsa_server.session_schemas import SessionState
+from svsa_server.state import build_state
+
+router = APIRouter(prefix="/arena", tags=["arena"])
+
+
+@router.get("")
+async def read_arena(_: NamedClient) -> Results:
+    """The table that this version of the lab was published with, a row a law.
+
+    Errors in degrees; what each number is of stands at its field. Laws that came later have none.
+    """
+    return load_published()
+
+
+@router.post("/laws/{law}/measurement", responses=REFUSALS | BUSY)
+async def measure(
+    _: NamedClient,
+    work: Work,
+    law: Annotated[InstalledLaw, Path(description="Name of a law", examples=["ndobc"])],
+) -> MeasuredRow:
+    """Put a law, as it is by default, through the whole suite: about 370 runs, some seconds."""
+    row = await work.run(measure_law, Entry(law))
+    published = {one.law: one for one in load_published().rows}
+    return MeasuredRow(row=row, is_published=law in published and row.agrees_with(published[law]))
+
+
+@router.post("/sessions", status_code=201, responses=REFUSALS)
+async def see_scenario(
+    request: Request,
+    _: NamedClient,
+    wanted: Annotated[
+        ScenarioRequest, Body(examples=[{"law": "ndobc_w", "scenario": "unloading"}])
+    ],
+) -> SessionState:
+    """A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL."""
+    beside = BASELINE if wanted.law == PAPERS_LAW else PAPERS_LAW
+    configuration = find_scenario(wanted.scenario).build_configuration(wanted.law)
+    return build_state(
+        request.app.state.laboratory.create(configuration.changed(rivals=(Lane(law=beside),)))
+    )

@@ -1,0 +1,124 @@
+import { useEffect } from "preact/hooks";
+import { goTo, place } from "../runs/place";
+import { titleOf } from "../state/laws";
+import { text } from "../text/en";
+import { measureAll, measuring, openArena, problem, results, stopMeasuring } from "./arena";
+import { COLUMNS } from "./columns";
+import { LawCard } from "./law";
+import { Radar } from "./radar";
+import { ArenaTable } from "./table";
+
+const words = text.arena;
+
+function Measure() {
+  const now = measuring.value;
+  if (now === null) {
+    return (
+      <button
+        type="button"
+        class="button"
+        title={words.measureHint}
+        onClick={() => void measureAll()}
+      >
+        {words.measure}
+      </button>
+    );
+  }
+  return (
+    <div class="arena-measuring">
+      <span role="status">{words.measuring(titleOf(now.law), now.done, now.of)}</span>
+      <progress value={now.done} max={now.of} aria-label={words.measure} />
+      <button type="button" class="button" onClick={stopMeasuring}>
+        {words.stop}
+      </button>
+    </div>
+  );
+}
+
+/** Which colour of the score's bar is which of its parts. */
+function ScoreParts() {
+  return (
+    <span class="arena-parts">
+      {words.columns.score.name}:
+      {(["robustness", "draws", "accuracy"] as const).map((part) => (
+        <span key={part}>
+          <i class={`is-${part}`} aria-hidden="true" /> {words.parts[part]}
+        </span>
+      ))}
+    </span>
+  );
+}
+
+/** What every column was measured on. */
+function Legend() {
+  return (
+    <details class="arena-card arena-legend">
+      <summary>{words.legend}</summary>
+      <dl>
+        {COLUMNS.map(({ key }) => (
+          <div key={key}>
+            <dt>{words.columns[key].name}</dt>
+            <dd>{words.columns[key].hint}</dd>
+          </div>
+        ))}
+      </dl>
+    </details>
+  );
+}
+
+/** Every law on the same plant, limits, noise and loads. */
+export function ArenaPage() {
+  useEffect(() => {
+    void openArena();
+    return stopMeasuring;
+  }, []);
+  const found = results.value;
+  return (
+    <main class="arena" aria-label={words.title}>
+      <div class="arena-head">
+        <div>
+          <h2>{words.title}</h2>
+          <p>{words.lead}</p>
+        </div>
+        {found && <Measure />}
+      </div>
+      <p class="problem" role="alert" hidden={problem.value === ""}>
+        {problem.value}
+      </p>
+      {found === null ? (
+        problem.value === "" && <p class="hint">{words.loading}</p>
+      ) : (
+        <>
+          <ArenaTable />
+          <p class="hint arena-note">
+            <ScoreParts />
+            {words.bars} {words.provenance(found.version, found.suite)}
+          </p>
+          <Legend />
+          <div class="arena-cards">
+            <Radar />
+            <LawCard />
+          </div>
+        </>
+      )}
+    </main>
+  );
+}
+
+export function ArenaButton() {
+  const isOpen = place.value.kind === "arena";
+  return (
+    <button
+      type="button"
+      class="button"
+      aria-pressed={isOpen}
+      title={isOpen ? text.runs.back : words.openHint}
+      onClick={() => goTo({ kind: isOpen ? "lab" : "arena" })}
+    >
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        <path d="M1 14V8h3.6v6zM6.2 14V2h3.6v12zM11.4 14V5.5H15V14z" />
+      </svg>
+      {words.open}
+    </button>
+  );
+}

@@ -1,0 +1,163 @@
+import type { Row } from "../api/arena";
+import { inkOf } from "../plots/inks";
+import { nextSort } from "../runs/table";
+import { titleOf } from "../state/laws";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
+import { choose, chosen, confirmed, measuring, opening, rows, see, sort } from "./arena";
+import { barOf, COLUMNS, type Column, isBest } from "./columns";
+
+const words = text.arena;
+
+function Head({ column }: { column: Column }) {
+  const { name, hint } = words.columns[column.key];
+  const isSorted = sort.value.replace(/^-/, "") === column.key;
+  const isDown = sort.value.startsWith("-");
+  return (
+    <th scope="col" aria-sort={isSorted ? (isDown ? "descending" : "ascending") : "none"}>
+      <button
+        type="button"
+        title={hint}
+        onClick={() => {
+          sort.value = nextSort(sort.peek(), column.key, column.isHighBetter ?? false);
+        }}
+      >
+        {name}
+        {column.unit && <span class="unit"> {column.unit}</span>}
+        <span class="sort-sign" aria-hidden="true">
+          {isSorted ? (isDown ? "▼" : "▲") : ""}
+        </span>
+      </button>
+    </th>
+  );
+}
+
+function Score({ row }: { row: Row }) {
+  const { robustness, draws, accuracy } = row.parts;
+  const parts = [
+    { key: "robustness", share: 0.5 * robustness },
+    { key: "draws", share: 0.3 * draws },
+    { key: "accuracy", share: 0.2 * accuracy },
+  ];
+  return (
+    <td class="arena-score" title={words.scoreOf(robustness, draws, accuracy)}>
+      <span class="arena-value">{row.score.toFixed(2)}</span>
+      <span class="arena-bar" aria-hidden="true">
+        {parts.map(({ key, share }) => (
+          <i key={key} class={`is-${key}`} style={{ width: `${100 * share}%` }} />
+        ))}
+      </span>
+    </td>
+  );
+}
+
+/** Counts and steps as they are, errors to three digits. */
+const formatValue = (column: Column, value: number): string =>
+  column.isLog ? formatNumber(value, 3, 4) : String(value);
+
+/** What stands where there is no number: why the run ended, or that it never settled. */
+const wordsOf = (column: Column, row: Row): string => {
+  const fault = column.faultOf(row);
+  if (fault !== null) return words.faults[fault] ?? fault.replaceAll("_", " ");
+  return column.key === "recovery" ? words.never : words.noNumber;
+};
+
+function Cell({ column, row }: { column: Column; row: Row }) {
+  const value = column.read(row);
+  const scenario = column.scenarioOf(row);
+  const shown = value === null ? wordsOf(column, row) : formatValue(column, value);
+  const best = isBest(column, row, rows.value);
+  const look = value === null ? "is-fault" : best ? "is-best" : "";
+  const law = titleOf(row.law);
+  if (column.key === "score" || scenario === null) return <Score row={row} />;
+  return (
+    <td class={look}>
+      <button
+        type="button"
+        title={words.see(law, words.columns[column.key].name)}
+        aria-label={words.seeLabel(law, words.columns[column.key].name, shown, best)}
+        disabled={opening.value !== ""}
+        onClick={() => void see(row.law, scenario)}
+      >
+        <span class="arena-value">{shown}</span>
+        {value !== null && (
+          <span class="arena-bar" aria-hidden="true">
+            <i
+              class={column.isHighBetter ? "is-good" : "is-bad"}
+              style={{ width: `${100 * barOf(column, value, rows.value)}%` }}
+            />
+          </span>
+        )}
+      </button>
+    </td>
+  );
+}
+
+/** Whether the published row came out again here. */
+function Confirmed({ row }: { row: Row }) {
+  const same = confirmed.value[row.law];
+  if (measuring.value?.law === row.law) {
+    return <span class="arena-confirmed is-busy" role="img" aria-label={words.measuringLaw} />;
+  }
+  if (same === undefined) return null;
+  return (
+    <span
+      class={`arena-confirmed ${same ? "" : "is-other"}`}
+      role="img"
+      aria-label={same ? words.same : words.other}
+      title={same ? words.same : words.other}
+    >
+      {same ? "✓" : "≠"}
+    </span>
+  );
+}
+
+/** A law a row; a press on a name brings it into the radar, a press on a number its run. */
+export function ArenaTable() {
+  return (
+    <section class="arena-scroll" aria-label={words.table}>
+      <table class="arena-table">
+        <caption class="visually-hidden">{words.tableHint}</caption>
+        <thead>
+          <tr>
+            <th scope="col" class="arena-law">
+              {words.law}
+            </th>
+            {COLUMNS.map((column) => (
+              <Head key={column.key} column={column} />
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {rows.value.map((row) => {
+            const at = chosen.value.indexOf(row.law);
+            const look = at < 0 ? undefined : inkOf(at).colour;
+            return (
+              <tr key={row.law}>
+                <th scope="row" class="arena-law">
+                  <button
+                    type="button"
+                    aria-pressed={at >= 0}
+                    title={words.chooseHint}
+                    onClick={() => choose(row.law)}
+                  >
+                    <i
+                      class="arena-dot"
+                      aria-hidden="true"
+                      style={look && { background: `var(--plot-${look})` }}
+                    />
+                    {titleOf(row.law)}
+                  </button>
+                  <Confirmed row={row} />
+                </th>
+                {COLUMNS.map((column) => (
+                  <Cell key={column.key} column={column} row={row} />
+                ))}
+              </tr>
+            );
+          })}
+        </tbody>
+      </table>
+    </section>
+  );
+}

@@ -1,0 +1,55 @@
+"""Results as a file, and what was published is what the suite measures."""
+
+import pytest
+
+import svsa
+from svsa.arena.find import find_scenario, list_scenarios
+from svsa.arena.measure import Entry, measure_law
+from svsa.arena.results import Results, load_published, read_results, write_results
+from svsa.arena.seeds import PUBLIC_SEED, SUITE_VERSION
+from svsa.control.installed import list_law_names
+
+
+@pytest.mark.parametrize("law", ["ndobc", "ndobc_w"])
+def test_what_was_published_of_a_law_is_what_it_measures(law):
+    """To nine digits: who changes a law or the suite runs `make arena`."""
+    published, measured = load_published().get_row(law), measure_law(Entry(law))
+    assert published.agrees_with(measured)
+    assert not published.agrees_with(measured.changed(score=measured.score * (1.0 + 1e-8)))
+
+
+def test_every_law_has_a_published_row_of_this_suite():
+    published = load_published()
+    assert published.suite == SUITE_VERSION
+    assert published.is_public
+    assert {row.law for row in published.rows} == set(list_law_names())
+
+
+def test_results_come_back_from_their_file(tmp_path):
+    results = Results.build(load_published().rows[:2], PUBLIC_SEED + 1)
+    write_results(tmp_path / "results.json", results)
+    assert read_results(tmp_path / "results.json") == results
+    assert not results.is_public
+
+
+def test_a_file_of_something_else_is_refused(tmp_path):
+    (tmp_path / "other.json").write_text("{}")
+    with pytest.raises(svsa.ParameterError, match=r"other\.json.*svsa arena run --save"):
+        read_results(tmp_path / "other.json")
+    with pytest.raises(svsa.ParameterError, match="one of ndobc"):
+        load_published().get_row("nobody")
+
+
+def test_a_run_of_the_suite_is_found_by_its_name():
+    for name in ("rig_4a", "unloading_12_3", "draw_41", "link_step_2.5", "delay_3_0"):
+        assert find_scenario(name).name == name
+    with pytest.raises(svsa.ParameterError, match="scenario, such as"):
+        find_scenario("nothing")
+
+
+def test_names_of_what_failed_are_names_of_runs():
+    names = {scenario.name for scenario in list_scenarios()}
+    for row in load_published().rows:
+        assert {*row.unloadings_failed, *row.draws_failed, *row.faults} <= names
+        assert len(row.unloadings_failed) == row.unloading_faults_of_48
+        assert len(row.draws_failed) == row.draws_fails

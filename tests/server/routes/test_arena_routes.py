@@ -1,0 +1,46 @@
+"""The arena over REST: the published table, a run of it to be seen, a law measured here."""
+
+import pytest
+
+from svsa.arena.results import load_published
+from tests.lab import Lab
+
+ARENA = "/api/v1/arena"
+
+
+def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> None:
+    answer = shared_lab.client.get(ARENA).raise_for_status().json()
+    published = load_published()
+    assert answer == published.model_dump(mode="json")
+    assert answer["is_public"]
+    assert {row["law"] for row in answer["rows"]} >= {"ndobc", "ndobc_w", "fl"}
+
+
+@pytest.mark.parametrize(("law", "beside"), [("ndobc_w", "ndobc"), ("ndobc", "fl")])
+def test_a_run_of_the_suite_is_seen_beside_the_papers_law(lab: Lab, law: str, beside: str) -> None:
+    wanted = {"law": law, "scenario": "unloading_18_4"}
+    state = lab.client.post(f"{ARENA}/sessions", json=wanted).raise_for_status().json()
+    configuration = state["configuration"]
+    assert configuration["law"] == law
+    assert [rival["law"] for rival in configuration["rivals"]] == [beside]
+    assert configuration["stiffness"]["stiffness_nm_per_rad"] == 18.0
+    assert [load["load"]["duration_s"] for load in state["loads"]] == [3.0]
+    assert configuration["effects"]["delay_samples"] == 1
+    assert state["session"] != "lab"
+    lab.client.delete(f"/api/v1/sessions/{state['session']}").raise_for_status()
+
+
+def test_a_run_that_there_is_not_is_refused_by_name(shared_lab: Lab) -> None:
+    wanted = {"law": "ndobc", "scenario": "moon"}
+    answer = shared_lab.client.post(f"{ARENA}/sessions", json=wanted)
+    assert answer.status_code == 422
+    assert "moon" in answer.json()["message"]
+    assert shared_lab.client.post(f"{ARENA}/laws/nobody/measurement").status_code == 422
+
+
+def test_a_law_measured_here_gives_its_published_row(shared_lab: Lab) -> None:
+    answer = shared_lab.client.post(f"{ARENA}/laws/ndobc/measurement", timeout=300.0)
+    found = answer.raise_for_status().json()
+    assert found["is_published"]
+    assert found["row"]["unloading_faults_of_48"] == 32
+    assert found["row"]["law"] == "ndobc"
