@@ -102,7 +102,7 @@ class Row(Checked):
         return next(one for one in self.outcomes if one.scenario == scenario)
 
     def agrees_with(self, other: "Row") -> bool:
-        """Whether it says the same, numbers to nine digits: sums differ in the last with processors."""
+        """Whether it says the same, numbers to nine digits (processors differ in the last)."""
         return _agree(self.model_dump(), other.model_dump())
 
     def to_json(self) -> dict[str, Any]:
