@@ -5,19 +5,22 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TimeElapsedColumn
 from rich.table import Table
 
 from svsa.arena.results import Results, measure_laws, read_results, write_results
-from svsa.arena.seeds import PUBLIC_SEED, SUITE_VERSION, derive_seed
-from svsa.arena.table import HEADINGS, build_cells, format_markdown
+from svsa.arena.seeds import PUBLIC_SEED, derive_seed
+from svsa.arena.table import SHORT, build_short_cells, format_markdown
 from svsa.control.installed import check_installed, list_law_names
 from svsa.errors import ParameterError, Violation
 from svsa.extras import require_extra
 
 arena = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")
 _messages = Console(stderr=True)
+LEAST_WIDTH = 110
+"""Columns of characters in which the table's numbers stand whole."""
 
 
 @arena.command("run")
@@ -57,7 +60,8 @@ def run_arena(
     elif markdown:
         print(format_markdown(found.rows))
     else:
-        Console().print(_build_table(found))
+        screen = Console()
+        Console(width=max(screen.width, LEAST_WIDTH)).print(_build_table(found))
 
 
 @arena.command("seed")
@@ -93,13 +97,17 @@ def _measure(names: list[str], seed: int) -> Results:
 def _build_table(results: Results) -> Table:
     draws = "the public seed" if results.is_public else f"seed {results.seed}"
     table = Table(
-        *HEADINGS,
-        title=f"Position errors [°]: suite {SUITE_VERSION}, draws of {draws}",
+        box=SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        title=f"Position errors [°]: suite {results.suite}, draws of {draws}",
         title_justify="left",
-        caption="Score: 0.5 robustness + 0.3 draws held + 0.2 accuracy; faults stand in the row."
-        " Fails: a fault, or above 1° in the last second.",
+        caption="ideal, peak, settled, recov.: Figure 4A ideal, and on the rig (s). Score: 0.5"
+        " robustness + 0.3 draws held + 0.2 accuracy. Fails, of 100: a fault, or above 1° in the"
+        " last second. Step: largest on the link, N·m. --markdown names the faults.",
         caption_justify="left",
     )
+    for number, heading in enumerate(SHORT):
+        table.add_column(heading, justify="right" if number else "left", no_wrap=True)
     for row in results.rows:
-        table.add_row(*build_cells(row))
+        table.add_row(*build_short_cells(row))
     return table

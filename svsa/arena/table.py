@@ -47,6 +47,38 @@ def build_cells(row: Row) -> tuple[str, ...]:
     )
 
 
+SHORT = (
+    "law", "score", "ideal", "peak", "settled", "recov.", "unload", "of 48", "2 Hz", "3 kg",
+    "draws", "fails", "step",
+)  # fmt: skip
+"""Of the table on a terminal: 4A ideal settled; on the rig peak, settled, recovery in s."""
+
+
+def build_short_cells(row: Row) -> tuple[str, ...]:
+    """As `build_cells`, a number a column; "fault" where a run ended early."""
+
+    def tell(number: float | None, scenario: str = "") -> str:
+        if number is not None:
+            return f"{number:.2g}" if number < 1.0 else f"{number:.3g}"
+        return "fault" if scenario in row.faults or not scenario else "never"
+
+    return (
+        get_title(row.law),
+        f"{row.score:.2f}",
+        tell(row.ideal_4a.steady_deg, "ideal_4a"),
+        tell(row.rig_4a.peak_deg, "rig_4a"),
+        tell(row.rig_4a.steady_deg, "rig_4a"),
+        tell(row.rig_4a.recovery_s, "rig_4a"),
+        tell(row.unloading_peak_deg, "unloading"),
+        str(row.unloading_faults_of_48),
+        tell(row.sine_2hz_rms_deg, "sine_2hz"),
+        tell(row.mass_rms_deg, "mass"),
+        tell(row.draws_median_deg),
+        str(row.draws_fails),
+        f"{row.largest_link_step_nm:g}",
+    )
+
+
 def format_markdown(rows: Iterable[Row]) -> str:
     """The table as Markdown."""
     lines = [HEADINGS, ("---",) * len(HEADINGS), *map(build_cells, rows)]

@@ -7,7 +7,9 @@ from typer.testing import CliRunner
 
 import svsa
 from svsa.arena.measure import Entry, measure_law
+from svsa.arena.results import PUBLISHED
 from svsa.arena.row import TABLE
+from svsa.arena.seeds import derive_seed
 from svsa.arena.table import HEADINGS, build_cells
 from svsa.cli import app
 
@@ -33,6 +35,30 @@ def test_a_row_as_json_and_as_markdown():
     assert heading == f"| {' | '.join(HEADINGS)} |"
     assert rule.count("---") == len(HEADINGS)
     assert "/ never |" in cells
+
+
+def test_the_table_of_what_was_kept_measures_nothing_and_stands_whole(tmp_path):
+    """In the order asked for; a picture beside it; what is no such file is refused."""
+    path = tmp_path / "table.png"
+    shown = run("pid", "fl", "--results", str(PUBLISHED), "--picture", str(path)).stdout
+    pid, fl = (shown.index(f" {title} ") for title in ("PID", "FL"))
+    assert pid < fl
+    assert "fault" in shown[pid:fl]
+    assert "never" in shown[fl:]
+    assert "…" not in shown
+    assert path.read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(svsa.ParameterError, match="svsa arena run --save"):
+        run("--results", str(path))
+
+
+def test_a_season_has_the_draws_of_its_secret(tmp_path):
+    secret = tmp_path / "secret"
+    secret.write_text("spring\n")
+    told = CliRunner().invoke(app, ["arena", "seed", str(secret)], catch_exceptions=False)
+    assert int(told.stdout, 16) == derive_seed(b"spring")
+    secret.write_text("")
+    with pytest.raises(svsa.ParameterError, match="not empty"):
+        run("fl", "--secret", str(secret))
 
 
 def test_where_a_run_ended_early_its_fault_stands():

@@ -1325,6 +1325,68 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/arena": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Arena
+         * @description The table that this version of the lab was published with, a row a law.
+         *
+         *     Errors in degrees; what each number is of stands at its field. Laws that came later have none.
+         */
+        get: operations["read_arena_api_v1_arena_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/arena/laws/{law}/measurement": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Measure
+         * @description Put a law, as it is by default, through the whole suite: about 370 runs, some seconds.
+         */
+        post: operations["measure_api_v1_arena_laws__law__measurement_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/arena/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * See Scenario
+         * @description A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL.
+         */
+        post: operations["see_scenario_api_v1_arena_sessions_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/requests/{request_name}": {
         parameters: {
             query?: never;
@@ -2103,6 +2165,27 @@ export interface components {
             };
         };
         /**
+         * FigureErrors
+         * @description Position errors under the paper's load; None where the run ended early.
+         */
+        FigureErrors: {
+            /**
+             * Before Deg
+             * @description rms before the load, 1–5 s, °
+             */
+            before_deg: number | null;
+            /**
+             * Peak Deg
+             * @description Peak, 5–7 s, °
+             */
+            peak_deg: number | null;
+            /**
+             * Steady Deg
+             * @description rms after it, 8–20 s, °
+             */
+            steady_deg: number | null;
+        };
+        /**
          * FigureState
          * @description A figure of the paper as data.
          */
@@ -2265,6 +2348,11 @@ export interface components {
             tick: number;
             /** Command */
             command: components["schemas"]["SetPosition"] | components["schemas"]["SetStiffness"] | components["schemas"]["SetLaw"] | components["schemas"]["SetLaws"] | components["schemas"]["SetGains"] | components["schemas"]["SetParameters"] | components["schemas"]["SetObserver"] | components["schemas"]["SetActuator"] | components["schemas"]["SetNominal"] | components["schemas"]["SetEffects"] | components["schemas"]["SetRivals"] | components["schemas"]["SetLane"] | components["schemas"]["ApplyLoad"] | components["schemas"]["RemoveLoad"];
+        };
+        /** HTTPValidationError */
+        HTTPValidationError: {
+            /** Detail */
+            detail?: components["schemas"]["ValidationError"][];
         };
         /**
          * Health
@@ -2464,6 +2552,11 @@ export interface components {
              * @description Number of the paper's equation, a DOI, or empty
              */
             source: string;
+            /**
+             * Notes
+             * @description Idea, equations and limits in words, or empty
+             */
+            notes: string;
             /**
              * Estimate
              * @description Whose ŵ it acts on
@@ -2711,6 +2804,18 @@ export interface components {
             arm_m: number;
         };
         /**
+         * MeasuredRow
+         * @description A row that this lab has just measured.
+         */
+        MeasuredRow: {
+            row: components["schemas"]["Row"];
+            /**
+             * Is Published
+             * @description Whether every number agrees with the published row
+             */
+            is_published: boolean;
+        };
+        /**
          * MeasuredWindow
          * @description Ticks first … end − 1 of a recorded run, as far as they are in the record.
          *
@@ -2915,6 +3020,42 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /**
+         * Outcome
+         * @description How a law went through one scenario, from the load on; numbers None where it ended early.
+         */
+        Outcome: {
+            /**
+             * Scenario
+             * @description Name of the scenario
+             */
+            scenario: string;
+            /**
+             * Title
+             * @description The scenario in words
+             */
+            title: string;
+            /**
+             * Rms Deg
+             * @description rms position error, °
+             */
+            rms_deg: number | null;
+            /**
+             * Peak Deg
+             * @description Greatest position error, °
+             */
+            peak_deg: number | null;
+            /**
+             * Torque Change Nm
+             * @description rms change of u1 from tick to tick, N·m
+             */
+            torque_change_nm: number | null;
+            /**
+             * Fault
+             * @description Code of the fault that ended the run
+             */
+            fault: string | null;
         };
         /**
          * OutcomeState
@@ -3306,6 +3447,63 @@ export interface components {
             disturbance: components["schemas"]["FrequencyResponseState"] | null;
         };
         /**
+         * Results
+         * @description Rows, and what they were measured with.
+         */
+        Results: {
+            /**
+             * Suite
+             * @description Version of the suite
+             */
+            suite: string;
+            /**
+             * Version
+             * @description Version of the lab
+             */
+            version: string;
+            /**
+             * Is Public
+             * @description Whether the draws are those of the public seed
+             */
+            is_public: boolean;
+            /**
+             * Seed
+             * @description Seed of the draws, in hexadecimal
+             */
+            seed: string;
+            /**
+             * Rows
+             * @description A row a law
+             */
+            rows: components["schemas"]["Row"][];
+        };
+        /**
+         * RigErrors
+         * @description With the time until the error stays within 2 % of its peak.
+         */
+        RigErrors: {
+            /**
+             * Before Deg
+             * @description rms before the load, 1–5 s, °
+             */
+            before_deg: number | null;
+            /**
+             * Peak Deg
+             * @description Peak, 5–7 s, °
+             */
+            peak_deg: number | null;
+            /**
+             * Steady Deg
+             * @description rms after it, 8–20 s, °
+             */
+            steady_deg: number | null;
+            /**
+             * Recovery S
+             * @description Recovery; None if it does not settle, s
+             */
+            recovery_s: number | null;
+        };
+        /**
          * Root
          * @description A root of Eq 25, rad/s.
          */
@@ -3314,6 +3512,93 @@ export interface components {
             re: number;
             /** Im */
             im: number;
+        };
+        /**
+         * Row
+         * @description What a law shows, errors in degrees, rms but for peaks.
+         */
+        Row: {
+            /**
+             * Law
+             * @description Name of the law
+             */
+            law: string;
+            /** @description Figure 4A, ideal */
+            ideal_4a: components["schemas"]["FigureErrors"];
+            /** @description Figure 4A on the rig */
+            rig_4a: components["schemas"]["RigErrors"];
+            /**
+             * Unloading Peak Deg
+             * @description Peak after the load is taken off, °
+             */
+            unloading_peak_deg: number | null;
+            /**
+             * Unloading Faults Of 48
+             * @description Unloadings that ended in a fault
+             */
+            unloading_faults_of_48: number;
+            /**
+             * Sine 2Hz Rms Deg
+             * @description rms under 1.5 N·m at 2 Hz, °
+             */
+            sine_2hz_rms_deg: number | null;
+            /**
+             * Mass Rms Deg
+             * @description rms under 3 kg, °
+             */
+            mass_rms_deg: number | null;
+            /**
+             * Draws Median Deg
+             * @description Median of the draws' rms, None if a fault, °
+             */
+            draws_median_deg: number | null;
+            /**
+             * Draws Faults
+             * @description Draws that ended in a fault
+             */
+            draws_faults: number;
+            /**
+             * Draws Fails
+             * @description Draws that ended in a fault, or with more than 1° in the last second
+             */
+            draws_fails: number;
+            /**
+             * Largest Link Step Nm
+             * @description Largest step on the link that is survived, N·m
+             */
+            largest_link_step_nm: number;
+            /**
+             * Score
+             * @description 0.5 robustness + 0.3 draws + 0.2 accuracy, 1
+             */
+            score: number;
+            /** @description Parts of the score */
+            parts: components["schemas"]["ScoreParts"];
+            /**
+             * Sweeps
+             * @description The six sweeps of robustness
+             */
+            sweeps: components["schemas"]["SweepOutcome"][];
+            /**
+             * Outcomes
+             * @description Every scenario that is told by itself
+             */
+            outcomes: components["schemas"]["Outcome"][];
+            /**
+             * Unloadings Failed
+             * @description Names of the unloadings that ended in a fault
+             */
+            unloadings_failed: string[];
+            /**
+             * Draws Failed
+             * @description Names of the draws that did not hold
+             */
+            draws_failed: string[];
+            /**
+             * Corners Fails Of 8
+             * @description ±50 % corners that ended in a fault or above 1°
+             */
+            corners_fails_of_8: number;
         };
         /**
          * RunCommand
@@ -3747,6 +4032,40 @@ export interface components {
              * @description When it went into the trash, UTC
              */
             deleted: string | null;
+        };
+        /**
+         * ScenarioRequest
+         * @description A law in a scenario of the suite.
+         */
+        ScenarioRequest: {
+            /** Law */
+            law: string;
+            /**
+             * Scenario
+             * @description Name of the run, such as rig_4a or draw_12
+             */
+            scenario: string;
+        };
+        /**
+         * ScoreParts
+         * @description What the score is made of: 0.5 robustness + 0.3 draws + 0.2 accuracy.
+         */
+        ScoreParts: {
+            /**
+             * Robustness
+             * @description Mean of the six sweeps' shares, 1
+             */
+            robustness: number;
+            /**
+             * Draws
+             * @description Share of the draws that held, 1
+             */
+            draws: number;
+            /**
+             * Accuracy
+             * @description Mean of 1 − tanh(rms / 1°), 0 for a fault, 1
+             */
+            accuracy: number;
         };
         /**
          * SensorNoise
@@ -4648,6 +4967,42 @@ export interface components {
             ink: number;
         };
         /**
+         * SweepOutcome
+         * @description How far one thing may be wrong.
+         */
+        SweepOutcome: {
+            /**
+             * Sweep
+             * @description Name of the sweep
+             */
+            sweep: string;
+            /**
+             * Title
+             * @description What is varied
+             */
+            title: string;
+            /**
+             * Unit
+             * @description Unit of the values, 1 for a ratio
+             */
+            unit: string;
+            /**
+             * Values
+             * @description What was tried
+             */
+            values: number[];
+            /**
+             * Passed
+             * @description Share of the runs that held, for each value, 1
+             */
+            passed: number[];
+            /**
+             * Share
+             * @description Share of all runs that held, 1
+             */
+            share: number;
+        };
+        /**
          * TorqueDemandState
          * @description What the load asks of the motors, from a simulation of the session's motion.
          */
@@ -4799,6 +5154,19 @@ export interface components {
              * @description Why it failed
              */
             problem: string | null;
+        };
+        /** ValidationError */
+        ValidationError: {
+            /** Location */
+            loc: (string | number)[];
+            /** Message */
+            msg: string;
+            /** Error Type */
+            type: string;
+            /** Input */
+            input?: unknown;
+            /** Context */
+            ctx?: Record<string, never>;
         };
         /**
          * ViolationModel
@@ -9890,6 +10258,199 @@ export interface operations {
                 };
                 content: {
                     "text/plain": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_arena_api_v1_arena_get: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Results"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Validation Error */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HTTPValidationError"];
+                };
+            };
+        };
+    };
+    measure_api_v1_arena_laws__law__measurement_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of a law */
+                law: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MeasuredRow"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    see_scenario_api_v1_arena_sessions_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ScenarioRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, or for another host than this one. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
                 };
             };
         };
