@@ -112,14 +112,15 @@ def save_losses(path: Path) -> None:
     """Where NDOBC loses: its errors beside those of FL and of NDOBC-W, on the rig at σ = 15."""
     picture = Picture(figsize=(12.0, 3.7), layout="constrained")
     for axes, loss in zip(picture.subplots(1, len(LOSSES)), LOSSES, strict=True):
-        for law, color in zip((BASELINE, PAPERS_LAW, BEARS), COLORS, strict=False):
+        for law, color in zip((PAPERS_LAW, BASELINE, BEARS), COLORS, strict=False):
             style = style_law(law) | {"color": color, "linestyle": "-", "linewidth": 1.8}
             _draw_run(axes, loss, law, style)
         axes.set(title=loss.title, xlabel="Time [s]", xlim=loss.window)
         axes.title.set_fontsize(11)
         axes.grid(alpha=0.25)
         axes.axhline(0.0, color="#444444", linewidth=0.8)
-        axes.legend(fontsize=8, loc="lower right")
+    handles, names = picture.axes[0].get_legend_handles_labels()
+    picture.legend(handles, names, loc="outside lower center", ncols=len(names), frameon=False)
     picture.axes[0].set_ylabel("Position error [°]")
     picture.savefig(path, dpi=110)
 
