@@ -185,3 +185,14 @@ def test_every_group_of_controls_is_in_sight_or_named_at_the_edge(visited: Page)
 def test_what_opens_stays_on_the_screen(visited: Page) -> None:
     problems = measure(visited, FIND_POPUP_PROBLEMS, sizes=(SIZES[0], SIZES[2]))
     assert not problems, "\n".join(problems)
+
+
+@pytest.mark.parametrize("visited", ["simulation"], indirect=True)
+def test_what_is_open_follows_its_button_where_the_window_changes(visited: Page) -> None:
+    visited.set_viewport_size({"width": 1440, "height": 900})
+    visited.get_by_role("button", name="Plots", exact=True).click()
+    opened = visited.locator(".popup:popover-open")
+    expect(opened).to_be_in_viewport(ratio=1)
+    visited.set_viewport_size({"width": 1280, "height": 720})
+    expect(opened).to_be_in_viewport(ratio=1)
+    visited.keyboard.press("Escape")

@@ -104,6 +104,8 @@ def test_an_ended_private_session_says_so_and_leads_back(page: Page, lab: Lab) -
     banner = page.get_by_role("complementary", name="Private session")
     expect(banner).to_contain_text("has ended")
     expect(bar.get_by_text("Running")).to_have_count(0)
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
     page.reload()
     expect(banner, "a link to it says so too").to_contain_text("has ended")
     expect(page.get_by_text("Waiting for the lab")).to_have_count(0)

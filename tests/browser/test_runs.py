@@ -224,6 +224,10 @@ def test_a_link_opens_the_same_run_at_the_same_moment(
     page.goto(f"{own_lab.url}/?run={runs[0]}&t=5.25")
     time = find_replay(page).get_by_role("status", name="Time")
     expect(time).to_have_text("5.25 s", timeout=PATIENCE_MS)
+    plots = find_replay(page).get_by_role("region", name="Plots", exact=True)
+    over = "one => [...one.children].at(-1).getBoundingClientRect().bottom - "
+    over += "one.getBoundingClientRect().bottom"
+    assert plots.evaluate(over) < 0, "the axis of time lies within its panel"
     find_replay(page).get_by_role("slider", name="Time").fill("2.5")
     expect(page.get_by_role("button", name="Branch at 2.5 s")).to_be_visible()
     page.wait_for_url(re.compile(r"t=2\.5\b"))

@@ -102,6 +102,12 @@ def test_a_parameter_file_is_the_model_in_library_server_and_session(lab: Lab, t
     answer = lab.client.put(lab.session + "/nominal", json={"toml": path.read_text("utf-8")})
     configuration = answer.raise_for_status().json()["configuration"]
     assert configuration["nominal"] == configuration["actuator"]
+    before = lab.read()["configuration"]
+    text = path.read_text("utf-8") + "\n[parameters.fl_integral]\nposition_pole_rad_per_s = 40.0\n"
+    answer = lab.client.put(lab.session + "/nominal", json={"toml": text}).raise_for_status()
+    after = answer.json()["configuration"]
+    assert after["parameters"]["fl_integral"]["position_pole_rad_per_s"] == 40.0
+    assert (after["gains"], after["actuator"]) == (before["gains"], before["actuator"])
     refused = lab.client.put(lab.session + "/nominal", json={"toml": "[nominal]\nradius_m = 'x'"})
     assert refused.status_code == 422
     assert "radius_m" in refused.json()["message"]

@@ -51,6 +51,14 @@ def load_nominal(
         ParameterFileRequest, Body(examples=[{"toml": "[nominal]\nradius_m = 0.075"}])
     ],
 ) -> SessionState:
-    """Let controller and observer believe in the nominal model of a parameter file (TOML)."""
-    hosted.session.change("nominal", parse_design(request.toml).nominal)
+    """Take the nominal model of a parameter file (TOML), and the parameters of laws in it.
+
+    Gains, observer, the true plant and limits stay as they are.
+    """
+    design = parse_design(request.toml)
+    hosted.session.change("nominal", design.nominal)
+    if design.parameters:
+        hosted.session.patch(
+            "parameters", lambda configuration: {**configuration.parameters, **design.parameters}
+        )
     return build_state(hosted)

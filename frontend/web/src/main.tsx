@@ -42,6 +42,7 @@ import { startFrames } from "./plots/frame";
 import { followHistory } from "./runs/place";
 import { watchRecording } from "./runs/saved";
 import { watchGraphics } from "./scene/viewer";
+import { watchBeside } from "./state/beside";
 import { openLaws } from "./state/laws";
 import { openStream, watchNetwork } from "./state/session";
 
@@ -53,6 +54,7 @@ openDebugDoor();
 startFrames();
 watchNetwork();
 watchDesign();
+watchBeside();
 watchGraphics();
 watchHold();
 watchRecording();

@@ -26,6 +26,7 @@ const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
 });
 
 let sent: { path: string; body: unknown }[] = [];
+let answer = () => stateOf("ndobc", []);
 
 beforeEach(() => {
   vi.resetModules();
@@ -33,12 +34,13 @@ beforeEach(() => {
   vi.stubGlobal("document", { baseURI: "http://lab/" });
   vi.stubGlobal("location", { search: "" });
   sent = [];
+  answer = () => stateOf("ndobc", []);
   vi.stubGlobal("fetch", async (address: URL | string, { body }: RequestInit) => {
     sent.push({
       path: String(address).split("/sessions/")[1] as string,
       body: JSON.parse(String(body)),
     });
-    return new Response(JSON.stringify(stateOf("ndobc", [])), {
+    return new Response(JSON.stringify(answer()), {
       headers: { "Content-Type": "application/json" },
     });
   });
@@ -78,7 +80,7 @@ it("only a lane without settings of its own changes places with the session's la
   expect(lawsBeside("fl", own)).toEqual([]);
 });
 
-it("a step back brings back what differs, lane by lane, and nothing of a lane that went", async () => {
+it("a step back brings back what differs, lane by lane, and of those that went the tuned", async () => {
   const { callsBack, designOf, isSame } = await import("../src/design/history");
   const slow = { law: "fl_integral", parameters: { position_pole_rad_per_s: 40 } };
   const fast = { law: "fl_integral", parameters: { position_pole_rad_per_s: 70 } };
@@ -91,9 +93,60 @@ it("a step back brings back what differs, lane by lane, and nothing of a lane th
     { path: "lab/parameters", body: { fl_integral: POLE } },
     { path: "lab/lanes/2", body: slow },
   ]);
+  const plain = stateOf("ndobc", [{ law: "fl" }]);
   const gone = stateOf("ndobc", []);
-  expect(isSame(designOf(before), designOf(gone))).toBe(true);
-  expect(callsBack(designOf(before), gone)).toEqual([]);
+  expect(isSame(designOf(plain), designOf(gone))).toBe(true);
+  expect(callsBack(designOf(plain), gone)).toEqual([]);
+  expect(isSame(designOf(before), designOf(gone))).toBe(false);
+  for (const call of callsBack(designOf(before), gone)) await call();
+  expect(sent.at(-1)).toEqual({ path: "lab/lanes", body: { rivals: [slow] } });
+  expect(isSame(designOf(before), designOf(plain))).toBe(false);
+});
+
+it("a tuned lane that was removed is brought back, and what it was before that after it", async () => {
+  const { session } = await import("../src/state/session");
+  const { steps, undo, watchDesign } = await import("../src/design/history");
+  const tuned = (pole: number) => ({ law: "fl", parameters: { position_pole_rad_per_s: pole } });
+  const show = (rivals: Lane[], id: number) => {
+    const state = stateOf("ndobc", rivals);
+    for (const lane of state.lanes.slice(1)) lane.id = id;
+    session.value = state;
+    return state;
+  };
+  watchDesign();
+  for (const lanes of [[tuned(40)], [tuned(60)], []]) show(lanes, 2);
+  expect(steps.value).toHaveLength(2);
+  answer = () => show([tuned(60)], 3);
+  await undo();
+  answer = () => show([tuned(40)], 3);
+  await undo();
+  expect(sent).toEqual([
+    { path: "lab/lanes", body: { rivals: [tuned(60)] } },
+    { path: "lab/lanes/2", body: tuned(40) },
+  ]);
+  expect(steps.value).toEqual([]);
+});
+
+it("the comparison is switched on again with those that stood beside last", async () => {
+  const { laws } = await import("../src/state/laws");
+  const { session } = await import("../src/state/session");
+  const { watchBeside } = await import("../src/state/beside");
+  const { toggleCompare } = await import("../src/state/commands");
+  laws.value = [law("ndobc"), law("fl"), law("fl_integral")];
+  watchBeside();
+  await toggleCompare(stateOf("ndobc", []));
+  const beside = [{ law: "fl_integral", parameters: POLE }, { law: "fl" }];
+  session.value = stateOf("ndobc", beside);
+  await toggleCompare(session.value);
+  session.value = stateOf("ndobc", []);
+  await toggleCompare(session.value);
+  await toggleCompare(stateOf("fl", []));
+  expect(sent.map(({ body }) => body)).toEqual([
+    { rivals: [{ law: "fl" }] },
+    { rivals: [] },
+    { rivals: beside },
+    { rivals: beside.slice(0, 1) },
+  ]);
 });
 
 it("laws are found by any of their words, and stand by whose estimate they act on", async () => {

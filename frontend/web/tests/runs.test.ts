@@ -191,6 +191,14 @@ describe("a recording that has ended", () => {
     await vi.advanceTimersByTimeAsync(1000);
     await done;
     expect(saved.value).toMatchObject({ stage: "saved", details: { title: "Fig. 4A" } });
+    await vi.advanceTimersByTimeAsync(15_000);
+    expect(saved.value).not.toBeNull();
+    await vi.advanceTimersByTimeAsync(6000);
+    expect(saved.value, "it does not stay for ever").toBeNull();
+    vi.stubGlobal("fetch", async () => Response.json({ state: "cut", message: "cut off" }));
+    await followSaved("run-3");
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(saved.value, "what is not whole stays until it was seen").not.toBeNull();
     vi.stubGlobal("fetch", () => Promise.reject(new TypeError("offline")));
     const lost = followSaved("run-2", 1000);
     await vi.advanceTimersByTimeAsync(5000);

@@ -1,6 +1,8 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import type { Metrics, WindowState } from "../src/api/types";
 import { recoveryOf, sinceOf } from "../src/layout/window";
+import { text as page } from "../src/text/en";
+import { text as replay } from "../src/text/replay";
 
 const window = (
   kind: WindowState["kind"],
@@ -18,11 +20,29 @@ const metrics = (seconds: number | null) => ({ recovery_time_s: seconds }) as Me
 
 describe("a window", () => {
   it("says since when and since what", () => {
-    expect(sinceOf(window("start", ""))).toBe("Since the start");
-    expect(sinceOf(window("load", "3 kg load"))).toBe("Since 3 kg load at 5.00 s");
-    expect(sinceOf(window("change", "NDOBC → FL"))).toBe("Since NDOBC → FL at 5.00 s");
-    expect(sinceOf(window("change", "Gains changed"))).toBe("Since gains changed at 5.00 s");
+    expect(sinceOf(window("start", ""))).toBe("From the start");
+    expect(sinceOf(window("load", "3 kg load"))).toBe("3 kg load, since 5.00 s");
+    expect(sinceOf(window("change", "NDOBC → FL"))).toBe("NDOBC → FL, since 5.00 s");
+    expect(sinceOf(window("change", "Gains changed"))).toBe("Gains changed, since 5.00 s");
   });
+});
+
+it("says it in the words of the replay and the overlay", async () => {
+  vi.stubGlobal("location", { search: "" });
+  const { describeMeasured } = await import("../src/runs/measured");
+  for (const [kind, label] of [
+    ["load", "3 kg load"],
+    ["start", ""],
+  ] as const) {
+    const live = sinceOf(window(kind, label));
+    const recorded = { label, start_s: 5, end_s: 9, is_whole: false, lanes: [], load_ended: false };
+    const told = describeMeasured(recorded);
+    expect(told.split(",")[0]).toBe(live.split(",")[0]);
+  }
+  expect(page.compare.rms).toBe(replay.numbers.rms);
+  expect(page.readout.peak).toBe(replay.numbers.peak);
+  expect(page.overlay.settledError).toBe(replay.numbers.settled);
+  expect(page.overlay.recovery).toBe(page.compare.recovery);
 });
 
 describe("the recovery from a load", () => {

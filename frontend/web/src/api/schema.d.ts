@@ -643,7 +643,9 @@ export interface paths {
         get?: never;
         /**
          * Load Nominal
-         * @description Let controller and observer believe in the nominal model of a parameter file (TOML).
+         * @description Take the nominal model of a parameter file (TOML), and the parameters of laws in it.
+         *
+         *     Gains, observer, the true plant and limits stay as they are.
          */
         put: operations["load_nominal_api_v1_sessions__session__nominal_put"];
         post?: never;

@@ -1,8 +1,9 @@
 import { useId } from "preact/hooks";
 import type { SessionState } from "../api/types";
+import { comparedWith } from "../state/beside";
 import { addLane, CONTROL, toggleCompare } from "../state/commands";
 import { lanesBeside } from "../state/lanes";
-import { otherLaw, titleOf } from "../state/laws";
+import { titleOf } from "../state/laws";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
 import { Beside } from "./beside";
@@ -14,15 +15,14 @@ const words = text.beside;
 /** Other controllers beside the session's own: switched on and off, added, set, removed. */
 export function Compare({ state }: { state: SessionState }) {
   const beside = lanesBeside(state);
-  const other = otherLaw(state.configuration.law);
   const id = useId();
   const isOn = beside.length > 0;
   const isRecording = state.recording !== null;
   const isFull = state.lanes.length >= MAX_LANES;
   const most = beside.length;
-  if (!isOn && other === undefined) return null;
-  const laws = isOn ? beside.map(({ controller }) => controller.law) : [other ?? ""];
-  const names = [...new Set(laws)].map(titleOf).join(", ");
+  const compared = isOn ? beside.map(({ controller }) => controller) : comparedWith(state);
+  if (compared.length === 0) return null;
+  const names = [...new Set(compared.map(({ law }) => law))].map(titleOf).join(", ");
   const whyNotAdded = isFull ? words.full(most) : words.addHint;
   return (
     <>

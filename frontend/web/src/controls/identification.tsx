@@ -1,3 +1,4 @@
+import { useId } from "preact/hooks";
 import { excite, putNominal, stopExcitation } from "../api/client";
 import type { SessionState } from "../api/types";
 import { perform } from "../state/actions";
@@ -53,6 +54,7 @@ export function Identification({ state }: { state: SessionState }) {
 }
 
 function ModelFile() {
+  const id = useId();
   const load = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
     if (file === undefined) return;
@@ -62,15 +64,19 @@ function ModelFile() {
   };
   return (
     <>
-      <label class="button identification-file" title={words.fileHint}>
+      <label class="button identification-file">
         {words.file}
         <input
           type="file"
           accept=".toml"
           class="visually-hidden"
+          aria-describedby={id}
           onChange={(event) => void load(event.currentTarget)}
         />
       </label>
+      <p class="hint" id={id}>
+        {words.fileHint}
+      </p>
       <Problem control="identification.file" />
     </>
   );

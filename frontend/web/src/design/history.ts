@@ -1,9 +1,9 @@
 /** What gains, observer and parameters of laws were before: a step for every change, whoever made it. */
 import { effect, signal } from "@preact/signals";
-import { putGains, putLane, putObserver, putParameters } from "../api/client";
+import { putGains, putLane, putLanes, putObserver, putParameters } from "../api/client";
 import type { Lane, SessionState } from "../api/types";
 import { perform } from "../state/actions";
-import { lanesBeside } from "../state/lanes";
+import { hasOwnSettings, lanesBeside, rivalsOf } from "../state/lanes";
 import { session } from "../state/session";
 
 const MAX_STEPS = 50;
@@ -42,21 +42,29 @@ export const changedLaws = (one: Design, other: Design): string[] =>
     (law) => law in other.parameters && !isEqual(one.parameters[law], other.parameters[law]),
   );
 
-/** The lanes that both designs have, under the same law and set differently. */
+/** The lanes that both designs have, set differently; under another law if settings went. */
 export const changedLanes = (one: Design, other: Design): string[] =>
   Object.keys(one.beside).filter((id) => {
     const [held, now] = [one.beside[id], other.beside[id]];
-    return held !== undefined && held.law === now?.law && !isEqual(held, now);
+    if (held === undefined || now === undefined || isEqual(held, now)) return false;
+    return held.law === now.law || hasOwnSettings(held);
   });
+
+/** The lanes with settings of their own that are no more. */
+export const lostLanes = (one: Design, other: Design): string[] =>
+  Object.keys(one.beside).filter(
+    (id) => other.beside[id] === undefined && hasOwnSettings(one.beside[id] as Lane),
+  );
 
 const isOther = (key: "position" | "stiffness" | "observer", one: Design, other: Design) =>
   !isEqual(one[key], other[key]);
 
-/** Whether nothing that can be taken back differs: what lanes and laws there are is none of it. */
+/** Whether nothing that can be taken back differs: a lane without settings of its own is not. */
 export const isSame = (one: Design, other: Design): boolean =>
   !(["position", "stiffness", "observer"] as const).some((key) => isOther(key, one, other)) &&
   changedLaws(one, other).length === 0 &&
-  changedLanes(one, other).length === 0;
+  changedLanes(one, other).length === 0 &&
+  lostLanes(one, other).length === 0;
 
 /** The steps after a change to `next`: the one before it is kept. */
 export function keepStep(kept: readonly Design[], before: Design): Design[] {
@@ -79,6 +87,8 @@ export function watchDesign(): void {
 export function callsBack(design: Design, state: SessionState): (() => Promise<SessionState>)[] {
   const now = designOf(state);
   const calls: (() => Promise<SessionState>)[] = [];
+  const lost = lostLanes(design, now).map((id) => design.beside[id] as Lane);
+  if (lost.length > 0) calls.push(() => putLanes([...rivalsOf(state), ...lost]));
   if (isOther("position", design, now) || isOther("stiffness", design, now)) {
     const [c0, c1, c2, c3] = design.position as [number, number, number, number];
     const [s0, s1] = design.stiffness as [number, number];
@@ -97,20 +107,33 @@ export function callsBack(design: Design, state: SessionState): (() => Promise<S
   return calls;
 }
 
-/** Back by one step, past those whose lane has gone; resolves false where the server refused. */
+/** A lane that is brought back is another one to the server: earlier steps learn its identity. */
+function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design {
+  const beside = Object.entries(design.beside).map(([id, lane]) => [names.get(id) ?? id, lane]);
+  return { ...design, beside: Object.fromEntries(beside) };
+}
+
+/** Back by one step, past those that have nothing left; resolves false where the server refused. */
 export async function undo(): Promise<boolean> {
   const state = session.peek();
   if (state === null || isUndoing) return false;
   steps.value = steps.peek().filter((step) => callsBack(step, state).length > 0);
   const last = steps.peek().at(-1);
   if (last === undefined) return false;
+  const lost = lostLanes(last, designOf(state));
+  let back: string[] = [];
   isUndoing = true;
   const isDone = await perform("design.undo", async () => {
     let reached = state;
     for (const call of callsBack(last, state)) reached = await call();
+    if (lost.length > 0) back = Object.keys(designOf(reached).beside).slice(-lost.length);
     return reached;
   });
   isUndoing = false;
-  if (isDone) steps.value = steps.peek().slice(0, -1);
+  if (isDone) {
+    const names = new Map(lost.map((id, index) => [id, back[index] ?? id]));
+    const kept = steps.peek().slice(0, -1);
+    steps.value = kept.map((step) => renameLanes(step, names));
+  }
   return isDone;
 }

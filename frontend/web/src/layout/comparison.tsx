@@ -2,7 +2,7 @@ import { useCallback } from "preact/hooks";
 import type { LaneRow, SessionState } from "../api/types";
 import { inkOf } from "../plots/inks";
 import { Swatch } from "../plots/legend";
-import { samples } from "../state/session";
+import { isLive, samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { bestOf } from "../widgets/best";
@@ -63,7 +63,7 @@ export function Comparison({ state }: { state: SessionState }) {
         <tr>
           <th scope="col">{compare.lane}</th>
           <th scope="col">
-            {compare.now} {deg}
+            {isLive.value ? compare.now : compare.lastKnown} {deg}
           </th>
           <th scope="col">
             {compare.rms} {deg}

@@ -10,6 +10,8 @@ import { text } from "../text/en";
 
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5];
+const RUN = "M2 1l9 5-9 5z";
+const PAUSE = "M2 1h3v10H2zM7 1h3v10H7z";
 const STEPS_MS = [1, 10, 100, 1000];
 
 /** A figure runs with the lanes and the realism that the student has chosen. */
@@ -110,10 +112,21 @@ export function Transport({ state }: { state: SessionState }) {
         aria-keyshortcuts="Space"
         onClick={() => void toggleRun(state)}
       >
-        <svg viewBox="0 0 12 12" aria-hidden="true">
-          <path d={isRunning ? "M2 1h3v10H2zM7 1h3v10H7z" : "M2 1l9 5-9 5z"} />
-        </svg>
-        {isLive.value ? wish : text.transport.either}
+        {isLive.value ? (
+          <>
+            <svg viewBox="0 0 12 12" aria-hidden="true">
+              <path d={isRunning ? PAUSE : RUN} />
+            </svg>
+            {wish}
+          </>
+        ) : (
+          <>
+            <svg class="is-either" viewBox="0 0 24 12" aria-hidden="true">
+              <path d={`${RUN}M14 1h3v10h-3zM19 1h3v10h-3z`} />
+            </svg>
+            <span class="visually-hidden">{text.transport.either}</span>
+          </>
+        )}
       </button>
       <button
         type="button"

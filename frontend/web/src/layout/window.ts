@@ -1,6 +1,7 @@
 /** Since when numbers are measured, in words, and what became of the load. */
 import type { Metrics, WindowState } from "../api/types";
 import { text } from "../text/en";
+import { measuredText } from "../text/measured";
 import { formatNumber } from "../units";
 
 const { windows } = text;
@@ -12,9 +13,9 @@ const within = (label: string): string =>
 const at = ({ label, start_s: startS }: WindowState): string =>
   windows.at(within(label), startS.toFixed(2));
 
-/** What began the window, and when. */
-export const sinceOf = (window: WindowState): string =>
-  window.kind === "start" ? windows.sinceStart : windows.since(at(window));
+/** What began the window, and when; in the words in which a record tells of it. */
+export const sinceOf = ({ kind, label, start_s: startS }: WindowState): string =>
+  kind === "start" ? measuredText.start : measuredText.since(label, startS.toFixed(2));
 
 /** How soon the error was small again after the load; what is no time is said in words. */
 export interface Recovery {

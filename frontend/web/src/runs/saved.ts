@@ -13,6 +13,8 @@ export const saved = signal<Saved | null>(null);
 
 const ASK_MS = 400;
 const PATIENCE_MS = 60_000;
+/** So long a run that is saved whole is told of: it stays in the list of runs. */
+const TOLD_MS = 20_000;
 
 const wait = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
@@ -24,7 +26,13 @@ export async function followSaved(run: string, patienceMs = PATIENCE_MS): Promis
     const details = await readRun(run).catch(() => null);
     if (!isStill()) return;
     if (details !== null && details.state !== "recording") {
-      saved.value = { stage: "saved", run, details };
+      const told: Saved = { stage: "saved", run, details };
+      saved.value = told;
+      if (details.state === "complete") {
+        setTimeout(() => {
+          if (saved.peek() === told) saved.value = null;
+        }, TOLD_MS);
+      }
       return;
     }
     await wait(ASK_MS);

@@ -11,8 +11,9 @@ import {
 } from "../api/client";
 import type { Lane, Law, SessionState } from "../api/types";
 import { perform } from "./actions";
+import { comparedWith } from "./beside";
 import { gainsOf, lanesBeside, rivalsOf } from "./lanes";
-import { lawOf, otherLaw } from "./laws";
+import { lawOf } from "./laws";
 import { hungWeights, nextWeight } from "./load";
 
 /** Names of the controls that show why a command was refused. */
@@ -31,9 +32,8 @@ export function toggleRecording({ recording }: SessionState): Promise<boolean> {
 }
 
 export function toggleCompare(state: SessionState): Promise<boolean> {
-  const other = otherLaw(state.configuration.law);
   const isOn = rivalsOf(state).length > 0;
-  return perform(CONTROL.compare, () => putLanes(isOn || !other ? [] : [{ law: other }]));
+  return perform(CONTROL.compare, () => putLanes(isOn ? [] : comparedWith(state)));
 }
 
 /** One more beside; the session's own law with settings of its own, which are those of now. */

@@ -11,7 +11,9 @@ export const identificationText = {
     exciting: (elapsed: string, all: string) => `Exciting: ${elapsed} of ${all}`,
     stop: "Break off",
     file: "Parameter file as the model …",
-    fileHint: "Controller and observer believe in the nominal model of this file from now on",
+    fileHint:
+      "Takes the nominal model, in which controller and observer believe from then on, and the" +
+      " parameters of laws. Gains, observer, the true plant and limits stay as they are.",
     bench: "A bench takes the file at its start: [design] file in the bench file.",
   },
 } as const;

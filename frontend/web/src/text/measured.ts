@@ -1,7 +1,10 @@
-/** The window of a recorded run in which its numbers were measured. */
+/** Numbers of errors, and the window of a run in which they were measured: on every page alike. */
 export const measuredText = {
+  names: { rms: "rms", peak: "Peak", settled: "Settled", recovered: "Recovered" },
   whole: "Whole run",
   start: "From the start",
+  /** From in seconds, of a window that goes on. */
+  since: (what: string, from: string) => `${what}, since ${from} s`,
   /** From and to in seconds. */
   during: (what: string, from: string, to: string) => `${what}, ${from}–${to} s`,
   controlled: (lanes: readonly string[], what: string) => `${lanes.join(" / ")}: ${what}`,

@@ -1,4 +1,8 @@
 /** Plots and numbers. */
+import { measuredText } from "./measured";
+
+const { names } = measuredText;
+
 export const plotsText = {
   channels: ["Link", "Motor 1", "Motor 2"],
   plots: {
@@ -101,7 +105,7 @@ export const plotsText = {
     delta: "Δy",
     min: "min",
     max: "max",
-    rms: "rms",
+    rms: names.rms,
     missing: (seconds: string) => `${seconds} s missing`,
     missingHint: "For so long there is no sample: min, max and rms are of the others",
     keys: "Arrows move a cursor by one sample, with Shift by twenty",
@@ -111,9 +115,9 @@ export const plotsText = {
     until: (time: string) => `Position error until ${time} s`,
     untilNow: "Position error until now",
     lane: "Controller",
-    peak: "Peak",
-    rms: "RMS",
-    recovery: "Recovered",
+    peak: names.peak,
+    rms: names.rms,
+    recovery: names.recovered,
     notYet: "not yet",
     missing: (seconds: string) =>
       `Samples are missing (${seconds} s): the true peak may be higher, and recovery is not known.`,
@@ -185,8 +189,8 @@ export const plotsText = {
     heading: "Position error in numbers",
     error: "Error now",
     lastError: "Error, last known",
-    rms: "RMS",
-    peak: "Peak",
+    rms: names.rms,
+    peak: names.peak,
     since: {
       start: "since start",
       load: "since load",
@@ -196,8 +200,6 @@ export const plotsText = {
     recovery: "Recovered in",
   },
   windows: {
-    sinceStart: "Since the start",
-    since: (what: string) => `Since ${what}`,
     at: (label: string, time: string) => `${label} at ${time} s`,
     recovery: "Time from a load until the error stays small again",
     recoveryFrom: (load: string) => `Time from ${load} until the error stayed small`,
@@ -217,9 +219,10 @@ export const plotsText = {
     heading: "Which controller does better",
     lane: "Controller",
     now: "Error now",
-    rms: "RMS",
-    peak: "Peak",
-    recovery: "Recovered",
+    lastKnown: "Last known",
+    rms: names.rms,
+    peak: names.peak,
+    recovery: names.recovered,
     degrees: "deg",
     recoveredFrom: (time: number | null) => (time === null ? "s" : `s, from ${time.toFixed(2)} s`),
     seconds: "s",

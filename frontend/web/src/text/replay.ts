@@ -1,4 +1,5 @@
 /** Every word of the page of an exported run; of its plots, those of the live page. */
+import { measuredText } from "./measured";
 import { plotsText } from "./plots";
 
 export const text = {
@@ -28,9 +29,9 @@ export const text = {
     heading: (window: string) => `Errors · ${window}`,
     hint: "From every sample of this window, in which nothing was changed",
     lane: "Lane",
-    rms: "rms",
-    peak: "peak",
-    settled: "settled",
+    rms: measuredText.names.rms,
+    peak: measuredText.names.peak,
+    settled: measuredText.names.settled,
     position: "Position",
     stiffness: "Stiffness",
     degrees: "deg",

@@ -48,9 +48,14 @@ export function Popup({
   useEffect(() => {
     const [box, below] = [popup.current, opener.current];
     if (!isOpen || box === null || below === null) return;
-    const follow = new ResizeObserver(() => place(box, below));
+    const put = () => place(box, below);
+    const follow = new ResizeObserver(put);
     follow.observe(box);
-    return () => follow.disconnect();
+    window.addEventListener("resize", put);
+    return () => {
+      follow.disconnect();
+      window.removeEventListener("resize", put);
+    };
   }, [isOpen]);
   return (
     <>
