@@ -21,6 +21,7 @@ ORDER = (
 LONGEST = (
     "test_memory",
     "test_accessibility",
+    "test_replay_files",
     "test_replay",
     "test_life",
     "test_view",

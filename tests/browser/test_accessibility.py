@@ -9,8 +9,9 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.bench_fixture import PatchedBench
 from tests.browser.test_page import choose, come_back, open_page, unfold, wait_for_samples
-from tests.browser.test_replay import open_file, write_page
+from tests.browser.test_replay import open_file
 from tests.lab import Lab, run_lab
+from tests.scene.replay_page import write_page
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
@@ -207,6 +208,6 @@ def test_the_login_has_no_violation(page: Page) -> None:
         expect_no_violation(page, WIDE, PHONE)
 
 
-def test_an_exported_run_has_no_violation(own_page: Page, tmp_path: Path) -> None:
-    open_file(own_page, write_page(tmp_path))
-    expect_no_violation(own_page, WIDE, PHONE)
+def test_an_exported_run_has_no_violation(page: Page, tmp_path: Path) -> None:
+    open_file(page, write_page(tmp_path))
+    expect_no_violation(page, WIDE, PHONE)

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, expect
+from playwright.sync_api import Browser, Page, expect
 
-from svsa.run.events import Event
-from tests.scene.replay_page import CHANNELS, make_run, write_page
+from tests.scene.replay_page import write_page
+
+pytestmark = pytest.mark.browser
 
 PATIENCE_MS = 60_000
 
@@ -92,7 +92,6 @@ def wait_for_link(page: Page, angle_rad: float) -> None:
     )
 
 
-@pytest.mark.browser
 def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
     opened: Opened, exported: Path
 ) -> None:
@@ -118,7 +117,6 @@ def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
     watch.check(exported)
 
 
-@pytest.mark.browser
 def test_the_picture_in_3d_changes_with_the_time(opened: Opened, exported: Path) -> None:
     page, watch = opened
     view = page.locator("iframe")
@@ -131,7 +129,6 @@ def test_the_picture_in_3d_changes_with_the_time(opened: Opened, exported: Path)
     watch.check(exported)
 
 
-@pytest.mark.browser
 def test_it_plays_pauses_and_obeys_keys_also_from_inside_the_3d_view(
     opened: Opened, exported: Path
 ) -> None:
@@ -157,7 +154,6 @@ def test_it_plays_pauses_and_obeys_keys_also_from_inside_the_3d_view(
     watch.check(exported)
 
 
-@pytest.mark.browser
 def test_a_click_goes_there_and_a_drag_zooms(opened: Opened) -> None:
     page, _ = opened
     over = page.locator(".u-over").first
@@ -178,41 +174,6 @@ def test_a_click_goes_there_and_a_drag_zooms(opened: Opened) -> None:
     expect(whole).to_be_disabled()
 
 
-CURVE = """plot => {
-    const canvas = plot.querySelector("canvas");
-    const { width, height } = canvas;
-    const pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data;
-    const middles = [];
-    for (let x = Math.round(width * 0.3); x < width * 0.8; x++) {
-        let weight = 0, sum = 0;
-        for (let y = 0; y < height; y++) {
-            const [red, , blue, alpha] = pixels.subarray(4 * (y * width + x));
-            const ink = blue - red > 60 ? alpha : 0;
-            weight += ink;
-            sum += ink * y;
-        }
-        middles.push(sum / weight);
-    }
-    return middles;
-}"""
-
-
-@pytest.mark.browser
-def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
-    """A rise of 40 pixels over some hundreds, drawn between whole pixels: to a fifth of one."""
-    samples, mass = make_run(ticks=50, lanes=1)
-    samples[:, :, CHANNELS.index("position_rad")] = np.linspace(0.0, 0.02, 50)[:, None]
-    samples[:, :, CHANNELS.index("position_reference_rad")] = np.nan
-    path = write_page(tmp_path, ("FL",), samples=samples, load_mass_kg=mass)
-    open_file(page, path)
-    middles = page.locator('[data-plot="position"]').evaluate(CURVE)
-    across = np.arange(len(middles))
-    assert np.ptp(middles) > 15
-    line = np.polyval(np.polyfit(across, middles, 1), across)
-    assert np.std(middles - line) < 0.1
-
-
-@pytest.mark.browser
 def test_the_run_tells_about_itself(opened: Opened, exported: Path) -> None:
     page, watch = opened
     expect(page).to_have_title("A test run")
@@ -225,55 +186,3 @@ def test_the_run_tells_about_itself(opened: Opened, exported: Path) -> None:
     page.get_by_role("button", name="About this run").click()
     expect(page.get_by_role("dialog").get_by_text("inf", exact=True)).to_be_visible()
     watch.check(exported)
-
-
-@pytest.mark.browser
-def test_a_run_of_the_emulated_rig_is_marked(page: Page, tmp_path: Path) -> None:
-    open_file(page, write_page(tmp_path, details={"plant": "emulated"}))
-    expect(page.get_by_text("EMULATED", exact=True)).to_be_visible()
-
-
-@pytest.mark.browser
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_it_takes_the_theme_of_the_system(page: Page, exported: Path, scheme: str) -> None:
-    page.emulate_media(color_scheme=scheme)  # pyright: ignore[reportArgumentType]
-    open_file(page, exported)
-    background = page.evaluate("getComputedStyle(document.body).backgroundColor")
-    assert (sum(map(int, re.findall(r"\d+", background))) < 200) == (scheme == "dark")
-    page.wait_for_function(
-        """(dark) => document.querySelector("iframe").contentDocument.documentElement
-            .dataset.mantineColorScheme === dark""",
-        arg=scheme,
-    )
-
-
-@pytest.mark.browser
-def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
-    evil = "</script><script>window.bad=1</script><img src=x onerror='window.bad=1'>\ud800"
-    path = write_page(
-        tmp_path,
-        lanes=(evil, "<b>FL</b>", "😀" * 100, ""),
-        title=evil,
-        details={evil: evil},
-        events=[Event(10, 0.01, "load_on", evil)],
-    )
-    watch = open_file(page, path)
-    assert page.evaluate("window.bad") is None
-    watch.check(path)
-
-
-@pytest.mark.browser
-def test_a_run_of_one_tick_and_one_of_holes_still_open(
-    context: BrowserContext, tmp_path: Path
-) -> None:
-    short, _ = make_run(ticks=1, lanes=1)
-    holes, mass = make_run(lanes=1)
-    holes[1000:2000] = np.nan
-    for name, samples, load in (("short", short, None), ("holes", holes, mass)):
-        (tmp_path / name).mkdir()
-        path = write_page(tmp_path / name, ("FL",), samples=samples, load_mass_kg=load)
-        page = context.new_page()
-        watch = open_file(page, path)
-        page.keyboard.press("End")
-        watch.check(path)
-        page.close()

@@ -62,6 +62,14 @@ def runs(own_lab: Lab, recorded: tuple[str, str]) -> Iterator[tuple[str, str]]:
         own_lab.client.patch(path, json=wanted).raise_for_status()
 
 
+@pytest.fixture
+def without_replay(page: Page) -> None:
+    """The frame of a replay stays empty, for tests that do not look at it: it has a 3D view."""
+    page.route(
+        re.compile(r"/replay(\?|$)"), lambda route: route.fulfill(body="<title>Replay</title>")
+    )
+
+
 def open_list(page: Page, lab: Lab) -> None:
     page.goto(lab.url + "/?runs=all")
     expect(page.get_by_role("heading", name=re.compile("^Runs"))).to_be_visible()
@@ -131,6 +139,7 @@ def test_runs_are_found_by_what_is_seen_filtered_and_sorted(
     expect(head).to_have_attribute("aria-sort", "descending")
 
 
+@pytest.mark.usefixtures("without_replay")
 def test_a_tag_is_given_on_the_page_of_a_run_and_filters_the_table(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:
@@ -205,6 +214,7 @@ def test_on_a_phone_the_numbers_of_an_overlay_come_beside_the_whole_names(
     assert moved["x"] == pytest.approx(first["x"], abs=1), "the name stays beside its numbers"
 
 
+@pytest.mark.usefixtures("without_replay")
 def test_no_control_of_the_live_session_stands_above_a_replay(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:
@@ -240,6 +250,7 @@ def test_a_link_opens_the_same_run_at_the_same_moment(
     assert read_moment(page) == 2.5
 
 
+@pytest.mark.usefixtures("without_replay")
 def test_a_run_is_renamed_and_written_about(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:
@@ -260,6 +271,7 @@ def test_a_run_is_renamed_and_written_about(
     expect(name).to_have_value("Group 3")
 
 
+@pytest.mark.usefixtures("without_replay")
 def test_a_branch_is_a_private_session_that_stands_at_the_moment(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:
@@ -281,6 +293,7 @@ def test_a_branch_is_a_private_session_that_stands_at_the_moment(
     own_lab.client.delete(path)
 
 
+@pytest.mark.usefixtures("without_replay")
 def test_a_run_of_a_bench_cannot_be_branched_and_the_page_says_why(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:

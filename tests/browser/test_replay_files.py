@@ -1,0 +1,93 @@
+"""Exported runs of every kind, each opened from a file of its own in a real browser."""
+
+import re
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page, expect
+
+from svsa.run.events import Event
+from tests.browser.test_replay import open_file
+from tests.scene.replay_page import CHANNELS, make_run, write_page
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
+
+CURVE = """plot => {
+    const canvas = plot.querySelector("canvas");
+    const { width, height } = canvas;
+    const pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data;
+    const middles = [];
+    for (let x = Math.round(width * 0.3); x < width * 0.8; x++) {
+        let weight = 0, sum = 0;
+        for (let y = 0; y < height; y++) {
+            const [red, , blue, alpha] = pixels.subarray(4 * (y * width + x));
+            const ink = blue - red > 60 ? alpha : 0;
+            weight += ink;
+            sum += ink * y;
+        }
+        middles.push(sum / weight);
+    }
+    return middles;
+}"""
+
+
+def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
+    """A rise of 40 pixels over some hundreds, drawn between whole pixels: to a fifth of one."""
+    samples, mass = make_run(ticks=50, lanes=1)
+    samples[:, :, CHANNELS.index("position_rad")] = np.linspace(0.0, 0.02, 50)[:, None]
+    samples[:, :, CHANNELS.index("position_reference_rad")] = np.nan
+    path = write_page(tmp_path, ("FL",), samples=samples, load_mass_kg=mass)
+    open_file(page, path)
+    middles = page.locator('[data-plot="position"]').evaluate(CURVE)
+    across = np.arange(len(middles))
+    assert np.ptp(middles) > 15
+    line = np.polyval(np.polyfit(across, middles, 1), across)
+    assert np.std(middles - line) < 0.1
+
+
+def test_a_run_of_the_emulated_rig_is_marked(page: Page, tmp_path: Path) -> None:
+    open_file(page, write_page(tmp_path, details={"plant": "emulated"}))
+    expect(page.get_by_text("EMULATED", exact=True)).to_be_visible()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_takes_the_theme_of_the_system(
+    page: Page, tmp_path: Path, scheme: Literal["light", "dark"]
+) -> None:
+    page.emulate_media(color_scheme=scheme)
+    open_file(page, write_page(tmp_path))
+    background = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert (sum(map(int, re.findall(r"\d+", background))) < 200) == (scheme == "dark")
+    page.wait_for_function(
+        """(dark) => document.querySelector("iframe").contentDocument.documentElement
+            .dataset.mantineColorScheme === dark""",
+        arg=scheme,
+    )
+
+
+def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
+    evil = "</script><script>window.bad=1</script><img src=x onerror='window.bad=1'>\ud800"
+    path = write_page(
+        tmp_path,
+        lanes=(evil, "<b>FL</b>", "😀" * 100, ""),
+        title=evil,
+        details={evil: evil},
+        events=[Event(10, 0.01, "load_on", evil)],
+    )
+    watch = open_file(page, path)
+    assert page.evaluate("window.bad") is None
+    watch.check(path)
+
+
+def test_a_run_of_one_tick_and_one_of_holes_still_open(page: Page, tmp_path: Path) -> None:
+    short, _ = make_run(ticks=1, lanes=1)
+    holes, mass = make_run(lanes=1)
+    holes[1000:2000] = np.nan
+    for name, samples, load in (("short", short, None), ("holes", holes, mass)):
+        (tmp_path / name).mkdir()
+        path = write_page(tmp_path / name, ("FL",), samples=samples, load_mass_kg=load)
+        watch = open_file(page, path)
+        page.keyboard.press("End")
+        watch.check(path)
