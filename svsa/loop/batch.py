@@ -24,7 +24,7 @@ from svsa.loop.batch_inputs import group, join_inputs, pick_inputs, read_first_r
 from svsa.loop.batch_law import compute_one_by_one, compute_side_by_side, find_addresses
 from svsa.loop.lane import Blocks, Inputs, LaneState, build_lane_state
 from svsa.loop.loop import act, move
-from svsa.loop.tally import SUMMARY, measure, start_tally
+from svsa.loop.tally import SUMMARY, build_window, measure, start_tally
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
 from svsa.model.dynamics import compute_internal_torque
 from svsa.packed import pack_all
@@ -182,6 +182,7 @@ def advance_groups(
         runs, left = nothing == 0.0, False
         code, ended, tally = nothing, nothing + ticks, start_tally(nothing)
         F = compute_internal_torque(blocks.nominal, lane.known)
+        window = build_window(begin, ticks, blocks.period)
         for tick in range(ticks):
             reference = read_first_reference(given, tick * blocks.period)
             found = check_domain(blocks.domain, blocks.plant, lane.x)
@@ -206,9 +207,7 @@ def advance_groups(
                 if not some(runs):
                     break
             action = act(blocks, given, lane, torque, tick)
-            tally = measure(
-                tally, runs & (tick >= begin), blocks.plant, reference, lane.x, action.made
-            )
+            tally = measure(tally, runs, window, blocks, reference, lane.x, action.made, tick)
             reached, F = move(blocks, given, lane, F, action, tick)
             lane = hold(runs, reached, lane) if left else reached
         write(results[i], 0, (code, ended))

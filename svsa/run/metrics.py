@@ -6,10 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from svsa.errors import StateError
+from svsa.loop.tally import RECOVERY_SHARE, SETTLED_S
 from svsa.signals import CHANNEL_INDEX
-
-RECOVERY_SHARE = 0.02
-SETTLED_S = 0.5
 
 MEASURED = (
     "position_error_rad",

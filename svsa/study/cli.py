@@ -3,12 +3,15 @@
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
+
+from svsa.extras import require_extra
 
 if TYPE_CHECKING:
     from svsa.study.store import StoredStudy
@@ -78,6 +81,113 @@ def _find_study(source: str, runs: int | None) -> "tuple[str, Study]":
         kept = open_study(source).study
         return source, kept if runs is None else kept.changed(runs=runs)
     return read_study(source, runs)
+
+
+@study.command("show")
+def show_command(
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    outcome: Annotated[
+        str, typer.Option(help="What Sobol indices are of: succeeded, or a metric.")
+    ] = "succeeded",
+    pictures: Annotated[
+        Path | None, typer.Option(help="Folder for pictures; none are drawn if left out.")
+    ] = None,
+) -> None:
+    """What came of a study: success, faults and quantiles of each law, and what decided them."""
+    from svsa.study.store import open_study, read_rows
+    from svsa.study.summary import estimate_sensitivity, summarize_laws
+    from svsa.study.tables import build_sensitivity_table, build_summary_tables, write_json
+
+    if pictures is not None:
+        require_extra("plot")
+    stored = open_study(name)
+    rows = read_rows(stored)
+    laws = summarize_laws(stored.study, rows)
+    is_set = stored.study.sampling == "sensitivity"
+    indices = [
+        estimate_sensitivity(stored.study, rows, law, outcome)
+        for law in (stored.study.laws if is_set else ())
+    ]
+    if as_json:
+        write_json({"study": name, "laws": laws, "sensitivity": indices})
+    else:
+        Console().print(*build_summary_tables(stored.study, laws))
+        for one in indices:
+            Console().print(build_sensitivity_table(one))
+    if pictures is not None:
+        from svsa.study.pictures import save_pictures
+
+        paths = save_pictures(stored, rows, indices, pictures)
+        _messages.print("Pictures: " + ", ".join(str(path) for path in paths))
+
+
+@study.command("compare")
+def compare_command(
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    other: Annotated[
+        str | None,
+        typer.Argument(metavar="OTHER", help="Another one that drew the same; else its own laws."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Laws on the same draws: the first less each other, or each less itself in another study."""
+    from svsa.study.store import open_study, read_rows
+    from svsa.study.summary import pair_laws, pair_studies
+    from svsa.study.tables import build_pairing_table, write_json
+
+    stored = open_study(name)
+    if other is not None:
+        pairings = pair_studies(stored, open_study(other))
+    else:
+        rows, (first, *others) = read_rows(stored), stored.study.laws
+        pairings = [pair_laws(rows, first, law) for law in others]
+    if as_json:
+        write_json({"pairings": pairings})
+    elif not pairings:
+        _messages.print(f"Study {name} has one law only: name another study that drew the same.")
+    else:
+        for pairing in pairings:
+            Console().print(build_pairing_table(pairing))
+
+
+@study.command("replay")
+def replay_command(
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    row: Annotated[int, typer.Argument(help="Number of the row in its table, from 0.")],
+    keep: Annotated[bool, typer.Option(help="Put it among the recorded runs.")] = True,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Run one row of a study again, with all its samples, as a recorded run of this machine."""
+    from svsa.records.catalogue.runs import Catalogue
+    from svsa.study.metrics import METRICS
+    from svsa.study.replay import record_replay, replay_row
+    from svsa.study.store import open_study
+    from svsa.study.tables import write_json
+
+    stored = open_study(name)
+    replay = replay_row(stored, row)
+    run_id = record_replay(stored, replay, Catalogue()).id if keep else None
+    if as_json:
+        told = {"row": row, "run_id": run_id, "metrics": replay.metrics}
+        write_json(told | {"identical": not replay.differing, "differing": replay.differing})
+    else:
+        table = Table("metric", "unit", "table", "replay", title_justify="left")
+        table.title = f"Row {row} of study {name}: {replay.kept['law']}"
+        for metric, unit in METRICS.items():
+            values = f"{replay.kept[metric]!r}", f"{replay.metrics[metric]!r}"
+            table.add_row(metric, unit, *values)
+        Console().print(table)
+        ended = replay.result.fault
+        _messages.print(ended.message if ended else "It went to its end.")
+        if run_id is not None:
+            _messages.print(f"Recorded as run {run_id}, with 3D on the page Runs of the lab.")
+    if replay.differing:
+        _messages.print(
+            f"[bold red]Not to the bit the same: {', '.join(replay.differing)}[/]. The study was"
+            f" run by version {stored.version} of svsa."
+        )
+        raise typer.Exit(1)
 
 
 @contextmanager

@@ -60,6 +60,7 @@ def keep_study(name: str, study: Study, root: Path | None = None) -> StoredStudy
         bound = "1 to 64 letters, digits, -, _ or ., the first no sign"
         raise ParameterError(Violation("name", name, "", bound))
     folder = (root or find_studies_folder()) / name
+    created, version = datetime.now(UTC).isoformat(timespec="seconds"), __version__
     if is_kept(name, root):
         kept = open_study(name, root)
         if kept.study.changed(runs=study.runs) != study:
@@ -67,17 +68,22 @@ def keep_study(name: str, study: Study, root: Path | None = None) -> StoredStudy
                 f"Study {name} is another one: it was begun with other settings. Give yours"
                 f" another name (--name), or delete {folder}."
             )
-        if study.runs < kept.study.runs:
+        if study.runs <= kept.study.runs:
             study = kept.study
-    created = datetime.now(UTC).isoformat(timespec="seconds")
-    text = {"name": name, "created": created, "version": __version__}
+        if kept.version != __version__ and find_missing(kept._replace(study=study)):
+            raise StudyError(
+                f"Study {name} was begun by version {kept.version} of svsa, and this is"
+                f" {__version__}: its runs might differ. Give this one another name (--name)."
+            )
+        created, version = kept.created, kept.version
+    text = {"name": name, "created": created, "version": version}
     content = json.dumps(text | {"study": study.model_dump(mode="json")}, indent=1)
     try:
         (folder / PARTS).mkdir(parents=True, exist_ok=True)
         replace_file(folder / STUDY_FILE, content.encode())
     except OSError as error:
         raise StudyError(f"Study {name} cannot be kept in {folder}: {error}.") from None
-    return StoredStudy(name, study, folder, created, __version__)
+    return StoredStudy(name, study, folder, created, version)
 
 
 def is_kept(name: str, root: Path | None = None) -> bool:

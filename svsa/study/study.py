@@ -32,6 +32,12 @@ class Success(Checked):
     peak_stiffness_error_nm_per_rad: Number | None = quantity(
         "N·m/rad", "Largest |σ_d − σ|", gt=0, default=None
     )
+    settled_position_error_rad: Number | None = quantity(
+        "rad", "rms of q_d − q over the last 0.5 s", gt=0, default=None
+    )
+    recovery_time_s: Number | None = quantity(
+        "s", "Until |q_d − q| stays within 2 % of its peak for 0.5 s", gt=0, default=None
+    )
     last_position_error_rad: Number | None = quantity(
         "rad", "|q_d − q| in the last sample", gt=0, default=None
     )

@@ -2,7 +2,7 @@
 
 from svsa.study.study import Study
 
-SHORT_S = 0.3
+SHORT_S = 1.2
 VARIED = (
     {
         "kind": "uniform",

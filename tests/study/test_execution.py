@@ -79,6 +79,14 @@ def test_more_runs_of_the_same_study_go_on_where_it_ended(tmp_path):
         keep_study("one", build_study(seed=6), tmp_path / "a")
 
 
+def test_a_study_of_another_version_is_not_mixed_with_runs_of_this_one(tmp_path, monkeypatch):
+    run_whole(tmp_path, runs=8)
+    monkeypatch.setattr("svsa.study.store.__version__", "99.0")
+    assert keep_study("one", build_study(runs=8), tmp_path).study.runs == 8
+    with pytest.raises(StudyError, match=r"begun by version .* and this is 99\.0"):
+        keep_study("one", build_study(runs=9), tmp_path)
+
+
 def test_settings_that_do_not_go_together_are_told_and_the_others_are_run(tmp_path):
     """An upper limit of the stiffness below the reference's in some draws: nothing is run there."""
     limit = {

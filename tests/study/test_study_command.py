@@ -1,0 +1,130 @@
+"""`svsa study`: what was run is listed, summed up, compared, drawn, and each row runs again."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import svsa
+from svsa.cli import app
+from svsa.study.execution import run_study
+from svsa.study.replay import replay_row
+from svsa.study.store import StudyError, keep_study, open_study, read_rows
+from svsa.study.work import ROW
+from tests.study.studies import SHORT_S, build_study
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    """A folder with two studies of the same draws, the second under less of a load."""
+    folder = tmp_path_factory.mktemp("data")
+    patch = pytest.MonkeyPatch()
+    patch.setenv("SVSA_DATA", str(folder))
+    run_study(keep_study("one", build_study()), 0)
+    run_study(keep_study("two", build_study(base={"figure": "4b"} | build_study().base)), 0)
+    yield folder
+    patch.undo()
+
+
+def run(*arguments, code=0):
+    outcome = CliRunner().invoke(app, ["study", *arguments], catch_exceptions=False)
+    assert outcome.exit_code == code, outcome.output
+    return outcome.stdout
+
+
+def test_the_list_has_what_was_begun_and_what_comes_with_the_package(data):
+    listed = " ".join(run("list").split())
+    assert "80 of 80" in listed
+    assert "built in, not begun" in listed
+
+
+def test_a_finished_study_that_is_run_again_is_done_at_once(data):
+    begun = json.loads((data / "studies" / "one" / "study.json").read_text())["created"]
+    assert run("run", "one", "--workers", "1") == ""
+    assert open_study("one").created == begun
+
+
+def test_success_is_that_of_the_table(data):
+    shown = json.loads(run("show", "one", "--json"))
+    rows = read_rows(open_study("one")).to_pylist()
+    for law in shown["laws"]:
+        own = [row for row in rows if row["law"] == law["law"]]
+        assert law["success"]["value"] == np.mean([row["succeeded"] for row in own])
+        assert law["success"]["low"] < law["success"]["value"] < law["success"]["high"]
+        assert law["faults"]["deflection_limit"] == sum(row["fault"] is not None for row in own)
+    assert "fault" in run("show", "one")
+
+
+def test_laws_are_compared_on_the_same_draws_and_studies_that_drew_the_same(data):
+    (pairing,) = json.loads(run("compare", "one", "--json"))["pairings"]
+    assert (pairing["one"], pairing["other"], pairing["pairs"]) == ("ndobc", "fl", 40)
+    assert pairing["differences"]["last_position_error_rad"]["high"] < 0.0
+    both = json.loads(run("compare", "one", "two", "--json"))["pairings"]
+    assert [one["one"] for one in both] == ["ndobc in one", "fl in one"]
+    assert "ndobc less fl" in run("compare", "one")
+    keep_study("three", build_study(seed=9))
+    with pytest.raises(StudyError, match=r"did not draw the same \(seed\)"):
+        run("compare", "one", "three")
+
+
+def test_every_row_runs_again_to_the_same_bits(data):
+    stored = open_study("one")
+    recovered = 0
+    for row in read_rows(stored)[ROW].to_pylist():
+        replay = replay_row(stored, row)
+        assert replay.differing == []
+        if replay.result.fault is None:
+            recovered += assert_are_metrics(replay)
+    assert recovered
+
+
+def assert_are_metrics(replay):
+    """Those of the live loop under the same names, but for the order of its sums."""
+    told = replay.result.measure(0.05, SHORT_S)
+    for name in set(replay.metrics) & {field.name for field in dataclasses.fields(told)}:
+        value = getattr(told, name)
+        expected = pytest.approx(math.nan if value is None else value, rel=1e-12, nan_ok=True)
+        assert replay.metrics[name] == expected
+    return told.recovery_time_s is not None
+
+
+def test_a_row_that_runs_again_is_a_recorded_run_of_the_lab(data):
+    told = json.loads(run("replay", "one", "1", "--json"))
+    assert told["identical"]
+    opened = svsa.open_run(told["run_id"])
+    assert opened.law == "fl"
+    assert opened.name == "Study one, row 1"
+    assert svsa.resimulate(told["run_id"]).identical
+    entry = svsa.Catalogue().get(told["run_id"])
+    assert (entry.state, entry.tags) == ("complete", ("study", "one"))
+
+
+def test_a_row_that_is_no_longer_the_same_is_said_so(data, monkeypatch):
+    """As where another version computed the table."""
+    stored = open_study("one")
+    rows = read_rows(stored)
+    wrong = rows.set_column(
+        rows.column_names.index("effort_n2m2_s"),
+        rows.schema.field("effort_n2m2_s"),
+        [np.nextafter(rows["effort_n2m2_s"].to_numpy(), np.inf)],
+    )
+    monkeypatch.setattr("svsa.study.replay.read_rows", lambda stored: wrong)
+    assert json.loads(run("replay", "one", "0", "--no-keep", "--json", code=1))["differing"] == [
+        "effort_n2m2_s"
+    ]
+
+
+def test_a_row_that_is_not_there_is_refused(data):
+    with pytest.raises(svsa.ParameterError, match=r"row is 80: it must be a number from 0 to 79"):
+        run("replay", "one", "80")
+    with pytest.raises(StudyError, match="There is no study nix"):
+        run("show", "nix")
+
+
+def test_pictures_are_drawn_of_what_there_is(data, tmp_path):
+    run("show", "one", "--pictures", str(tmp_path))
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["one_distributions.png", "one_success.png", "one_worst.png"]
