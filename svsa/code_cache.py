@@ -10,8 +10,14 @@ import os
 import re
 import shutil
 import time
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from typing import Any
+
+from numba.core.caching import FunctionCache
+
+from svsa.file_lock import take_lock
 
 KEPT_TEXTS = 3
 UNUSED_S = 24 * 3600.0
@@ -21,6 +27,41 @@ ABANDONED_S = 30 * UNUSED_S
 _FINGERPRINT = "[0-9a-f]{16}"
 _OF_EARLIER_VERSION = re.compile(f"compiled-{_FINGERPRINT}")
 _OF_FILE = re.compile(r"\w+(\.\w+)*")
+
+
+class SharedCache(FunctionCache):
+    """numba's cache of one function, which several processes fill at once.
+
+    numba reads the list of what is there, adds to it, writes it again, and then the code: of two
+    processes that do so at once one would find the other's code under the types of its own.
+    """
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Add a function's code for the types `sig`."""
+        with _hold(Path(self.cache_path)):
+            super().save_overload(sig, data)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The function's code for the types `sig`; None where there is none."""
+        with _hold(Path(self.cache_path)):
+            return super().load_overload(sig, target_context)
+
+
+@contextlib.contextmanager
+def _hold(folder: Path) -> Iterator[None]:
+    """The only one who writes in a folder; without a lock where there can be none."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        descriptor = os.open(folder, os.O_RDONLY)
+    except OSError:  # not ours to write in, or a system that opens no folders
+        yield
+        return
+    try:
+        with contextlib.suppress(OSError):
+            take_lock(descriptor)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def choose_root() -> Path:

@@ -21,6 +21,7 @@ from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from threading import Lock
 from types import FunctionType
 from typing import Any
 
@@ -28,7 +29,7 @@ import numba
 from numba.core import config, event
 from numba.np import linalg
 
-from svsa.code_cache import open_folder
+from svsa.code_cache import SharedCache, open_folder
 from svsa.fused import FusingCompiler
 
 
@@ -54,9 +55,12 @@ _OPTIONS: dict[str, Any] = {
     "forceinline": True,
     "pipeline_class": FusingCompiler,
 }
+_choosing_folder = Lock()
+"""numba takes the folder of a function's cache from a setting that all threads share."""
 _NO_WRAPPERS = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
+@cache
 def _find_module(name: str) -> Path | None:
     path = _LIBRARY.parent.joinpath(*name.split("."))
     return next(
@@ -65,10 +69,15 @@ def _find_module(name: str) -> Path | None:
 
 
 @cache
+def _read(file: Path) -> bytes:
+    return file.read_bytes()
+
+
+@cache
 def _find_imported(file: Path) -> frozenset[Path]:
     """The files of the library that a file imports, or imports from."""
     found: set[Path] = set()
-    for module, names in _IMPORT.findall(file.read_text(encoding="utf-8")):
+    for module, names in _IMPORT.findall(_read(file).decode()):
         for name in (module, *(f"{module}.{part}" for part in re.findall(r"\w+", names))):
             if (imported := _find_module(name)) is not None:
                 found.add(imported)
@@ -103,7 +112,7 @@ def _compute_fingerprint(file: Path) -> str:
     digest = hashlib.sha256(f"{numba.__version__} {platform.python_version()}".encode())
     for source in find_sources(file):
         digest.update(source.name.encode())
-        digest.update(source.read_bytes())
+        digest.update(_read(source))
     return digest.hexdigest()[:16]
 
 
@@ -117,25 +126,33 @@ def compiled(function: Callable[..., Any]) -> Any:
     """The function as machine code for the types that it is called with; a decorator.
 
     What other compiled functions call is compiled apart, without what takes Python's values in and
-    out again: that would be a third of all the compiling.
+    out again: that would be a third of all the compiling. It is prepared once it is called so.
     """
     file = Path(function.__code__.co_filename)
     folder = _open_cache(function.__module__, file) if file.exists() else None
     called = _compile_into(folder, function)
-    inlined = _compile_into(folder and folder / "inlined", function, **_NO_WRAPPERS)
-    called.get_call_template, called.get_overload = inlined.get_call_template, inlined.get_overload
+
+    @cache
+    def open_inlined() -> Any:
+        return _compile_into(folder and folder / "inlined", function, **_NO_WRAPPERS)
+
+    called.get_call_template = lambda *given: open_inlined().get_call_template(*given)
+    called.get_overload = lambda signature: open_inlined().get_overload(signature)
     return called
 
 
 def _compile_into(folder: Path | None, function: Callable[..., Any], **options: Any) -> Any:
+    dispatcher = numba.njit(**_OPTIONS, **options)(function)
     if folder is None:
-        return numba.njit(**_OPTIONS, **options)(function)
-    before = config.CACHE_DIR  # pyright: ignore[reportAttributeAccessIssue]
-    config.CACHE_DIR = str(folder)  # pyright: ignore[reportAttributeAccessIssue]
-    try:
-        return numba.njit(cache=True, **_OPTIONS, **options)(function)
-    finally:
-        config.CACHE_DIR = before  # pyright: ignore[reportAttributeAccessIssue]
+        return dispatcher
+    with _choosing_folder:
+        before = config.CACHE_DIR  # pyright: ignore[reportAttributeAccessIssue]
+        config.CACHE_DIR = str(folder)  # pyright: ignore[reportAttributeAccessIssue]
+        try:
+            dispatcher._cache = SharedCache(function)  # pyright: ignore[reportAttributeAccessIssue]
+        finally:
+            config.CACHE_DIR = before  # pyright: ignore[reportAttributeAccessIssue]
+    return dispatcher
 
 
 def find_fingerprint(function: Callable[..., Any]) -> str:

@@ -1,12 +1,22 @@
-"""What of the compiled code goes: what nobody has opened for long, and nothing of anybody else."""
+"""What of the compiled code goes: what nobody has opened for long, and nothing of anybody else.
 
+And what several add at once is all there.
+"""
+
+import contextlib
 import os
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
+import numba
 import pytest
+from numba.core import config
+from numba.core.caching import IndexDataCacheFile
 
-from svsa.code_cache import ABANDONED_S, KEPT_TEXTS, UNUSED_S, open_folder
+from svsa.code_cache import ABANDONED_S, KEPT_TEXTS, UNUSED_S, SharedCache, open_folder
 
 OLD, NEW = f"{1:016x}", f"{2:016x}"
 
@@ -60,3 +70,33 @@ def test_of_a_file_s_texts_the_newest_stay_and_those_in_use(root: Path) -> None:
     open_folder("svsa.loop.loop", f"{99:016x}")
     assert [text.exists() for text in texts] == [True, True, False, False]
     assert all(text.exists() for text in in_use)
+
+
+def add_one(x: float) -> float:
+    return x + 1.0
+
+
+def test_what_two_processes_compile_at_once_is_kept_for_each(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As far as they can, both read the list of what is there before either writes it."""
+    monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path))
+    made = [numba.njit((kind,))(add_one) for kind in (numba.float64, numba.complex128)]
+    results = [result for one in made for result in one.overloads.values()]
+    read, met = IndexDataCacheFile._load_index, threading.Barrier(2)
+
+    def read_and_wait(file: IndexDataCacheFile) -> object:
+        found = read(file)
+        with contextlib.suppress(threading.BrokenBarrierError):
+            met.wait(timeout=0.5)
+        return found
+
+    def save(result: Any) -> None:
+        SharedCache(add_one).save_overload(result.signature.args, result)
+
+    with monkeypatch.context() as patched, ThreadPoolExecutor() as pool:
+        patched.setattr(IndexDataCacheFile, "_load_index", read_and_wait)
+        list(pool.map(save, results))
+    for one, result in zip(made, results, strict=True):
+        kept = SharedCache(add_one).load_overload(result.signature.args, one.targetctx)
+        assert kept.signature == result.signature

@@ -115,7 +115,7 @@ class Bench(NamedTuple):
 def build_bench(
     effects: Effects, seed: int, actuator: ActuatorParameters, period_s: float
 ) -> Bench:
-    """The constants of the effects that are on.
+    """The constants of the effects that are on; without noise nothing is drawn of the seed.
 
     The creep velocity of friction is the least at which one Runge–Kutta step a period still
     settles: a tenth of the Stribeck velocity, or 2 τ_s T/B.
@@ -134,7 +134,7 @@ def build_bench(
         deflection_step=turn / deflection_counts,
         motor_std=noise.motor_std_rad if noise else 0.0,
         deflection_std=noise.deflection_std_rad if noise else 0.0,
-        seed=seed,
+        seed=seed if noise else 0,
         delay=effects.delay_samples,
         lag=effects.current_lag.time_constant_s if effects.current_lag else 0.0,
         coulomb1=coulomb1,

@@ -1,35 +1,11 @@
 """Who writes a record: a lock on its stream that the system takes back when a process dies."""
 
 import contextlib
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from svsa.file_lock import try_lock
 from svsa.records.header import STREAM_FILE
-
-if sys.platform == "win32":
-
-    def take_lock(descriptor: int) -> None:
-        """Without such locks one server at a time may use a folder of runs."""
-
-    def try_lock(descriptor: int) -> bool:
-        """Without such locks nobody is ever in the way."""
-        return True
-
-else:
-    import fcntl
-
-    def take_lock(descriptor: int) -> None:
-        """Mark the open stream as being written, until it is closed or its process is killed."""
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-
-    def try_lock(descriptor: int) -> bool:
-        """As `take_lock`, but False where another has it."""
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-        return True
 
 
 @contextlib.contextmanager

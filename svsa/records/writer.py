@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from svsa.file_lock import take_lock
 from svsa.records.header import (
     COMMANDS_FILE,
     STREAM_FILE,
@@ -13,7 +14,6 @@ from svsa.records.header import (
     RecordHeader,
     write_header,
 )
-from svsa.records.lock import take_lock
 from svsa.records.parquet import ROWS_A_GROUP, Commands, Finished, finish, write_command
 from svsa.records.stream import END_OF_STREAM, TIME, build_batch, build_schema, write_all
 

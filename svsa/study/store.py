@@ -16,9 +16,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.file_lock import try_lock
 from svsa.records.catalogue.runs import find_data_folder
 from svsa.records.header import replace_file
-from svsa.records.lock import try_lock
 from svsa.release import __version__
 from svsa.study.study import Study
 from svsa.study.work import build_schema

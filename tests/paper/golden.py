@@ -10,6 +10,12 @@ import sys
 import svsa
 from svsa.plant.effects import EVERY
 
+GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
+"""The variables of a process that computes for the oldest processor of this machine's family.
+
+numba keeps what it compiles for one kind of processor apart from what it compiles for another.
+"""
+
 
 def compute_hash(result: svsa.Result) -> str:
     """Of all channels at all ticks, as little-endian doubles."""
