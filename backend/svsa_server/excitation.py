@@ -61,7 +61,7 @@ class Excitation:
     def _give_due(self) -> None:
         while self._waiting and self._waiting[0].tick <= self._session.run.tick:
             command = self._waiting.popleft()
-            self._session.change(command.kind, command.argument)
+            self._session.change(command)
             self._seen = len(self._session.journal.commands)
 
 

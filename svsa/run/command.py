@@ -5,7 +5,7 @@ bench alike.
 """
 
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal, get_args
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import Field
 
@@ -30,10 +30,23 @@ class _Command(Checked):
     configuration.
     """
 
-    tick: Whole = quantity("", "Tick at whose beginning it holds", ge=0)
+    tick: Whole = quantity(
+        "", "Tick at whose beginning it holds; a session gives it its own", ge=0, default=0
+    )
     kind: Any
     argument: Any
     label: ClassVar[str]
+
+    def __init__(self, /, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ParameterError as error:
+            kind = type(self).model_fields["kind"].default
+            raise ParameterError(*(_rename(one, kind) for one in error.violations)) from None
+
+    def at(self, tick: int) -> Self:
+        """The same command at another tick."""
+        return self.model_copy(update={"tick": tick})
 
     def to_json(self) -> dict[str, Any]:
         """As a dict that JSON can hold; see `read_command`."""
@@ -241,10 +254,7 @@ def build_command(tick: int, kind: str, argument: Any) -> Command:
     """A checked command; raises `ParameterError` for an unknown kind or a wrong argument."""
     if not isinstance(kind, str) or kind not in COMMANDS:
         raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(COMMANDS)))
-    try:
-        return COMMANDS[kind](tick=tick, kind=kind, argument=argument)  # pyright: ignore[reportReturnType]
-    except ParameterError as error:
-        raise ParameterError(*(_rename(one, kind) for one in error.violations)) from None
+    return COMMANDS[kind](tick=tick, kind=kind, argument=argument)  # pyright: ignore[reportReturnType]
 
 
 def _rename(violation: Violation, kind: str) -> Violation:

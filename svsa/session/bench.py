@@ -16,6 +16,7 @@ from svsa.extras import require_extra
 from svsa.loop.lane import AT_REST
 from svsa.records.header import PlantKind
 from svsa.records.recorder import Recorder
+from svsa.run.command import Command
 from svsa.run.configuration import Configuration
 from svsa.run.run import Start
 from svsa.session.bench_commands import BenchCommands
@@ -290,13 +291,13 @@ class BenchSession:
         self._take_states()
         return answer
 
-    def change(self, kind: str, argument: Any) -> None:
-        """Give the run a command of `COMMANDS`, at the tick at which the loop has taken it."""
-        self._commands.change(kind, argument)
+    def change(self, command: Command) -> None:
+        """Give the run a command, at the tick at which the loop has taken it."""
+        self._commands.change(command)
 
-    def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
+    def patch(self, build: Callable[[Configuration], Command]) -> None:
         """`change`, once the loop has answered to every change before."""
-        self._commands.patch(kind, build)
+        self._commands.patch(build)
 
     def close(self) -> None:
         """Ramp to zero, and end the bench's processes."""

@@ -35,14 +35,15 @@ class BenchCommands:
         """Whether the loop has still to answer: what comes after that tick is not taken in yet."""
         return self._pending > 0
 
-    def change(self, kind: str, argument: Any) -> None:
-        """Give the run a command of `COMMANDS`."""
-        self._journal.enter(self._give(self._journal.build_command(kind, argument)))
+    def change(self, command: Command) -> None:
+        """Give the run a command."""
+        self._journal.check(command)
+        self._journal.enter(self._give(command))
 
-    def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
+    def patch(self, build: Callable[[Configuration], Command]) -> None:
         """`change`, once the loop has answered to every change before."""
         self._wait()
-        self.change(kind, build(self._journal.run.configuration))
+        self.change(build(self._journal.run.configuration))
 
     def _wait(self) -> None:
         while self.is_pending:
@@ -68,4 +69,4 @@ class BenchCommands:
         finally:
             self._pending -= 1
         self._journal.advance(tick - self._journal.run.tick)
-        return command.changed(tick=tick)
+        return command.at(tick)

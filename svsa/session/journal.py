@@ -3,14 +3,13 @@
 import math
 from collections import deque
 from collections.abc import Callable
-from typing import Any
 
 from svsa.errors import Fault, StateError
 from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load, ScheduledLoad
 from svsa.records.header import BranchPoint
 from svsa.records.recorder import Recorder
-from svsa.run.command import ApplyLoad, Command, RemoveLoad, build_command
+from svsa.run.command import ApplyLoad, Command, RemoveLoad, SetRivals
 from svsa.run.configuration import MAX_LANES, Configuration
 from svsa.run.events import Event, describe_change, describe_end, describe_onset
 from svsa.run.run import Run
@@ -83,13 +82,12 @@ class Journal:
             self.on_recorded(recorder)
             self.version += 1
 
-    def build_command(self, kind: str, argument: Any) -> Command:
-        """A command of this tick; raises `ParameterError`, and `StateError` where it may not be."""
+    def check(self, command: Command) -> None:
+        """Raise `StateError` where the command may not be given now."""
         if len(self.commands) >= MAX_COMMANDS:
             raise StateError(f"{MAX_COMMANDS} changes were made to this run: reset it first.")
-        if kind == "rivals" and self.recorder is not None:
+        if isinstance(command, SetRivals) and self.recorder is not None:
             raise StateError("A recording has the same lanes throughout: stop it first.")
-        return build_command(self.run.tick, kind, argument)
 
     def enter(self, command: Command) -> None:
         """Give the run a command at its tick; refused as the run does, it changes nothing."""

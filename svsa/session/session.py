@@ -1,11 +1,12 @@
 """What people start, pause, change, watch and record: a simulated session or a bench."""
 
 from collections.abc import Callable
-from typing import Any, Literal, Protocol
+from typing import Literal, Protocol
 
 from svsa.errors import Fault
 from svsa.records.header import PlantKind
 from svsa.records.recorder import Recorder
+from svsa.run.command import Command, RemoveLoad
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
 from svsa.session.clock import Pace
@@ -104,15 +105,15 @@ class Session(Protocol):
         """Run some ticks without waiting for them to be due, where the speed is infinite."""
         ...
 
-    def change(self, kind: str, argument: Any) -> None:
-        """Give the run a command of `COMMANDS` now; refused, it changes nothing.
+    def change(self, command: Command) -> None:
+        """Give the run a command now, whatever tick it names; refused, it changes nothing.
 
         Raises `ParameterError` or `StateError` as the run does.
         """
         ...
 
-    def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
-        """`change` to what `build` makes of the configuration as it is then."""
+    def patch(self, build: Callable[[Configuration], Command]) -> None:
+        """`change` by what `build` makes of the configuration as it is then."""
         ...
 
     def start_recording(self, recorder: Recorder) -> None:
@@ -131,4 +132,4 @@ class Session(Protocol):
 def take_loads_off(session: Session) -> None:
     """Take every load off."""
     for load in session.run.loads:
-        session.change("unload", load.number)
+        session.change(RemoveLoad(argument=load.number))

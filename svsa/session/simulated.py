@@ -1,7 +1,7 @@
 """A simulated run that people start, pause, change, watch and record."""
 
 from collections.abc import Callable, Iterable
-from typing import Any, Self
+from typing import Self
 
 from svsa.errors import Fault, StateError
 from svsa.records.header import BranchPoint, PlantKind
@@ -44,7 +44,7 @@ class SimulatedSession:
         for command in commands:
             if command.tick < tick:
                 session._advance(command.tick - session.run.tick)
-                session.change(command.kind, command.argument)
+                session.change(command)
         session._advance(tick - session.run.tick)
         if session.run.tick < tick:
             ended = session.run.tick
@@ -152,13 +152,14 @@ class SimulatedSession:
         if self.run.fault is not None:
             self.clock.stop()
 
-    def change(self, kind: str, argument: Any) -> None:
-        """Give the run a command of `COMMANDS` at its present tick."""
-        self.journal.enter(self.journal.build_command(kind, argument))
+    def change(self, command: Command) -> None:
+        """Give the run a command at its present tick."""
+        self.journal.check(command)
+        self.journal.enter(command.at(self.run.tick))
 
-    def patch(self, kind: str, build: Callable[[Configuration], Any]) -> None:
-        """`change` to what `build` makes of the present configuration."""
-        self.change(kind, build(self.run.configuration))
+    def patch(self, build: Callable[[Configuration], Command]) -> None:
+        """`change` by what `build` makes of the present configuration."""
+        self.change(build(self.run.configuration))
 
     def start_recording(self, recorder: Recorder) -> None:
         """As `Journal.start_recording`."""

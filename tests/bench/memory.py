@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 import svsa
+from svsa.run.command import ApplyLoad
 from svsa.session.simulated import SimulatedSession
 from tests.session.sessions import EVERY_EFFECT
 
@@ -28,7 +29,7 @@ def run_at_full_speed(session: SimulatedSession, seconds: float) -> None:
     pulse = svsa.PulseLoad(torque_nm=(0.2, 0.0, 0.0), duration_s=0.1)
     while session.run.time_s < end:
         session.burst(time.monotonic())
-        session.change("load", pulse)
+        session.change(ApplyLoad(argument=pulse))
         if session.run.fault is not None:
             raise RuntimeError(session.run.fault.message)
 

@@ -17,7 +17,7 @@ from svsa.control.law import Law
 from svsa.design.sampled_loop import linearize_tick
 from svsa.loop.loop import advance as advance_lane
 from svsa.records.wording import tell_law
-from svsa.run.command import build_command
+from svsa.run.command import SetLaw, build_command
 from svsa.run.controllers import list_controllers, name_controllers
 from svsa.run.replay import replay
 from svsa.run.run import Run
@@ -136,9 +136,9 @@ def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
         (50, "law", "fl_integral"),
     ):
         session._advance(ticks)
-        session.change(kind, argument)
+        session.change(build_command(0, kind, argument))
     branch = SimulatedSession.branch("branch", configuration, session.journal.commands, 200)
-    branch.change("law", "fl_integral")
+    branch.change(SetLaw(argument="fl_integral"))
     for one in (session, branch):
         for _ in range(100):
             one._advance(1)

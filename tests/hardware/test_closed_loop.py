@@ -9,6 +9,7 @@ from svsa.plant.disturbances import ConstantLoad
 from svsa.reference.sine import ConstantPosition
 from svsa.result.bench_run import LockstepBench, connect_bench
 from svsa.rig.launch import start_rig
+from svsa.run.command import SetPosition, SetStiffness
 from svsa.signals import CHANNEL_INDEX
 from tests.rig.in_process_rig import start_in_process
 
@@ -115,8 +116,8 @@ def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
                 bench.prepare()
                 bench.start()
                 bench.tick(1200)
-                assert bench.loop.change("position", series) == 1200
-                bench.loop.change("stiffness", chirp)
+                assert bench.loop.change(SetPosition(argument=series)) == 1200
+                bench.loop.change(SetStiffness(argument=chirp))
                 bench.tick(TICKS - 1200)
                 assert bench.plant.fault is None
             finally:

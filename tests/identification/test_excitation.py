@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from svsa.identification.excitation import EXCITATION, EXCITATION_DURATION_S, build_commands
+from svsa.run.command import build_command
 from svsa.session.simulated import SimulatedSession
 
 from .excited_run import DESIGN, build_configuration, get, play
@@ -45,7 +46,7 @@ def test_a_session_can_play_it():
     session = SimulatedSession("bench", build_configuration())
     for cue in EXCITATION[:4]:
         session.step(round(cue.time_s * 1000) - session.run.tick or 1)
-        session.change(cue.kind, cue.reference)
+        session.change(build_command(0, cue.kind, cue.reference))
     assert session.run.fault is None
 
 

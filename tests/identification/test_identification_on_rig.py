@@ -28,7 +28,7 @@ def test_table_1_is_found_within_5_percent():
                 assert bench.plant.fault is None, bench.plant.fault
                 while later and later[0].tick <= bench.sink.done:
                     command = later.pop(0)
-                    tick = bench.loop.change(command.kind, command.argument)
+                    tick = bench.loop.change(command)
                     written.append((tick, command.changed(tick=tick).to_json()))
                 bench.tick()
         finally:

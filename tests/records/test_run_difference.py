@@ -8,6 +8,7 @@ from svsa.plant.effects import IDEAL, RIG, SensorNoise
 from svsa.records.difference import compare_settings, tell_poles
 from svsa.records.reader import Record, build_record
 from svsa.reference.trajectories import ConstantPosition, ConstantStiffness
+from svsa.run.command import build_command
 from svsa.run.configuration import Lane
 from svsa.session.simulated import SimulatedSession
 
@@ -23,7 +24,7 @@ def record(
     session = SimulatedSession("lab", configuration)
     for tick, kind, argument in commands:
         session.step(tick - session.run.tick)
-        session.change(kind, argument)
+        session.change(build_command(0, kind, argument))
     written = [(command.tick, command.to_json()) for command in session.journal.commands]
     header = build_header(configuration)
     return build_record(header, written, 0, build_samples(ticks, len(header.lanes)))

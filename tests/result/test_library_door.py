@@ -13,6 +13,7 @@ import svsa
 from svsa.records.reader import open_record
 from svsa.records.recorder import Recorder
 from svsa.result.channels import ChannelName, Channels
+from svsa.run.command import ApplyLoad, SetLaw, build_command
 from svsa.session.session import Session
 from svsa.session.simulated import SimulatedSession
 from svsa.signals import CHANNEL_NAMES, CHANNELS
@@ -40,7 +41,7 @@ def play_session() -> Session:
     for change in sorted(CHANGES, key=lambda change: change.at_s):
         session.step(round(change.at_s / 0.001) - session.run.tick)
         for kind, argument in change.list_given().items():
-            session.change(kind, argument)
+            session.change(build_command(0, kind, argument))
     return session
 
 
@@ -82,13 +83,13 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run that was recorded from its tick 150 on."""
     folder = tmp_path_factory.mktemp("runs") / "run-1"
     session = SimulatedSession("lab", build_configuration(rivals=(svsa.Lane(law="fl"),)))
-    session.change("law", "fl")
+    session.change(SetLaw(argument="fl"))
     session.step(150)
     configuration = session.journal.initial.model_dump(mode="json")
     recorder = Recorder(folder, build_header(configuration=configuration, seed=0, name="Mine"))
     session.start_recording(recorder)
     session.step(100)
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(250)
     session.stop_recording()
     recorder.close()

@@ -60,7 +60,7 @@ def test_a_command_cannot_be_changed_and_says_how_it_reads():
     ("make", "name"),
     [
         (lambda: SetLaw(tick=-1, argument="fl"), "tick"),
-        (lambda: SetLaws(tick=0, argument=()), "argument"),
+        (lambda: SetLaws(tick=0, argument=()), "laws"),
         (lambda: build_command(0, "laws", ()), "laws"),
         (lambda: build_command(0, "unload", 1.5), "unload"),
         (lambda: build_command(0, "load", {"kind": "push", "torque_nm": (0, 0, 0), "hold_s": -1}),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.run.command import SetLane, SetRivals
 from svsa.run.configuration import Lane, LaneSetting
 from svsa.run.metrics import compute_metrics
 from svsa.run.run import Run
@@ -171,7 +172,7 @@ def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
     """What the first lane did before is not what the new one did."""
     session = build_session(PULSE)
     session.step(60)
-    session.change("rivals", (FL,))
+    session.change(SetRivals(argument=(FL,)))
     session.step(40)
     first, second = read_samples(session, 0), read_samples(session, 1)
     assert np.all(np.isnan(second[:60]))
@@ -256,7 +257,7 @@ def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
     session = build_session(PULSE, law="fl_integral", rivals=(Lane(law="fl_integral"),))
     session.step(60)
     (second_id,) = session.journal.timeline.lane_ids[1:]
-    session.change("lane", LaneSetting(lane=2, setting=build_integral(40.0)))
+    session.change(SetLane(argument=LaneSetting(lane=2, setting=build_integral(40.0))))
     session.step(40)
     assert session.journal.timeline.lane_ids[1] == second_id
     assert np.all(np.isfinite(read_samples(session, 1)))

@@ -6,7 +6,17 @@ import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.run.command import build_command
+from svsa.run.command import (
+    ApplyLoad,
+    SetEffects,
+    SetGains,
+    SetLaw,
+    SetLaws,
+    SetObserver,
+    SetPosition,
+    SetRivals,
+    build_command,
+)
 from svsa.run.controllers import name_controllers
 from svsa.run.timeline import INK_COLORS, Timeline, Window, read_timeline
 from tests.session.scripts import play_busy_session
@@ -27,7 +37,7 @@ def tell(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
 def test_laws_that_change_places_leave_the_past_its_names():
     session = build_session(rivals=(FL,))
     session.step(30)
-    session.change("laws", ("fl", "ndobc"))
+    session.change(SetLaws(argument=("fl", "ndobc")))
     session.step(10)
     assert tell(session.journal.timeline) == [
         [("NDOBC", 0, 30), ("FL", 30, None)],
@@ -41,9 +51,9 @@ def test_laws_that_change_places_leave_the_past_its_names():
 def test_a_rival_begins_where_it_began_and_takes_nobodys_past():
     session = build_session()
     session.step(20)
-    session.change("rivals", (FL,))
+    session.change(SetRivals(argument=(FL,)))
     session.step(20)
-    session.change("rivals", (NDOBC, FL))
+    session.change(SetRivals(argument=(NDOBC, FL)))
     assert tell(session.journal.timeline) == [
         [("NDOBC", 0, None)],
         [("NDOBC (2)", 40, None)],
@@ -54,9 +64,9 @@ def test_a_rival_begins_where_it_began_and_takes_nobodys_past():
 def test_one_law_with_other_gains_is_told_apart_by_them():
     session = build_session()
     session.step(10)
-    session.change("observer", FASTER)
+    session.change(SetObserver(argument=FASTER))
     session.step(10)
-    session.change("gains", STIFFER)
+    session.change(SetGains(argument=STIFFER))
     names = [name for name, _, _ in tell(session.journal.timeline)[0]]
     assert names == ["NDOBC β 60 ωq 60 ωσ 40", "NDOBC β 120 ωq 60 ωσ 40", "NDOBC β 120 ωq 80 ωσ 60"]
     assert len({one.ink for one in session.journal.timeline.list_stretches()[0]}) == 3
@@ -65,15 +75,15 @@ def test_one_law_with_other_gains_is_told_apart_by_them():
 def test_what_a_law_does_not_use_makes_it_no_other():
     session = build_session(law="fl")
     session.step(10)
-    session.change("observer", FASTER)
+    session.change(SetObserver(argument=FASTER))
     assert tell(session.journal.timeline) == [[("FL", 0, None)]]
 
 
 def test_a_change_and_back_within_a_tick_is_no_stretch():
     session = build_session()
     session.step(10)
-    session.change("law", "fl")
-    session.change("law", "ndobc")
+    session.change(SetLaw(argument="fl"))
+    session.change(SetLaw(argument="ndobc"))
     assert tell(session.journal.timeline) == [[("NDOBC", 0, None)]]
 
 
@@ -82,7 +92,7 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
     session = build_session()
     for tick, observer in ((10, FASTER), (200, session.run.configuration.observer)):
         session.step(tick - session.run.tick)
-        session.change("observer", observer)
+        session.change(SetObserver(argument=observer))
         timeline.take(session.journal.commands[-1])
     assert [one.ink for one in timeline.list_stretches()[0]] == [1, 0]
 
@@ -110,7 +120,7 @@ def test_a_bench_and_its_twin_stay_in_the_names():
     timeline = Timeline(build_configuration(rivals=(NDOBC, FL)), is_bench=True)
     session = build_session(rivals=(NDOBC, FL))
     session.step(5)
-    session.change("law", "fl")
+    session.change(SetLaw(argument="fl"))
     timeline.take(session.journal.commands[-1])
     assert tell(timeline) == [
         [("Bench NDOBC", 0, 5), ("Bench FL", 5, None)],
@@ -138,7 +148,7 @@ def test_every_change_begins_a_window_for_all_lanes(kind, argument, label):
     session = build_session()
     session.step(50)
     assert session.journal.timeline.window == Window("start", "", 0)
-    session.change(kind, argument)
+    session.change(build_command(0, kind, argument))
     session.step(20)
     assert session.journal.timeline.window == Window("change", label, 50)
     durations = [lane.summarize().duration_s for lane in session.journal.metrics.in_window]
@@ -149,15 +159,15 @@ def test_recovery_is_latched_at_its_load():
     """Realism, motion and law change after it: the 0.2 s that were read stay 0.2 s."""
     session = build_session(rivals=(FL,))
     session.step(100)
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(1500)
     ndobc, fl = (lane.summarize() for lane in session.journal.metrics.since_load)
     assert 0.1 < ndobc.recovery_time_s < 0.4
     assert fl.recovery_time_s is None
-    session.change("effects", svsa.RIG)
-    session.change("position", svsa.ConstantPosition(position_rad=0.5))
+    session.change(SetEffects(argument=svsa.RIG))
+    session.change(SetPosition(argument=svsa.ConstantPosition(position_rad=0.5)))
     session.step(1500)
-    session.change("laws", ("fl", "ndobc"))
+    session.change(SetLaws(argument=("fl", "ndobc")))
     session.step(1500)
     assert [lane.summarize() for lane in session.journal.metrics.since_load] == [ndobc, fl]
     assert session.journal.timeline.load_window == Window("load", "3 kg load", 100, 1600)
@@ -166,12 +176,12 @@ def test_recovery_is_latched_at_its_load():
 
 def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
     session = build_session(law="fl")
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(1500)
     (fl,) = (lane.summarize() for lane in session.journal.metrics.in_window)
-    session.change("law", "ndobc")
+    session.change(SetLaw(argument="ndobc"))
     session.step(1000)
-    session.change("rivals", (FL,))
+    session.change(SetRivals(argument=(FL,)))
     session.step(1)
     first, rival = (lane.summarize() for lane in session.journal.metrics.in_window)
     assert fl.peak_position_error_rad > 0.1
@@ -181,9 +191,9 @@ def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
 def test_changes_of_one_moment_are_one_window():
     session = build_session()
     session.step(50)
-    session.change("effects", svsa.RIG)
-    session.change("gains", STIFFER)
-    session.change("gains", STIFFER)
+    session.change(SetEffects(argument=svsa.RIG))
+    session.change(SetGains(argument=STIFFER))
+    session.change(SetGains(argument=STIFFER))
     assert session.journal.timeline.windows == [
         Window("start", "", 0, 50),
         Window("change", "Effects changed, Gains changed", 50),
@@ -192,8 +202,8 @@ def test_changes_of_one_moment_are_one_window():
 
 def test_what_is_set_before_the_first_tick_is_how_the_run_starts():
     session = build_session()
-    session.change("gains", STIFFER)
-    session.change("rivals", (FL,))
+    session.change(SetGains(argument=STIFFER))
+    session.change(SetRivals(argument=(FL,)))
     session.step(10)
     assert session.journal.timeline.windows == [Window("start", "", 0)]
     for lanes in (session.journal.metrics.since_start, session.journal.metrics.in_window):

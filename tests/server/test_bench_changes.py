@@ -10,6 +10,8 @@ from svsa.bench.realtime.loss import Loss
 from svsa.bench.safety.machine import BenchStatus
 from svsa.control.gains import Gains
 from svsa.errors import Fault, StateError
+from svsa.run.command import SetLane, SetLaw, SetRivals
+from svsa.run.configuration import Lane
 from svsa.session.bench import BenchSession
 from svsa_server.gain_schemas import GainsRequest
 from svsa_server.hosted import HostedSession
@@ -50,8 +52,8 @@ def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> 
 def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
     async def ask() -> None:
         await asyncio.gather(
-            take_turn(session.change, "law", "fl"),
-            take_turn(session.change, "rivals", ({"law": "ndobc"},)),
+            take_turn(session.change, SetLaw(argument="fl")),
+            take_turn(session.change, SetRivals(argument=(Lane(law="ndobc"),))),
         )
 
     asyncio.run(ask())
@@ -64,7 +66,7 @@ def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
     told = len(session.loop.processes.told)  # pyright: ignore[reportAttributeAccessIssue]
     setting = {"lane": 2, "setting": {"law": "ndobc", "observer": None}}
     with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
-        session.change("lane", setting)
+        session.change(SetLane(argument=setting))
     assert len(session.loop.processes.told) == told  # pyright: ignore[reportAttributeAccessIssue]
 
 

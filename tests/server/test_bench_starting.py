@@ -11,6 +11,7 @@ import pytest
 from rich.console import Console
 
 from svsa.errors import StateError
+from svsa.run.command import SetLaw
 from svsa.session.bench import BenchSession
 from svsa_server.bench_start import open_bench
 from svsa_server.hosted import HostedSession
@@ -24,7 +25,7 @@ COMMANDS: dict[str, Callable[[BenchSession], Any]] = {
     "arm": lambda session: session.arm(),
     "home": lambda session: session.confirm_home("link", "Ada"),
     "run": lambda session: session.start(),
-    "change": lambda session: session.change("law", "fl"),
+    "change": lambda session: session.change(SetLaw(argument="fl")),
     "load": lambda session: session.load(session.run.configuration),
     "reset": lambda session: session.reset(),
     "record": lambda session: session.start_recording(None),  # pyright: ignore[reportArgumentType]

@@ -4,6 +4,7 @@ import numpy as np
 
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.paper import get_figure
+from svsa.run.command import ApplyLoad, SetRivals
 from svsa.run.configuration import Lane
 from svsa.session.batch import HEADER
 from svsa.session.session import Session
@@ -24,7 +25,7 @@ def open_session() -> Session:
     session = SimulatedSession(
         "lab", get_figure("4a").build_configuration().changed(rivals=(FL, FASTER))
     )
-    session.change("load", {"kind": "paper"})
+    session.change(ApplyLoad(argument={"kind": "paper"}))
     session.step(200)
     return session
 
@@ -55,7 +56,7 @@ def test_a_lane_keeps_its_id_when_the_one_before_it_goes() -> None:
     cursor = open_cursor(session)
     before = read_batch(session, cursor)
     assert read_ids(session) == list(before) == [1, 2, 3]
-    session.change("rivals", (FASTER,))
+    session.change(SetRivals(argument=(FASTER,)))
     session.step(50)
     after = read_batch(session, cursor)
     assert read_ids(session) == list(after) == [1, 3]
@@ -66,8 +67,8 @@ def test_a_lane_keeps_its_id_when_the_one_before_it_goes() -> None:
 
 def test_a_lane_that_comes_has_an_id_that_no_lane_had() -> None:
     session = open_session()
-    session.change("rivals", (FASTER,))
-    session.change("rivals", (FL, FASTER))
+    session.change(SetRivals(argument=(FASTER,)))
+    session.change(SetRivals(argument=(FL, FASTER)))
     session.step(10)
     assert read_ids(session) == [1, 4, 3]
     assert list(read_batch(session, open_cursor(session, lanes=(2,)))) == [4]
@@ -75,6 +76,6 @@ def test_a_lane_that_comes_has_an_id_that_no_lane_had() -> None:
 
 def test_a_new_run_counts_its_lanes_anew() -> None:
     session = open_session()
-    session.change("rivals", (FASTER,))
+    session.change(SetRivals(argument=(FASTER,)))
     session.reset()
     assert read_ids(session) == [1, 2]

@@ -9,7 +9,7 @@ from svsa.paper import get_figure
 from svsa.plant.disturbances import PaperLoad
 from svsa.records.measured_window import trace_record
 from svsa.records.reader import Record, build_record
-from svsa.run.command import build_command
+from svsa.run.command import ApplyLoad, SetLaws, SetObserver, build_command
 from svsa.run.configuration import Lane
 from svsa.session.simulated import SimulatedSession
 from svsa_server.hosted import HostedSession
@@ -94,16 +94,16 @@ def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
     figure = get_figure("4a").build_configuration(load=False).changed(rivals=fl_beside)
     session = SimulatedSession("test", figure)
     session.step(100)
-    session.change("load", PaperLoad())
+    session.change(ApplyLoad(argument=PaperLoad()))
     session.step(1500)
     before = {lane.name: lane.since_load for lane in build_state(HostedSession(session)).lanes}
-    session.change("laws", ("fl", "ndobc"))
+    session.change(SetLaws(argument=("fl", "ndobc")))
     session.step(1500)
     after = build_state(HostedSession(session))
     assert [lane.name for lane in after.lanes] == ["FL", "NDOBC"]
     assert {lane.name: lane.since_load for lane in after.lanes} == before
     assert before["NDOBC"].recovery_time_s < 0.5
     assert before["FL"].recovery_time_s is None
-    session.change("observer", ObserverBandwidth(**FASTER))
+    session.change(SetObserver(argument=ObserverBandwidth(**FASTER)))
     faster = build_state(HostedSession(session)).lanes[1]
     assert (faster.name, faster.since_load) == ("NDOBC β 120", None), "it was not there then"

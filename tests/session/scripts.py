@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.plant.effects import CurrentLag, Friction, LinkGravity, SensorNoise
-from svsa.run.command import COMMANDS, read_command
+from svsa.run.command import COMMANDS, build_command, read_command
 from svsa.run.configuration import Configuration, LaneSetting
 from svsa.run.replay import simulate_again
 
@@ -162,7 +162,7 @@ def play(session, script, wakes):
             continue
         before = summarize(session)
         try:
-            session.change(kind, argument)
+            session.change(build_command(0, kind, argument))
         except svsa.SvsaError:
             refused += 1
             assert summarize(session) == before, (kind, argument)

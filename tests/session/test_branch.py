@@ -79,7 +79,7 @@ def test_a_session_that_goes_on_from_a_record_is_the_recorded_session(tick):
     for command in original.journal.commands:
         if command.tick >= tick:
             session.step(command.tick - session.run.tick)
-            session.change(command.kind, command.argument)
+            session.change(command)
     session.step(end - session.run.tick)
     assert list_state(session) == list_state(original)
     for lane in (0, 1):

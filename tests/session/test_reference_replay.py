@@ -8,7 +8,7 @@ import pytest
 import svsa
 from svsa.bench.realtime.configuration import check_takes_no_time
 from svsa.reference.series import MAX_ROWS
-from svsa.run.command import read_command
+from svsa.run.command import build_command, read_command
 from svsa.run.replay import simulate_again
 from svsa.signals import CHANNEL_INDEX
 
@@ -54,7 +54,7 @@ def test_a_session_with_every_kind_of_reference_is_the_same_again_bit_for_bit():
     session = build_session()
     for tick, kind, argument in CHANGES:
         session.step(tick - session.run.tick)
-        session.change(kind, argument)
+        session.change(build_command(0, kind, argument))
     session.step(300)
     live = read_samples(session)
     written = json.loads(json.dumps([command.to_json() for command in session.journal.commands]))

@@ -6,6 +6,7 @@ import pytest
 import svsa
 from svsa.fault_labels import label_fault
 from svsa.run import events
+from svsa.run.command import ApplyLoad, SetLaw
 from svsa.session.clock import LONGEST_BACKLOG_S
 
 from .sessions import PULSE, build_session, list_events, read_samples
@@ -126,8 +127,8 @@ def test_a_fault_stops_the_session_until_it_is_reset():
 
 def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
     session = build_session(PULSE)
-    session.change("law", "fl")
-    session.change("load", svsa.PaperLoad())
+    session.change(SetLaw(argument="fl"))
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(60)
     runs = session.journal.run_number
     session.reset()
@@ -159,3 +160,10 @@ def test_the_same_run_after_a_reset_gives_the_same_samples():
     session.reset()
     session.step(120)
     np.testing.assert_array_equal(read_samples(session), first)
+
+
+def test_a_command_holds_from_the_tick_at_which_it_is_given() -> None:
+    session = build_session()
+    session.step(7)
+    session.change(SetLaw(tick=3, argument="fl"))
+    assert [(one.tick, one.kind) for one in session.journal.commands] == [(7, "law")]

@@ -5,7 +5,25 @@ import pytest
 
 import svsa
 from svsa.run import events
-from svsa.run.command import COMMANDS, read_command
+from svsa.run.command import (
+    COMMANDS,
+    ApplyLoad,
+    RemoveLoad,
+    SetActuator,
+    SetEffects,
+    SetGains,
+    SetLane,
+    SetLaw,
+    SetLaws,
+    SetNominal,
+    SetObserver,
+    SetParameters,
+    SetPosition,
+    SetRivals,
+    SetStiffness,
+    build_command,
+    read_command,
+)
 from svsa.run.replay import replay
 from svsa.session.session import take_loads_off
 from svsa.signals import CHANNEL_INDEX
@@ -41,18 +59,18 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     """The error of unloading is none of the load's; the next load begins anew."""
     session = build_session()
     session.step(10)
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(30)
     (loaded,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
-    session.change("unload", 1)
+    session.change(RemoveLoad(argument=1))
     session.step(50)
     assert [metrics.summarize() for metrics in session.journal.metrics.since_load] == [loaded]
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(5)
     (anew,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
     assert anew.duration_s == pytest.approx(0.005)
-    session.change("unload", 2)
-    session.change("rivals", (svsa.Lane(law="fl"),))
+    session.change(RemoveLoad(argument=2))
+    session.change(SetRivals(argument=(svsa.Lane(law="fl"),)))
     first, rival = session.journal.metrics.since_load
     assert first.summarize() == anew
     assert rival is None, "the load was on before this lane began"
@@ -60,13 +78,13 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
 
 def test_taking_a_load_off_is_logged_and_ends_it():
     session = build_session()
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(10)
-    session.change("unload", 1)
+    session.change(RemoveLoad(argument=1))
     session.step(10)
     assert list_events(session) == [(0, "load_on"), (10, "load_off")]
     assert session.run.loads == ()
-    session.change("load", PULSE)
+    session.change(ApplyLoad(argument=PULSE))
     assert session.run.loads[0].start_tick > session.run.tick
     take_loads_off(session)
     assert session.run.loads == ()
@@ -78,10 +96,10 @@ def test_taking_a_load_off_is_logged_and_ends_it():
 def test_a_push_is_one_mark_however_often_it_is_told():
     session = build_session()
     for torque in np.linspace(0.1, 1.5, 15):
-        session.change("load", svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05))
+        session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05)))
         session.step(20)
     number = session.run.loads[0].number
-    session.change("unload", number)
+    session.change(RemoveLoad(argument=number))
     session.step(10)
     labels = [(event.tick, event.label) for event in session.journal.events]
     assert labels == [(0, "Push on"), (300, "Push off")]
@@ -92,9 +110,9 @@ def test_a_push_is_one_mark_however_often_it_is_told():
 
 def test_a_push_that_nobody_holds_any_more_ends_by_itself():
     session = build_session()
-    session.change("load", svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05))
+    session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05)))
     session.step(30)
-    session.change("load", svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05))
+    session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05)))
     session.step(100)
     assert list_events(session) == [(0, "load_on"), (80, "load_off")]
 
@@ -102,9 +120,9 @@ def test_a_push_that_nobody_holds_any_more_ends_by_itself():
 def test_a_push_replays_bit_for_bit():
     session = build_session()
     for torque in (0.4, 0.9, -0.7):
-        session.change("load", svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.1))
+        session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.1)))
         session.step(60)
-    session.change("unload", session.run.loads[0].number)
+    session.change(RemoveLoad(argument=session.run.loads[0].number))
     session.step(100)
     written = [read_command(command.to_json()) for command in session.journal.commands]
     again = [samples for _, samples in replay(session.journal.initial, written, session.run.tick)]
@@ -115,7 +133,7 @@ def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
     """The tick of the end is reached, then the next load is put on, then time goes on."""
     session = build_session(PULSE)
     session.step(50)
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(1)
     assert list_events(session) == [(30, "load_on"), (50, "load_off"), (50, "load_on")]
 
@@ -123,8 +141,8 @@ def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
 def test_a_load_taken_off_before_its_first_tick_is_not_logged_as_off():
     """It never acted: an event off without an event on would be told to the page."""
     session = build_session()
-    session.change("load", svsa.PaperLoad())
-    session.change("unload", 1)
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
+    session.change(RemoveLoad(argument=1))
     session.step(1)
     assert list_events(session) == []
 
@@ -133,18 +151,19 @@ def test_every_command_is_logged_with_its_tick():
     session = build_session()
     session.step(5)
     design = svsa.load_prototype()
-    session.change("law", "fl")
-    session.change("position", svsa.ConstantPosition(position_rad=0.1))
-    session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0))
-    session.change("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
-    session.change("laws", ("ndobc",))
-    session.change("parameters", {"fl_integral": {"position_pole_rad_per_s": 50.0}})
-    session.change("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0, 30.0, 30.0)))
-    session.change("actuator", design.actuator)
-    session.change("nominal", design.nominal)
-    session.change("effects", svsa.RIG)
-    session.change("rivals", (svsa.Lane(law="ndobc"),))
-    session.change("lane", {"lane": 2, "setting": {"law": "fl"}})
+    session.change(SetLaw(argument="fl"))
+    session.change(SetPosition(argument=svsa.ConstantPosition(position_rad=0.1)))
+    session.change(SetStiffness(argument=svsa.ConstantStiffness(stiffness_nm_per_rad=40.0)))
+    session.change(SetGains(argument=svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2)))
+    session.change(SetLaws(argument=("ndobc",)))
+    slower = {"fl_integral": {"position_pole_rad_per_s": 50.0}}
+    session.change(SetParameters(argument=slower))
+    session.change(SetObserver(argument=svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0,) * 3)))
+    session.change(SetActuator(argument=design.actuator))
+    session.change(SetNominal(argument=design.nominal))
+    session.change(SetEffects(argument=svsa.RIG))
+    session.change(SetRivals(argument=(svsa.Lane(law="ndobc"),)))
+    session.change(SetLane(argument={"lane": 2, "setting": {"law": "fl"}}))
     changed = [kind for kind in COMMANDS if kind not in ("load", "unload")]
     events = [kind for _, kind in list_events(session)]
     assert sorted(events) == sorted(changed)
@@ -160,9 +179,9 @@ def test_a_refused_command_changes_nothing_and_is_not_logged():
     before = session.run.configuration, session.version
     lanes = list(session.run.lanes)
     with pytest.raises(svsa.ParameterError):
-        session.change("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=500.0))
+        session.change(SetStiffness(argument=svsa.ConstantStiffness(stiffness_nm_per_rad=500.0)))
     with pytest.raises(svsa.StateError):
-        session.change("unload", 99)
+        session.change(RemoveLoad(argument=99))
     assert (session.run.configuration, session.version) == before
     assert session.run.lanes == lanes
     assert session.journal.commands == []
@@ -189,13 +208,13 @@ def test_what_is_no_command_is_refused_in_words_and_leaves_no_trace(kind, argume
     session = build_session(PULSE)
     before = session.run.configuration, session.version, session.run.loads
     with pytest.raises(svsa.SvsaError, match=kind):
-        session.change(kind, argument)
+        session.change(build_command(0, kind, argument))
     assert (session.run.configuration, session.version, session.run.loads) == before
     assert session.journal.commands == []
-    session.change("load", svsa.PaperLoad())
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     assert [load.number for load in session.run.loads] == [1, 2]
     plain, spoiled = build_session(PULSE), session
-    plain.change("load", svsa.PaperLoad())
+    plain.change(ApplyLoad(argument=svsa.PaperLoad()))
     for each in (plain, spoiled):
         each.step(20)
     np.testing.assert_array_equal(read_samples(plain), read_samples(spoiled))
@@ -209,8 +228,8 @@ def test_the_version_grows_with_every_change_and_not_with_time():
         session.start,
         session.pause,
         lambda: session.set_speed(0.5),
-        lambda: session.change("law", "fl"),
-        lambda: session.change("load", svsa.PaperLoad()),
+        lambda: session.change(SetLaw(argument="fl")),
+        lambda: session.change(ApplyLoad(argument=svsa.PaperLoad())),
         lambda: take_loads_off(session),
         session.reset,
     ):
@@ -228,18 +247,18 @@ def test_a_record_tells_what_was_told_live():
     """Of the same commands the same events: laws by name, loads that were planned or not."""
     session = build_session(PULSE)
     session.step(20)
-    session.change("law", "fl")
-    session.change("gains", session.run.configuration.gains)
+    session.change(SetLaw(argument="fl"))
+    session.change(SetGains(argument=session.run.configuration.gains))
     session.step(50)
-    session.change("rivals", (svsa.Lane(law="ndobc"),))
-    session.change("load", svsa.PaperLoad())
+    session.change(SetRivals(argument=(svsa.Lane(law="ndobc"),)))
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(20)
-    session.change("laws", ("ndobc", "fl"))
+    session.change(SetLaws(argument=("ndobc", "fl")))
     for torque in (0.1, 0.2):
-        session.change("load", svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05))
+        session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05)))
         session.step(30)
-    session.change("unload", 2)
-    session.change("load", svsa.ConstantLoad(torque_nm=(1.0, 0.0, 0.0)))
+    session.change(RemoveLoad(argument=2))
+    session.change(ApplyLoad(argument=svsa.ConstantLoad(torque_nm=(1.0, 0.0, 0.0))))
     session.step(60)
     told = list(session.journal.events)
     assert [event.label for event in told] == [

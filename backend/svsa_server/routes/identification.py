@@ -4,6 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Body, Request
 
+from svsa.run.command import SetNominal, SetParameters
 from svsa.run.configuration import parse_design
 from svsa_server.excitation import TAG
 from svsa_server.recording_schemas import ExcitationRequest
@@ -56,9 +57,9 @@ def load_nominal(
     Gains, observer, the true plant and limits stay as they are.
     """
     design = parse_design(request.toml)
-    hosted.session.change("nominal", design.nominal)
+    hosted.session.change(SetNominal(argument=design.nominal))
     if design.parameters:
         hosted.session.patch(
-            "parameters", lambda configuration: {**configuration.parameters, **design.parameters}
+            lambda run: SetParameters(argument={**run.parameters, **design.parameters})
         )
     return build_state(hosted)

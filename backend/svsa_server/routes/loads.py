@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body
 
 from svsa.plant.disturbances import Load
+from svsa.run.command import ApplyLoad, RemoveLoad
 from svsa.session.session import take_loads_off
 from svsa_server.errors import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
@@ -42,7 +43,7 @@ def apply_load(
 
     A push ends by itself: sent again while it is on, it is changed and lasts on, as one load.
     """
-    hosted.session.change("load", load)
+    hosted.session.change(ApplyLoad(argument=load))
     return build_state(hosted)
 
 
@@ -58,5 +59,5 @@ def remove_load(hosted: NamedSession, load_id: int) -> SessionState:
     """Take one load off."""
     if load_id not in (load.number for load in hosted.session.run.loads):
         raise UnknownError(f"There is no load {load_id} in this session.")
-    hosted.session.change("unload", load_id)
+    hosted.session.change(RemoveLoad(argument=load_id))
     return build_state(hosted)

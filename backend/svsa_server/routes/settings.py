@@ -12,6 +12,20 @@ from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import Effects
 from svsa.reference.trajectories import PositionReference, StiffnessReference
+from svsa.run.command import (
+    SetActuator,
+    SetEffects,
+    SetGains,
+    SetLane,
+    SetLaw,
+    SetLaws,
+    SetNominal,
+    SetObserver,
+    SetParameters,
+    SetPosition,
+    SetRivals,
+    SetStiffness,
+)
 from svsa.run.configuration import LaneSetting
 from svsa_server.gain_schemas import GainsRequest
 from svsa_server.law_schemas import InstalledLane
@@ -47,7 +61,7 @@ def set_position(
     ],
 ) -> SessionState:
     """Follow another position reference, faded over without a jump in any derivative."""
-    hosted.session.change("position", reference)
+    hosted.session.change(SetPosition(argument=reference))
     return build_state(hosted)
 
 
@@ -70,7 +84,7 @@ def set_stiffness(
     ],
 ) -> SessionState:
     """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
-    hosted.session.change("stiffness", reference)
+    hosted.session.change(SetStiffness(argument=reference))
     return build_state(hosted)
 
 
@@ -83,9 +97,9 @@ def set_law(
 ) -> SessionState:
     """Control with another law, and the lanes beside too, each from where its plant is."""
     if request.rival_laws:
-        hosted.session.change("laws", (request.law, *request.rival_laws))
+        hosted.session.change(SetLaws(argument=(request.law, *request.rival_laws)))
     else:
-        hosted.session.change("law", request.law)
+        hosted.session.change(SetLaw(argument=request.law))
     return build_state(hosted)
 
 
@@ -103,7 +117,7 @@ def set_gains(
     ],
 ) -> SessionState:
     """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
-    hosted.session.patch("gains", lambda configuration: request.apply_to(configuration.gains))
+    hosted.session.patch(lambda run: SetGains(argument=request.apply_to(run.gains)))
     return build_state(hosted)
 
 
@@ -119,9 +133,7 @@ def set_parameters(
 
     What is left out stays.
     """
-    hosted.session.patch(
-        "parameters", lambda configuration: _merge(configuration.parameters, request)
-    )
+    hosted.session.patch(lambda run: SetParameters(argument=_merge(run.parameters, request)))
     return build_state(hosted)
 
 
@@ -133,7 +145,7 @@ def set_observer(
     ],
 ) -> SessionState:
     """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
-    hosted.session.change("observer", request)
+    hosted.session.change(SetObserver(argument=request))
     return build_state(hosted)
 
 
@@ -143,7 +155,7 @@ def change_actuator(
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
     """Change parameters of the true plant."""
-    hosted.session.patch("actuator", lambda configuration: _apply(patch, configuration.actuator))
+    hosted.session.patch(lambda run: SetActuator(argument=_apply(patch, run.actuator)))
     return build_state(hosted)
 
 
@@ -153,7 +165,7 @@ def change_nominal(
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
 ) -> SessionState:
     """Change parameters of the model that controller and observer believe in."""
-    hosted.session.patch("nominal", lambda configuration: _apply(patch, configuration.nominal))
+    hosted.session.patch(lambda run: SetNominal(argument=_apply(patch, run.nominal)))
     return build_state(hosted)
 
 
@@ -166,7 +178,7 @@ def set_effects(
     ],
 ) -> SessionState:
     """Switch on what separates the simulation from a bench; what is left out is off."""
-    hosted.session.change("effects", effects)
+    hosted.session.change(SetEffects(argument=effects))
     return build_state(hosted)
 
 
@@ -176,7 +188,7 @@ def set_lanes(
     request: Annotated[LanesRequest, Body(examples=[{"rivals": [{"law": "fl"}]}, {"rivals": []}])],
 ) -> SessionState:
     """Run other controllers beside the session's own: same references, loads and noise."""
-    hosted.session.change("rivals", request.rivals)
+    hosted.session.change(SetRivals(argument=request.rivals))
     return build_state(hosted)
 
 
@@ -198,7 +210,7 @@ def set_lane(
 
     What is left out is the session's. The same law goes on with what it remembers.
     """
-    hosted.session.change("lane", LaneSetting(lane=lane, setting=request))
+    hosted.session.change(SetLane(argument=LaneSetting(lane=lane, setting=request)))
     return build_state(hosted)
 
 

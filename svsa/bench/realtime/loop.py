@@ -5,7 +5,7 @@ knows neither processes nor shared memory: a test or an experiment runs it in lo
 loop's process against the clock.
 """
 
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from svsa.loop.measured import (
     publish_and_predict,
 )
 from svsa.packed import pack, view_field
-from svsa.run.command import build_command
+from svsa.run.command import Command
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run, Start
 from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
@@ -113,14 +113,13 @@ class BenchLoop:
         self.sink.begin_run(self.number)
         return start
 
-    def change(self, kind: str, argument: Any) -> int:
-        """Give the run a command of `COMMANDS`; returns the tick at which it holds.
+    def change(self, command: Command) -> int:
+        """Give the run a command now; returns the tick at which it holds.
 
         Raises `ParameterError` or `StateError`, and then nothing has changed.
         """
-        command = build_command(self.run.tick, kind, argument)
         command.apply(self.run)
-        return command.tick
+        return self.run.tick
 
     def warm_up(self) -> None:
         """Have every compiled piece loaded before time counts."""

@@ -26,6 +26,7 @@ from svsa.bench.safety.machine import BenchStatus
 from svsa.bench.schedule import LOOP_PRIORITY, request_real_time
 from svsa.compilation import watch_compilation
 from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.run.command import read_command
 from svsa.run.configuration import Configuration
 
 FIRST_MESSAGE_S = 10.0
@@ -121,7 +122,7 @@ class LoopProcess:
         now, loop, plant = self._clock.now(), self._loop, self._plant
         match wanted:
             case "change":
-                return {"tick": loop.change(argument["kind"], argument["argument"])}
+                return {"tick": loop.change(read_command(argument))}
             case "load":
                 loop.load(Configuration(**argument))
             case "arm":

@@ -1531,7 +1531,8 @@ export interface components {
         ApplyLoad: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -3424,7 +3425,8 @@ export interface components {
         RemoveLoad: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4334,7 +4336,8 @@ export interface components {
         SetActuator: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4351,7 +4354,8 @@ export interface components {
         SetEffects: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4368,7 +4372,8 @@ export interface components {
         SetGains: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4385,7 +4390,8 @@ export interface components {
         SetLane: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4402,7 +4408,8 @@ export interface components {
         SetLaw: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4420,7 +4427,8 @@ export interface components {
         SetLaws: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4438,7 +4446,8 @@ export interface components {
         SetNominal: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4455,7 +4464,8 @@ export interface components {
         SetObserver: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4472,7 +4482,8 @@ export interface components {
         SetParameters: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4494,7 +4505,8 @@ export interface components {
         SetPosition: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4512,7 +4524,8 @@ export interface components {
         SetRivals: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
@@ -4530,7 +4543,8 @@ export interface components {
         SetStiffness: {
             /**
              * Tick
-             * @description Tick at whose beginning it holds
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
              */
             tick: number;
             /**
