@@ -11,7 +11,7 @@ SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
 SERVED := package rig hardware scene server client browser
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 
-.PHONY: help run dev bench-demo test quick check hooks format page schema lock screenshots bench clean
+.PHONY: help run dev bench-demo test quick check hooks format page schema lock screenshots arena bench clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -66,6 +66,10 @@ schema: .venv/installed  ## the page's types of the API, generated from the serv
 
 screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
+
+arena: .venv/installed  ## every law measured, and what is written of them: after a change of one
+	$(BIN)/svsa arena run --save svsa/arena/results.json
+	$(BIN)/svsa arena publish
 
 bench: .venv/installed  ## what the loop costs, beside a C loop of the same work
 	$(BIN)/svsa bench

@@ -10,7 +10,13 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TimeElapsedColumn
 from rich.table import Table
 
-from svsa.arena.results import Results, measure_laws, read_results, write_results
+from svsa.arena.results import (
+    Results,
+    load_published,
+    measure_laws,
+    read_results,
+    write_results,
+)
 from svsa.arena.seeds import PUBLIC_SEED, derive_seed
 from svsa.arena.table import SHORT, build_short_cells, format_markdown
 from svsa.control.installed import check_installed, list_law_names
@@ -70,6 +76,17 @@ def print_seed(
 ) -> None:
     """Print the seed of a season's draws: HMAC-SHA256 of its secret and the suite's version."""
     print(f"{_read_seed(secret):016x}")
+
+
+@arena.command("publish")
+def publish_arena(
+    tree: Annotated[Path, typer.Argument(help="The project's source tree.")] = Path(),
+) -> None:
+    """Write the laws' pages with their pictures, and the README's table, from the results."""
+    require_extra("plot")
+    from svsa.arena.publish import publish
+
+    publish(tree, load_published())
 
 
 def _read_seed(secret: Path | None) -> int:

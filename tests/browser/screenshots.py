@@ -78,6 +78,12 @@ def show_overlay(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name=re.compile("^Overlay")).click()
 
 
+def show_arena(page: Page, lab: Lab) -> None:
+    """The laws in their table."""
+    page.goto(lab.url + "/?arena=all")
+    page.get_by_role("heading", name="How much they bear").wait_for(timeout=LONGEST_MS)
+
+
 def take(
     browser: Browser,
     lab: Lab,
@@ -107,6 +113,7 @@ def take_screenshots() -> None:
         take(browser, lab, "cursors", show_cursors)
         take(browser, lab, "design", show_design)
         take(browser, lab, "overlay", show_overlay)
+        take(browser, lab, "arena", show_arena)
         browser.close()
 
 
