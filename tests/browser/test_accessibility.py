@@ -137,6 +137,12 @@ def open_trash(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name="Trash").click()
 
 
+def open_arena(page: Page, lab: Lab) -> None:
+    page.goto(lab.url + "/?arena=all")
+    page.get_by_text("What each column is measured on").click()
+    expect(page.get_by_role("heading", name="How much they bear")).to_be_visible()
+
+
 def open_private(page: Page, lab: Lab) -> None:
     name = lab.client.post("/api/v1/sessions", json={}).json()["session"]
     come_back(page, lab)
@@ -164,6 +170,7 @@ def open_private(page: Page, lab: Lab) -> None:
         pytest.param(open_run, (WIDE, PHONE), id="run"),
         pytest.param(open_overlay, (WIDE, PHONE), id="overlay"),
         pytest.param(open_trash, (WIDE,), id="trash"),
+        pytest.param(open_arena, (WIDE, PHONE), id="arena"),
         pytest.param(open_private, (WIDE,), id="private"),
     ],
 )

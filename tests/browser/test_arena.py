@@ -1,0 +1,37 @@
+"""The page Arena: sorted, chosen from and left for one of its runs, by keyboard alone."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from svsa.arena.results import load_published
+from svsa.control.installed import get_title
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+
+def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, lab: Lab) -> None:
+    page.goto(lab.url + "/?arena=all")
+    table = page.get_by_role("region", name="Errors, faults and score, a law a row")
+    first = table.get_by_role("rowheader").first
+    best = max(load_published().rows, key=lambda row: row.score)
+    expect(first).to_contain_text(get_title(best.law))
+    head = table.get_by_role("columnheader", name=re.compile("^2 Hz"))
+    head.get_by_role("button").press("Enter")
+    expect(head).to_have_attribute("aria-sort", "ascending")
+    rows = [row for row in load_published().rows if row.sine_2hz_rms_deg is not None]
+    least = min(rows, key=lambda row: row.sine_2hz_rms_deg or 0.0)
+    expect(table.get_by_role("button", name=re.compile("2 Hz: .*, best"))).to_have_text(
+        f"{least.sine_2hz_rms_deg:.3g}"
+    )
+    table.get_by_role("button", name="PI observer", exact=True).press("Enter")
+    card = page.get_by_role("heading", name="PI observer", exact=True)
+    expect(card).to_be_visible()
+    table.get_by_role("button", name=re.compile("^PI observer, Unloading: deflection")).press(
+        "Enter"
+    )
+    page.wait_for_url(re.compile(r"\?session="))
+    expect(page.get_by_text("Private session.")).to_be_visible()
+    expect(page.get_by_role("button", name="Control law: PI observer").first).to_be_visible()
