@@ -16,7 +16,7 @@ from svsa.bench.emulation import EMULATED_ID
 from svsa.bench.encoders import read_source
 from svsa.bench.encoders.source import EncoderError
 from svsa.bench.file import BenchFile
-from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.faults import AXIS_WORDS, Alarm
 from svsa.bench.safety.standstill import NewCounts
 from svsa.signals import Measurement, State
 
@@ -210,9 +210,13 @@ class Sensing:
             return self._alarm
         for name, drive in zip(("motor1", "motor2"), self._drives, strict=True):
             if drive.errors:
-                words = f"The drive of {name} sent an error frame: its stall protection is on."
+                words = (
+                    f"The drive of {AXIS_WORDS[name]} sent an error frame: stall protection is on."
+                )
                 return Alarm("drive_error", words, {f"{name}_error_frames": drive.errors})
             if drive.zeroed and drive.phase is Phase.READY:
-                words = f"The position of {name} jumped to zero: its drive has restarted."
+                words = (
+                    f"The position of {AXIS_WORDS[name]} jumped to zero: its drive has restarted."
+                )
                 return Alarm("drive_zeroed", words, {f"{name}_counts": drive.counts})
         return None

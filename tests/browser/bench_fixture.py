@@ -66,6 +66,7 @@ class PatchedBench:
         self._fault: dict | None = None
         self._version = 0
         self._stream: WebSocketRoute | None = None
+        self._page = page
         page.route("**/api/v1/sessions/lab/**", self._answer)
         page.route_web_socket("**/api/v1/sessions/lab/stream**", self._patch_stream)
 
@@ -74,6 +75,13 @@ class PatchedBench:
         self.bench |= change
         if self._stream is not None:
             self._stream.send(json.dumps({"type": "state", "state": self._told}))
+
+    def drop(self) -> None:
+        """The page loses its stream, and nothing answers it any more."""
+        self._page.route("**/api/v1/**", lambda route: route.abort())
+        self._page.route_web_socket("**/stream**", lambda socket: socket.close())
+        if self._stream is not None:
+            self._stream.close()
 
     @property
     def _told(self) -> dict:

@@ -219,3 +219,44 @@ def test_nothing_of_a_bench_is_covered_or_cut(page: Page, lab: Lab, size: tuple[
         "cards => cards.filter(one => one.scrollWidth > one.clientWidth).map(one => one.ariaLabel)"
     )
     assert cut == []
+
+
+def test_without_a_connection_a_fault_is_the_last_that_is_known(own_page: Page, lab: Lab) -> None:
+    page = own_page
+    patched = PatchedBench(page, status="run", homing=HOMED)
+    open_page(page, lab)
+    page.keyboard.press("Shift+Escape")
+    banner = page.get_by_role("alert").filter(has_text="Quick stop.")
+    expect(banner).to_contain_text("Both drives are without current")
+    patched.drop()
+    expect(banner).to_contain_text("Last known: Quick stop.")
+    expect(banner).not_to_contain_text("Both drives are without current")
+
+
+def test_a_new_run_does_not_begin_with_what_the_one_before_has_left(page: Page, lab: Lab) -> None:
+    """Before its first sample there is none: neither its clock nor its error is of another run."""
+    lab.load_figure()
+    lab.jump(2)
+    open_page(page, lab)
+    clock = page.get_by_role("region", name="Status", exact=True).locator(".clock")
+    expect(clock).to_contain_text("0:02")
+    lab.client.post(lab.session + "/reset").raise_for_status()
+    assert lab.read()["status"] == "paused"
+    expect(clock).to_contain_text("0:00.0")
+    lab.client.post(lab.session + "/start").raise_for_status()
+
+
+def test_a_fault_is_cleared_by_who_is_in_control(page: Page, lab: Lab) -> None:
+    PatchedBench(page, status="fault", homing=HOMED)
+    open_page(page, lab)
+    clears = page.get_by_role("button", name="Clear fault", exact=True)
+    expect(clears).to_have_count(2)
+    for clear in clears.all():
+        expect(clear).to_be_enabled()
+    ada = {"SVSA-Client": "another page"}
+    lab.client.put(lab.session + "/control", json={"by": "Ada"}, headers=ada).raise_for_status()
+    try:
+        for clear in clears.all():
+            expect(clear).to_be_disabled()
+    finally:
+        lab.client.delete(lab.session + "/control", headers=ada).raise_for_status()

@@ -4,9 +4,10 @@ import math
 
 from svsa.bench.drives.conversion import build_motor_scale
 from svsa.bench.file import BenchFile, MotorSettings
-from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.faults import AXIS_WORDS, Alarm
 from svsa.bench.safety.standstill import NewCounts, Standstill
 from svsa.bench.safety.vibration import REVERSALS, WINDOW_S, Vibration
+from svsa.fault_labels import label_fault
 from svsa.model.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
 from svsa.model.dynamics import Actuator
 from svsa.model.exponential import expm1
@@ -16,7 +17,6 @@ from svsa.signals import Disturbance, State, Torque
 POSITION_MARGIN_RAD = 0.2
 WARM = 0.9
 OVERLOAD = 1.05
-_AXES = {"link": "the link", "motor1": "motor 1", "motor2": "motor 2"}
 _STILL = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -31,7 +31,7 @@ class MotorGuard:
 
     def __init__(self, name: str, motor: MotorSettings, torque_max: float, rate: float) -> None:
         scale = abs(build_motor_scale(motor).torque_per_ma) * 1000.0
-        self._name, self._title, self._motor = name, _AXES[name].capitalize(), motor
+        self._name, self._title, self._motor = name, AXIS_WORDS[name].capitalize(), motor
         self._most, self._peak = torque_max, motor.peak_current_a * scale
         self._nominal = motor.nominal_current_a * scale
         self._scale, self._rate = scale, rate
@@ -169,8 +169,9 @@ class Guard:
             return None
         values = {"deflection_rad": known.q - known.theta1, "motor2_position_rad": known.theta2}
         message = (
-            f"The actuator left the domain of the model ({FAULT_CODES[code]}): deflection"
-            f" {values['deflection_rad']:.4f} rad, stiffness motor at {known.theta2:.4f} rad."
+            f"{label_fault(FAULT_CODES[code])}: the actuator left the domain of the model with a"
+            f" deflection of {values['deflection_rad']:.4f} rad and its stiffness motor at"
+            f" {known.theta2:.4f} rad."
         )
         return Alarm(FAULT_CODES[code], message, values)
 
@@ -181,7 +182,7 @@ class Guard:
             return None
         name, velocity = ("motor1", known.dtheta1) if shakes1 else ("motor2", known.dtheta2)
         words = (
-            f"{_AXES[name].capitalize()} shakes: it turned around {REVERSALS} times within"
+            f"{AXIS_WORDS[name].capitalize()} shakes: it turned around {REVERSALS} times within"
             f" {WINDOW_S:g} s. The loop is unstable: an encoder stands still or counts the wrong"
             " way, feedback comes late, or the gains are too high."
         )
@@ -191,7 +192,9 @@ class Guard:
         most = self._safety.disturbance_max_nm
         for name, value in zip(("link", "motor1", "motor2"), estimate, strict=True):
             if abs(value) > most:
-                words = f"The observer sees a torque on {_AXES[name]} that no load makes: it was"
+                words = (
+                    f"The observer sees a torque on {AXIS_WORDS[name]} that no load makes: it was"
+                )
                 return _exceeded("implausible", words, f"estimate_{name}_nm", value, most, "N·m")
         return None
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from svsa.bench.drives.phase import Phase
 from svsa.bench.file import BenchFile
 from svsa.bench.homing import Homing
-from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.faults import AXIS_WORDS, Alarm
 from svsa.bench.safety.guard import Guard
 from svsa.errors import Fault, StateError
 from svsa.signals import Disturbance, State, Torque
@@ -178,7 +178,10 @@ class Machine:
         safety = self._safety
         for axis, age in zip(AXES, conditions.ages_s, strict=True):
             if age > safety.stale_fault_s:
-                words = f"The feedback of {axis} is older than {1e3 * safety.stale_fault_s:g} ms."
+                words = (
+                    f"The feedback of {AXIS_WORDS[axis]} is older than"
+                    f" {1e3 * safety.stale_fault_s:g} ms."
+                )
                 return Alarm("stale_feedback", words, {f"{axis}_age_s": min(age, 1e6)})
         if conditions.missed >= safety.missed_ticks:
             words = f"The loop missed {conditions.missed} ticks in a row."

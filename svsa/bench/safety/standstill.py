@@ -5,7 +5,7 @@ than friction can take up. With counts that have stopped, ŵ goes on growing aga
 controller asks for, long before it is greater than any load.
 """
 
-from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.faults import AXIS_WORDS, Alarm
 from svsa.signals import Disturbance
 
 NewCounts = tuple[int | None, int | None, int | None]
@@ -45,7 +45,7 @@ class Standstill:
             change = torque - self._torques[number]
             if abs(change) > self._most:
                 words = (
-                    f"The encoder of {axis} stands still at {new} counts, although the"
+                    f"The encoder of {AXIS_WORDS[axis]} stands still at {new} counts, although the"
                     f" torque on its axis has changed by {change:.3g} N·m since: its limit is"
                     f" {self._most:g} N·m. It is frozen or not connected, or the axis is jammed."
                 )

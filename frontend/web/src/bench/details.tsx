@@ -5,6 +5,7 @@ import { formatLapse, formatNumber } from "../units";
 import { Homing } from "./homing";
 import { type Freshness, freshnessOf } from "./lateness";
 import { Loop } from "./loop";
+import { isStarting } from "./status";
 
 const SIGNS = { fresh: "✓", stale: "▲", lost: "▲" } as const;
 /** The first two sources; the third is the deflection encoder. */
@@ -79,7 +80,7 @@ function Drives({ bench }: { bench: BenchState }) {
           })}
         </tbody>
       </table>
-      {isLive.value && (
+      {isLive.value && !isStarting(bench) && (
         <p class={supervised ? "is-good" : "is-bad"}>
           <span aria-hidden="true">{supervised ? "✓" : "▲"}</span>{" "}
           {supervised ? drives.supervised : drives.unsupervised}

@@ -9,6 +9,7 @@ import {
   isStoppedSimulation,
 } from "../bench/status";
 import { perform } from "../state/actions";
+import { mayCommand } from "../state/control";
 import { isLive, session } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
@@ -51,8 +52,9 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
       </span>
       <div class="stop-words">
         <p role="alert">
+          {!isLive.value && `${text.stop.lastKnown} `}
           <strong>{isLost ? lostTitle : stopTitle}</strong> {state.fault?.message}{" "}
-          {!isLost && text.stop.latched}
+          {!isLost && isLive.value && text.stop.latched}
         </p>
         <ol aria-label={text.stop.goOn}>
           {(isLost ? lostSteps : text.stop.steps).map((step) => (
@@ -65,7 +67,7 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
         type="button"
         class="button"
         title={isLost ? text.bench.restartHint : text.bench.clearHint}
-        disabled={!isLive.value || (isLost && !allowedOn(bench).restart)}
+        disabled={!mayCommand.value || (isLost && !allowedOn(bench).restart)}
         onClick={() => void perform("bench.clear", isLost ? restartBench : clearBench)}
       >
         {isLost ? text.bench.restart : text.bench.clear}

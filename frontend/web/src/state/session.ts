@@ -45,8 +45,16 @@ export function acceptState(state: Progress): void {
   take({ ...known, ...state });
 }
 
+/** A run that has begun has no samples yet: those of the one before are not of it. */
+function beginRun(number: number): void {
+  run = number;
+  samples.ring.clear();
+  received.count++;
+}
+
 /** The samples stand in the order of the lanes that the page draws them as. */
 function take(state: SessionState): void {
+  if (state.run_number > run) beginRun(state.run_number);
   samples.ring.arrange(state.lanes.map(({ id }) => id));
   session.value = state;
 }
@@ -73,10 +81,8 @@ function acceptText(message: string): void {
 
 function acceptBinary(message: ArrayBuffer): void {
   const batch = decodeBatch(message, samples.ring.channels.length);
-  if (batch.run !== run) {
-    run = batch.run;
-    samples.ring.clear();
-  }
+  if (batch.run < run) return;
+  if (batch.run > run) beginRun(batch.run);
   samples.ring.append(batch, periodS);
   if (batch.missed > 0) missedSamples.value += batch.missed;
   received.count++;

@@ -39,6 +39,7 @@ export const benchText = {
       "See why it was lost, and that nobody is in reach of the link.",
       "Start the loop anew, arm, confirm the marks, and run.",
     ],
+    lastKnown: "No connection. Last known:",
     latched: "Both drives are without current, and stay so until somebody clears the fault.",
     goOn: "To go on",
     steps: [
