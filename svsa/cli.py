@@ -26,6 +26,7 @@ from svsa.design.cli import stability
 from svsa.errors import SvsaError
 from svsa.extras import require_extra
 from svsa.identification.cli import identify
+from svsa.result.cli import compare
 from svsa.rig.cli import rig
 from svsa.study.cli import study
 
@@ -95,6 +96,7 @@ def reproduce(
 app.add_typer(arena, name="arena")
 app.command("tune")(tune)
 app.add_typer(study, name="study")
+app.command("compare")(compare)
 app.command("rig")(rig)
 app.command("identify")(identify)
 app.command("stability")(stability)
