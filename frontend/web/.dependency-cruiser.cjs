@@ -7,6 +7,7 @@ const ROOMS = [
   ["keys"],
   ["runs"],
   ["controls", "control", "learning", "safety", "scene", "script"],
+  ["tuning"],
   ["bench", "design", "plots"],
   ["equations"],
   ["widgets"],

@@ -211,6 +211,51 @@ def place_poles(
 
 
 @compiled
+def yield_poles(
+    nominal: Actuator,
+    constants: Constants,
+    memory: np.record,
+    x: State,
+    reference: Reference,
+    w: Disturbance,
+    a_most: float,
+    period: float,
+) -> Torque:
+    """u = A⁻¹(y − drift under ŵ), N·m, of the fastest poles that the motors can follow.
+
+    constants: with what `Constants` has but the observer's shares. memory: with what `Memory`
+    has, written. w: ŵ, whose rate is in memory.observed. a_most: what a is at most now, rad/s.
+    Else as `Law` says.
+    """
+    c, observed = constants, memory.observed
+    sigma, dsigma, ddsigma = govern_stiffness(nominal, c, memory, reference, w, period)
+    ξ = compute_linearization(nominal, x)
+    held = compute_disturbed(nominal, ξ, w)
+    dddq = held.dddq + c.rate_used * observed.dw2 / nominal.M
+    q = Disturbed(held.ddq, dddq, held.ddddq, held.ddsigma)
+    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
+    limit = compute_deflection_limit(c.domain, mu)
+    most = TORQUE_RATIO * compute_elastic_torque(mu, SPRING_SHARE * limit, nominal.K)
+    e_sigma, de_sigma = reference.sigma + sigma - ξ.sigma, reference.dsigma + dsigma - ξ.dsigma
+    a = least(a_most, c.a_max - memory.yielded + c.back)
+    torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)
+    for _ in range(MAX_STEPS):
+        beyond = (abs(torque.u1) > c.torque1_max) | (abs(torque.u2) > c.torque2_max)
+        gives = beyond & (a > c.a_min)
+        if not some(gives):
+            break
+        a = choose(gives, GIVE * a, a)
+        torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)
+    memory.yielded = c.a_max - a
+    F = compute_internal_torque(nominal, x)
+    u1 = guard_deflection(
+        nominal, x, F, w, held.ddq, DEFLECTION_SHARE * limit, DEFLECTION_RATE, torque.u1
+    )
+    low, high = c.domain.mu_min + LEVER_MARGIN, c.domain.mu_max - LEVER_MARGIN
+    return Torque(u1, guard_lever(nominal, x, F, w, mu, low, high, LEVER_RATE, torque.u2))
+
+
+@compiled
 def control(
     nominal: Actuator,
     constants: Constants,
@@ -227,31 +272,7 @@ def control(
     """
     c, observed = constants, memory.observed
     w = observe_disturbance(nominal, c.share, c.rate_share, observed, x, applied, period)
-    sigma, dsigma, ddsigma = govern_stiffness(nominal, c, memory, reference, w, period)
-    ξ = compute_linearization(nominal, x)
-    held = compute_disturbed(nominal, ξ, w)
-    dddq = held.dddq + c.rate_used * observed.dw2 / nominal.M
-    q = Disturbed(held.ddq, dddq, held.ddddq, held.ddsigma)
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    limit = compute_deflection_limit(c.domain, mu)
-    most = TORQUE_RATIO * compute_elastic_torque(mu, SPRING_SHARE * limit, nominal.K)
-    e_sigma, de_sigma = reference.sigma + sigma - ξ.sigma, reference.dsigma + dsigma - ξ.dsigma
-    a = least(c.a_max, c.a_max - memory.yielded + c.back)
-    torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)
-    for _ in range(MAX_STEPS):
-        beyond = (abs(torque.u1) > c.torque1_max) | (abs(torque.u2) > c.torque2_max)
-        gives = beyond & (a > c.a_min)
-        if not some(gives):
-            break
-        a = choose(gives, GIVE * a, a)
-        torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)
-    memory.yielded = c.a_max - a
-    F = compute_internal_torque(nominal, x)
-    u1 = guard_deflection(
-        nominal, x, F, w, held.ddq, DEFLECTION_SHARE * limit, DEFLECTION_RATE, torque.u1
-    )
-    low, high = c.domain.mu_min + LEVER_MARGIN, c.domain.mu_max - LEVER_MARGIN
-    return Torque(u1, guard_lever(nominal, x, F, w, mu, low, high, LEVER_RATE, torque.u2))
+    return yield_poles(nominal, c, memory, x, reference, w, c.a_max, period)
 
 
 NDOBC_W = Law(

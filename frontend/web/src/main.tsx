@@ -17,6 +17,7 @@ import "./design/design.css";
 import "./design/plane.css";
 import "./design/stability.css";
 import "./design/outcome.css";
+import "./tuning/tuning.css";
 import "./learning/learning.css";
 import "./scene/labels.css";
 import "./scene/scene.css";

@@ -4,6 +4,8 @@ import { perform } from "../state/actions";
 import { lawsBeside } from "../state/lanes";
 import { lawOf, titleOf } from "../state/laws";
 import { text } from "../text/en";
+import { isOpen as isTuning } from "../tuning/tuning";
+import { PanelButton } from "../widgets/panelbutton";
 import { Problem } from "../widgets/problem";
 import { Compare } from "./compare";
 import { Gains } from "./gains";
@@ -34,6 +36,11 @@ export function Controller({ state }: { state: SessionState }) {
       <Problem control="controller.law" />
       {present && !present.takes_gains && <LawForm law={present} state={state} />}
       {(!present || present.takes_gains) && <Gains gains={gains} />}
+      <div class="tune-open">
+        <PanelButton isOpen={isTuning} hint={text.tuning.openHint}>
+          {text.tuning.open}
+        </PanelButton>
+      </div>
       <Compare state={state} />
     </Group>
   );

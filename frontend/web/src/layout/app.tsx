@@ -13,6 +13,7 @@ import { Runs } from "../runs/runs";
 import { CallsDrawer } from "../script/drawer";
 import { phase, session } from "../state/session";
 import { text } from "../text/en";
+import { TunePanel } from "../tuning/panel";
 import { Banners } from "./banners";
 import { Comparison } from "./comparison";
 import { Login } from "./login";
@@ -55,6 +56,7 @@ export function App() {
         </main>
       )}
       <DesignPanel />
+      <TunePanel />
       <LearnPanel />
       {state !== null && at.kind === "lab" && <Tour />}
       <CallsDrawer />

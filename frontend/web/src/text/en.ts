@@ -15,6 +15,7 @@ import { runsText } from "./runs";
 import { sceneText } from "./scene";
 import { scriptText } from "./script";
 import { stabilityText } from "./stability";
+import { tuningText } from "./tuning";
 
 export const text = {
   ...pageText,
@@ -33,4 +34,5 @@ export const text = {
   ...realismText,
   ...runsText,
   ...scriptText,
+  ...tuningText,
 } as const;

@@ -1,0 +1,119 @@
+/** A search for a law's parameters on the server, as it is followed here. */
+import { computed, signal } from "@preact/signals";
+import { putGains, putObserver, putParameters } from "../api/client";
+import {
+  listTunings,
+  readTuning,
+  startTuning,
+  stopTuning,
+  type Trial,
+  type Tuning,
+} from "../api/tunings";
+import type { Law } from "../api/types";
+import { perform } from "../state/actions";
+
+export const CONTROL = "tuning.use";
+const PAUSE_MS = 700;
+const MAX_SILENT = 20;
+
+export const isOpen = signal(false);
+export const tuning = signal<Tuning | null>(null);
+export const trials = signal<readonly Trial[]>([]);
+export const problem = signal<unknown>(null);
+export const isStarting = signal(false);
+
+export const isUnderWay = computed(() => isGoing(tuning.value));
+
+function isGoing(state: Tuning | null): boolean {
+  return state?.status === "waiting" || state?.status === "running";
+}
+
+const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
+
+let followed = 0;
+
+function take(state: Tuning): void {
+  const known = trials.peek();
+  const fresh = state.trials.filter(({ number }) => number >= known.length);
+  if (fresh.length > 0) trials.value = [...known, ...fresh];
+  tuning.value = state;
+}
+
+/** Asks on until it has ended; an answer that does not come is asked for again for a while. */
+async function follow(id: string): Promise<void> {
+  const number = ++followed;
+  let silent = 0;
+  while (number === followed) {
+    try {
+      const state = await readTuning(id, trials.peek().length);
+      if (number !== followed) return;
+      silent = 0;
+      problem.value = null;
+      take(state);
+      if (!isGoing(state)) return;
+    } catch (error) {
+      if (number !== followed) return;
+      problem.value = error;
+      silent++;
+      if (silent >= MAX_SILENT) return;
+    }
+    await pause();
+  }
+}
+
+export async function start(law: Law, budget: number): Promise<void> {
+  problem.value = null;
+  isStarting.value = true;
+  try {
+    const begun = await startTuning(law, budget);
+    trials.value = [];
+    take(begun);
+    void follow(begun.id);
+  } catch (error) {
+    problem.value = error;
+  }
+  isStarting.value = false;
+}
+
+export async function stop(): Promise<void> {
+  const state = tuning.peek();
+  if (state === null) return;
+  try {
+    await stopTuning(state.id);
+  } catch (error) {
+    problem.value = error;
+  }
+}
+
+/** A page that was opened anew finds the newest search of this lab again. */
+export async function findNewest(): Promise<void> {
+  if (tuning.peek() !== null) return;
+  try {
+    const [newest] = await listTunings();
+    if (newest === undefined || tuning.peek() !== null) return;
+    void follow(newest.id);
+  } catch (error) {
+    problem.value = error;
+  }
+}
+
+/** Puts the best into the session: parameters of its law, or gains and the observer. */
+export async function applyBest(): Promise<boolean> {
+  const setting = tuning.peek()?.best_setting;
+  if (!setting) return false;
+  const { law, parameters, gains } = setting;
+  const betas = setting.observer?.bandwidth_rad_per_s;
+  const isSet =
+    (!parameters || (await perform(CONTROL, () => putParameters({ [law]: parameters })))) &&
+    (!gains || (await perform(CONTROL, () => putGains(gains))));
+  return isSet && (!betas || perform(CONTROL, () => putObserver(...betas)));
+}
+
+/** The best cost so far, after every trial. */
+export function bestSoFar(tried: readonly Trial[]): [number, number][] {
+  let best = Number.POSITIVE_INFINITY;
+  return tried.map(({ number, cost }) => {
+    best = Math.min(best, cost);
+    return [number, best];
+  });
+}
