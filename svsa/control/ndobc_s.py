@@ -9,12 +9,13 @@ which noise makes great and a load hardly: one jump counts as one. With f = 1/(1
 poles are at most at a = a_s + f (a₀ − a_s), and both of the observer at ω = ω_s + f (ω₀ − ω_s): at
 a₀, ω₀ in quiet, a_s, ω_s where it is loud. Saturation, spring, lever and stiffness are NDOBC-W's.
 
-Against NDOBC it has the lesser error before and after the load in the ideal loop, when the load is
-taken off, swings or hangs, in draws, on large steps and under five times the noise, where it also
-shakes less. It loses by a hundredth at the peak in the ideal loop, by an eighth in the cycle among
-counts that is left on the rig, and by a tenth of a second in recovery there: an observer that knows
-the rate of a load overshoots a step. Where M is half and B1 one and a half times the nominal ones
-it swings by degrees, as NDOBC-W does, where NDOBC ends in a fault.
+Against NDOBC it has the lesser error before and after the load in the ideal loop, at the peak on
+the rig, when the load is taken off, swings or hangs, in the median of the draws, on large steps and
+under five times the noise, where it also shakes the motors half as much. What is left to NDOBC: a
+hundredth of the peak in the ideal loop, a seventh of the cycle among counts that stays on the rig,
+and a tenth of a second of recovery there, since an observer that knows a load's rate overshoots a
+step. Where M is half and B1 one and a half times the nominal ones it swings by degrees, as
+NDOBC-W does and where NDOBC ends in a fault; and as many draws fail.
 """
 
 from typing import NamedTuple
@@ -25,13 +26,13 @@ from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
 from svsa.control.ndobc_w import YieldingPoles, yield_poles
-from svsa.lanes.choice import least
 from svsa.model.domain import Domain
 from svsa.model.dynamics import Actuator
 from svsa.model.exponential import exp
 from svsa.observer.disturbance import compute_share
 from svsa.observer.own import Observed, observe_disturbance
 from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.simd.choice import least
 
 CAP = 4.0
 """What one tick counts at most, in s₀."""
