@@ -74,7 +74,7 @@ def assert_is_run(row: dict, configuration: Configuration) -> None:
 def test_more_runs_of_the_same_study_go_on_where_it_ended(tmp_path):
     run_whole(tmp_path / "a", runs=24)
     grown, whole = run_whole(tmp_path / "a", runs=40), run_whole(tmp_path / "b", runs=40)
-    assert read_rows(grown).equals(read_rows(whole))
+    assert read_rows(grown).to_pandas().equals(read_rows(whole).to_pandas())  # a NaN is the same
     with pytest.raises(StudyError, match=r"begun with other settings.*--name"):
         keep_study("one", build_study(seed=6), tmp_path / "a")
 
