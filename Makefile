@@ -10,6 +10,9 @@ PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type
 SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
 SERVED := package rig hardware scene server client browser
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
+# The page's tests need nothing compiled: they go beside the compiler, which has one core.
+COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all & $(WEB) test; page=$$?; \
+  wait $$! && exit $$page
 
 .PHONY: help run dev bench-demo test quick check hooks format page schema lock screenshots arena bench clean
 
@@ -27,15 +30,13 @@ bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
 test: .venv/installed $(PAGE)  ## every test
-	@$(BIN)/python -m tests.compile_all
+	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(SIDE_BY_SIDE) -m "not wall_clock"
 	$(BIN)/pytest -m wall_clock
-	$(WEB) test
 
 quick: .venv/installed  ## the tests that are soon done and need no server, bench or browser
-	@$(BIN)/python -m tests.compile_all
+	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(SIDE_BY_SIDE) -q -m "not long" $(SERVED:%=--ignore=tests/%)
-	$(WEB) test
 
 check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated files
 	$(BIN)/ruff format --check .

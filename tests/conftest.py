@@ -19,13 +19,16 @@ ORDER = (
 
 
 LONGEST = (
-    "test_memory",
     "test_accessibility",
+    "test_runs",
+    "test_memory",
+    "test_view",
+    "test_life",
+    "test_layout",
+    "test_plots",
+    "test_crispness",
     "test_replay_files",
     "test_replay",
-    "test_life",
-    "test_view",
-    "test_runs",
 )
 """Of the browser tests, so that no process is left with one of them while the others are done."""
 

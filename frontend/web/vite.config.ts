@@ -60,5 +60,10 @@ export default defineConfig(({ mode }) => ({
       "/viser": { target: SERVER, ws: true },
     },
   },
-  test: { include: ["tests/**/*.test.ts"] },
+  test: {
+    include: ["tests/**/*.test.ts"],
+    /** Only what hangs ends there: on a busy machine the first import alone may take 10 s. */
+    testTimeout: 60_000,
+    hookTimeout: 60_000,
+  },
 }));
