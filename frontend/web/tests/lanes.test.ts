@@ -18,6 +18,7 @@ it("a lane taken away by a script leaves each other one its samples under its na
   const [ndobc, fl, faster] = [laneOf(1, "NDOBC"), laneOf(2, "FL"), laneOf(3, "NDOBC β 120")];
   samples.ring = new SampleRing(10, ["a"], [1, 2, 3]);
   session.value = stateAt(0, [ndobc, fl, faster]);
+  acceptState(stateAt(0, [ndobc, fl, faster]));
   samples.ring.append(batchAt(0, [1, 2, 3], [1, 20, 300]), 1);
 
   acceptState(stateAt(1, [ndobc, faster]));
