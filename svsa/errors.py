@@ -7,6 +7,7 @@ the model ends in a `Fault`, which is data, and a `FaultError` where nobody look
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from pathlib import Path
 from typing import Any, Self
 
 from svsa.written_number import write_number
@@ -103,7 +104,9 @@ def _is_number(value: Any) -> bool:
 
 
 def _shorten(value: Any, longest: int = 80) -> str:
-    """As Python writes it, but numbers to six digits, and cut where it is long."""
+    """As Python writes it, but numbers to six digits; cut where it is long, a path never."""
+    if isinstance(value, Path):
+        return repr(str(value))
     if isinstance(value, float) and len(repr(value)) > _LONGEST_NUMBER:
         return write_number(value)
     if isinstance(value, list | tuple):

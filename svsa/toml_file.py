@@ -18,19 +18,19 @@ def read_toml(path: Path | str, kind: str) -> dict[str, Any]:
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise _refuse(kind, str(path), error) from None
-    return parse_toml(text, kind, str(path))
+        raise _refuse(kind, path, error) from None
+    return parse_toml(text, kind, path)
 
 
-def parse_toml(text: str, kind: str, name: str) -> dict[str, Any]:
-    """What is in the text of a file called `name`; raises `ParameterError`."""
+def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
+    """What is in the text of a file of this name or path; raises `ParameterError`."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise _refuse(kind, name, error) from None
 
 
-def _refuse(kind: str, name: str, error: Exception) -> ParameterError:
+def _refuse(kind: str, name: Path | str, error: Exception) -> ParameterError:
     return ParameterError(Violation(kind, name, "", f"a readable TOML file ({error})"))
 
 

@@ -60,7 +60,7 @@ def read_results(path: Path) -> Results:
         return Results.model_validate_json(path.read_bytes())
     except (OSError, ValidationError) as error:
         bound = f"a file that svsa arena run --save writes ({error})"
-        raise ParameterError(Violation("results", str(path), "", bound)) from None
+        raise ParameterError(Violation("results", path, "", bound)) from None
 
 
 @cache

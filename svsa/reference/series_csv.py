@@ -42,7 +42,7 @@ def read_series(path: Path | str) -> SeriesPosition | SeriesStiffness:
         text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         bound = f"a readable CSV file in UTF-8 ({error})"
-        raise ParameterError(Violation("file", str(path), "", bound)) from None
+        raise ParameterError(Violation("file", path, "", bound)) from None
     return parse_series(text)
 
 

@@ -66,10 +66,10 @@ def _run_python(path: Path) -> Study:
     except Exception as error:
         place = _find_place(path, error)
         bound = f"a Python file that runs ({type(error).__name__}: {error})"
-        raise ParameterError(Violation(STUDY_FILE, str(path), "", bound), file=place) from None
+        raise ParameterError(Violation(STUDY_FILE, path, "", bound), file=place) from None
     if not isinstance(study, Study):
         bound = f"a file that makes a svsa.study Study called {OBJECT}"
-        raise ParameterError(Violation(STUDY_FILE, str(path), "", bound))
+        raise ParameterError(Violation(STUDY_FILE, path, "", bound))
     return study
 
 

@@ -21,14 +21,20 @@ from tests.study.studies import SHORT_S, build_study
 
 SCRIPT = """
 import sys
+import time
 from pathlib import Path
 from svsa.study.execution import run_study
 from svsa.study.store import keep_study
 from tests.study.studies import build_study
 
+def tell(done, total):
+    print(done, flush=True)
+    if done >= 48:
+        time.sleep(300)  # to be ended here
+
 if __name__ == "__main__":
     stored = keep_study("one", build_study(runs=400), Path(sys.argv[1]))
-    run_study(stored, int(sys.argv[2]), 16, lambda done, total: print(done, flush=True))
+    run_study(stored, int(sys.argv[2]), 16, tell)
 """
 
 
