@@ -103,7 +103,7 @@ class _Search:
         return found
 
     def _check(self) -> None:
-        if self.is_done or self._is_cancelled():
+        if self.is_done or (self.trials and self._is_cancelled()):
             raise _BrokenOffError
 
 
@@ -126,8 +126,8 @@ def tune(
     The same arguments give the same result. budget: candidates besides the present design. held:
     parameters of the law by name that are not searched, as {"estimate_share": 0.0}. present: the
     design that the law is in, the prototype's if left out. duration_s: of each run. on_trial: told
-    every trial. is_cancelled: asked before each; where it says so, and at Ctrl-C, the best so far
-    is returned.
+    every trial. is_cancelled: asked before each but the present design, which is always tried;
+    where it says so, and at Ctrl-C, the best so far is returned.
 
     Raises `ParameterError` for a law that is not installed or has nothing to tune, and for numbers
     out of range; `KeyboardInterrupt` before the first trial.

@@ -78,6 +78,12 @@ def test_it_ends_where_it_is_told_to_and_keeps_the_best():
     assert "2 of 40 candidates" in format_tuned(tuned)
 
 
+def test_where_it_is_told_to_end_at_once_it_has_the_present_design():
+    tuned = tune("pd", budget=40, is_cancelled=lambda: True, **SHORT)
+    assert [trial.stage for trial in tuned.trials] == ["present"]
+    assert tuned.best == tuned.start
+
+
 def test_ctrl_c_keeps_the_best():
     def stop(trial):
         if trial.number == 2:

@@ -69,6 +69,8 @@ MAY_BE_REFUSED = {
     "POST /api/v1/references/csv": "the text must be a CSV of numbers with known columns",
     "PUT /api/v1/sessions/{session}/nominal": "the text must be a TOML parameter file",
     "POST /api/v1/tunings": INSTALLED,
+    "POST /api/v1/arena/laws/{law}/measurement": INSTALLED,
+    "POST /api/v1/arena/sessions": f"{INSTALLED}; the scenario is one of GET /arena",
     "PUT /api/v1/sessions/{session}/control": "a name must be printable characters of Unicode",
 }
 """Operations that may refuse what their schema allows, and the rule that JSON Schema cannot say.

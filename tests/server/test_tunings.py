@@ -92,4 +92,5 @@ def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
     assert "2 tunings are worked at or wait" in full.json()["message"]
     for name in names:
         lab.delete(f"{TUNINGS}/{name}")
-        wait_until(lab, name, lambda state: state["status"] == "cancelled")
+        state = wait_until(lab, name, lambda state: state["status"] == "cancelled")
+        assert f"{state['tried'] - 1} of 124 candidates" in lab.get(f"{TUNINGS}/{name}/file").text

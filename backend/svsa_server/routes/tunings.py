@@ -3,7 +3,7 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Path, Query, Request
-from fastapi.responses import PlainTextResponse
+from fastapi.responses import Response
 
 from svsa.arena.search_space import build_space
 from svsa.arena.training import DURATION_S, TRAINING
@@ -23,6 +23,7 @@ from svsa_server.tunings import Asked, Tuning, Tunings
 
 router = APIRouter(prefix="/tunings", tags=["tuning"], responses=REFUSALS)
 TuningId = Annotated[str, Path(description="Id of a tuning", examples=["3f2a9c01b7de"])]
+_TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 
 @router.get("")
@@ -62,14 +63,18 @@ def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
     return _build(found, None)
 
 
-@router.get("/{tuning}/file", response_class=PlainTextResponse)
-def read_tuned_file(request: Request, tuning: TuningId) -> PlainTextResponse:
+@router.get(
+    "/{tuning}/file",
+    response_class=Response,
+    responses={200: {"content": _TOML, "description": "The file"}},
+)
+def read_tuned_file(request: Request, tuning: TuningId) -> Response:
     """The parameter file (TOML) of the best, which says what it was measured on."""
     found = _find(request).get(tuning)
     if found.status not in ("done", "cancelled"):
         raise StateError(f"The tuning {tuning} is {found.status}: its file is written at its end.")
     named = {"Content-Disposition": f'attachment; filename="{found.asked.law}.toml"'}
-    return PlainTextResponse(found.read_file(), media_type="application/toml", headers=named)
+    return Response(found.read_file(), media_type="application/toml", headers=named)
 
 
 def _find(request: Request) -> Tunings:
