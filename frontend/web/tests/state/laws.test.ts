@@ -1,0 +1,67 @@
+import { beforeEach, expect, it, vi } from "vitest";
+import type { LawRow } from "../../src/api/types";
+
+const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
+  ...{ name, title: name.toUpperCase(), summary: "", equation: "u=0", source: "", notes: "" },
+  ...{ estimate: "none", takes_gains: false, parameters: [], problem: null },
+  ...changes,
+});
+const RATE = { name: "rate", symbol: "ω", meaning: "Rate", unit: "rad/s", kind: "number" } as const;
+
+beforeEach(() => {
+  vi.resetModules();
+  vi.stubGlobal("window", new EventTarget());
+  vi.stubGlobal("document", { baseURI: "http://lab/" });
+  vi.stubGlobal("location", { search: "" });
+});
+
+it("any number of laws: the one beside is the first other one that works", async () => {
+  const { laws, otherLaw, titleOf, usableLaws } = await import("../../src/state/laws");
+  expect(otherLaw("ndobc")).toBeUndefined();
+  laws.value = [law("broken", { problem: "no" }), law("a"), law("b"), law("c")];
+  expect(usableLaws.value.map(({ name }) => name)).toEqual(["a", "b", "c"]);
+  expect([otherLaw("a"), otherLaw("b"), otherLaw("gone")]).toEqual(["b", "a", "a"]);
+  expect([titleOf("b"), titleOf("gone")]).toEqual(["B", "gone"]);
+});
+
+it("a parameter has a slider where both its ends are bounded", async () => {
+  const { changedAt, isWordy, rangeOf } = await import("../../src/controls/law");
+  const row = { ...RATE, default: 2 };
+  expect(rangeOf({ ...row, least: 1, most: 150 })).toEqual({
+    range: { min: 1, max: 150, logarithmic: true },
+  });
+  expect(rangeOf({ ...row, least: 0, most: 3 }).range?.logarithmic).toBe(false);
+  expect(rangeOf({ ...row, least: null, most: 3 })).toEqual({});
+  expect([isWordy({ ...row, least: 1, most: 2 })]).toEqual([false]);
+  expect(isWordy({ ...row, meaning: "Rate of the link's own motion", least: 1, most: 2 })).toBe(
+    true,
+  );
+  expect(changedAt(2, null, 3)).toBe(3);
+  expect(changedAt([1, 2, 3], 1, 5)).toEqual([1, 5, 3]);
+});
+
+it("a law that controls stands among the equations in its own words, the paper's once", async () => {
+  const { equationsOf } = await import("../../src/equations/equation");
+  const printed = equationsOf("controller", []).length;
+  const found = equationsOf("controller", [law("ndobc"), law("motor_pd", { title: "PD" })]);
+  expect(found).toHaveLength(printed + 1);
+  expect(found[0]?.tex).toBe(String.raw`\text{PD:}\quad u=0`);
+  expect(equationsOf("torque", [law("motor_pd")])).toEqual(equationsOf("torque", []));
+});
+
+it("runs are filtered by laws as the server calls them, and by the name of one that is not here", async () => {
+  const { laws } = await import("../../src/state/laws");
+  const { nameValue } = await import("../../src/runs/words");
+  expect(nameValue("law", "motor_pd")).toBe("motor_pd");
+  laws.value = [law("fl_integral", { title: "FL + I" }), law("bad", { problem: "no" })];
+  expect(["fl_integral", "motor_pd", "bad"].map((name) => nameValue("law", name))).toEqual([
+    "FL + I",
+    "motor_pd (not installed)",
+    "bad (does not load)",
+  ]);
+  expect([nameValue("figure", "4a"), nameValue("tag", "fl"), nameValue("plant", "bench")]).toEqual([
+    "Fig. 4A",
+    "fl",
+    "Bench",
+  ]);
+});
