@@ -12,10 +12,10 @@ from http.cookies import CookieError, SimpleCookie
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
-from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa_server.config import is_loopback
+from svsa_server.problems import answer_problem
 
 COOKIE = "svsa_access"
 LONGEST_BODY_BYTES = 4 * 1024 * 1024
@@ -124,13 +124,12 @@ def _bound_body(scope: Scope, receive: Receive) -> Receive:
 
 
 async def _refuse(
-    scope: Scope, receive: Receive, send: Send, status: int, error: str, message: str
+    scope: Scope, receive: Receive, send: Send, status: int, kind: str, detail: str
 ) -> None:
     if scope["type"] == "websocket" and "websocket.http.response" not in scope.get(
         "extensions", {}
     ):
-        await send({"type": "websocket.close", "code": 1008, "reason": error})
+        await send({"type": "websocket.close", "code": 1008, "reason": kind})
         return
     headers = {"WWW-Authenticate": "Bearer"} if status == 401 else None
-    body = {"error": error, "message": message, "violations": []}
-    await JSONResponse(body, status, headers)(scope, receive, send)
+    await answer_problem(status, kind, detail, headers)(scope, receive, send)

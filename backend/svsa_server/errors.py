@@ -1,55 +1,22 @@
-"""Errors on the wire: one shape, with name, value, unit and bound of what was refused."""
+"""Which refusal of the library and of the routing is which problem."""
 
 import json
-import math
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
-from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.errors import ParameterError, StateError, SvsaError
 from svsa.explanation import explain_problems
 from svsa.records.catalogue.entry import CatalogueError, UnknownRunError
 from svsa.records.header import RecordError
 from svsa_server.control import HeldError
 from svsa_server.heavy_work import RETRY_AFTER_S, BusyError
-
-LONGEST_ECHO = 200
-
-
-class ViolationModel(BaseModel):
-    """One refused value."""
-
-    name: str = Field(
-        examples=["frequency_hz"],
-        description="Path of the field in what was sent, such as rivals[0].law",
-    )
-    value: Any = Field(examples=[9.0], description="As it was given; cut short when long")
-    unit: str = Field(examples=["Hz"])
-    bound: str = Field(examples=["at most 5 Hz"])
-    limits: dict[str, float] = Field(
-        default={},
-        examples=[{"le": 5.0}],
-        description="The numbers of the bound in the unit, by ge, gt, le or lt",
-    )
-    finding: str = Field(
-        default="", description="What is wrong, where the bound is not of the value itself"
-    )
-    message: str = Field(examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."])
-
-
-class ErrorModel(BaseModel):
-    """Why a request was refused; nothing was changed."""
-
-    error: str = Field(examples=["out_of_range"])
-    message: str = Field(examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."])
-    violations: list[ViolationModel] = []
+from svsa_server.problems import LONGEST_ECHO, answer_problem, answer_violations
 
 
 class UnknownError(SvsaError):
@@ -57,7 +24,7 @@ class UnknownError(SvsaError):
 
 
 def install_error_handlers(app: FastAPI) -> None:
-    """Answer every refusal of the library and of the schemas in the shape of `ErrorModel`."""
+    """Answer every refusal of the library and of the schemas as a `Problem`."""
 
     @app.exception_handler(RequestValidationError)
     def refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
@@ -69,50 +36,32 @@ def install_error_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(ParameterError)
     def refuse_parameters(_: Request, error: ParameterError) -> JSONResponse:
-        return _refuse_values(error.violations)
+        return answer_violations(error.violations)
 
     @app.exception_handler(StateError)
     def refuse_state(_: Request, error: StateError) -> JSONResponse:
-        return _answer(409, "not_now", str(error))
+        return answer_problem(409, "not_now", str(error))
 
     @app.exception_handler(HeldError)
     def refuse_other(_: Request, error: HeldError) -> JSONResponse:
-        return _answer(409, "held", str(error))
+        return answer_problem(409, "held", str(error))
 
     @app.exception_handler(RecordError)
     def refuse_record(_: Request, error: RecordError) -> JSONResponse:
-        return _answer(409, "record", str(error))
+        return answer_problem(409, "record", str(error))
 
     @app.exception_handler(CatalogueError)
     def refuse_storage(_: Request, error: CatalogueError) -> JSONResponse:
-        return _answer(507, "storage", str(error))
+        return answer_problem(507, "storage", str(error))
 
     @app.exception_handler(BusyError)
     def refuse_work(_: Request, error: BusyError) -> JSONResponse:
-        return _answer(503, "busy", str(error), {"Retry-After": str(RETRY_AFTER_S)})
+        return answer_problem(503, "busy", str(error), {"Retry-After": str(RETRY_AFTER_S)})
 
     @app.exception_handler(UnknownRunError)
     @app.exception_handler(UnknownError)
     def refuse_name(_: Request, error: SvsaError) -> JSONResponse:
-        return _answer(404, "not_found", str(error))
-
-
-def build_refusal(violations: tuple[Violation, ...] | list[Violation]) -> ErrorModel:
-    """The body that names every refused value."""
-    models = [
-        ViolationModel(
-            name=item.name,
-            value=_make_safe(item.value),
-            unit=item.unit,
-            bound=item.bound,
-            limits=item.limits,
-            finding=item.finding,
-            message=item.message,
-        )
-        for item in violations
-    ]
-    message = " ".join(model.message for model in models)
-    return ErrorModel(error="out_of_range", message=message, violations=models)
+        return answer_problem(404, "not_found", str(error))
 
 
 def _refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
@@ -124,18 +73,19 @@ def _refuse_request(request: Request, error: RequestValidationError) -> JSONResp
         if problem["type"] == "json_invalid":
             found = json.JSONDecodeError(problem["ctx"]["error"], str(error.body), rest[0])
             place = f"line {found.lineno}, column {found.colno}"
-            return _answer(422, "malformed_json", f"The body is no JSON: {found.msg} at {place}.")
+            detail = f"The body is no JSON: {found.msg} at {place}."
+            return answer_problem(422, "malformed_json", detail)
         (body if where == "body" else others).append(problem | {"loc": rest})
     given, wanted = request.headers.get("content-type"), _find_media_type(request)
     if body and isinstance(error.body, bytes) and (given or "").partition(";")[0] != wanted:
         said = f"its Content-Type is {given[:80]!r}" if given else "it has no Content-Type"
         message = f"The body was not read, because {said}: send Content-Type: {wanted}."
-        return _answer(422, "content_type", message)
+        return answer_problem(422, "content_type", message)
     violations = [
         replace(violation, name="body") if violation.name == "value" else violation
         for violation in explain_problems(body)
     ]
-    return _refuse_values(violations + explain_problems(others, {}))
+    return answer_violations(violations + explain_problems(others, {}))
 
 
 def _find_media_type(request: Request) -> str:
@@ -159,7 +109,7 @@ def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
         message = "The body is no JSON that can be read: it is not UTF-8, or nested too deeply."
     else:
         kind, message = "refused", str(error.detail)
-    return _answer(status, kind, message, headers)
+    return answer_problem(status, kind, message, headers)
 
 
 def _find_allowed(request: Request) -> list[str]:
@@ -171,23 +121,3 @@ def _find_allowed(request: Request) -> list[str]:
         if pattern.match(request.url.path):
             found |= {method.upper() for method in item}
     return sorted(found)
-
-
-def _refuse_values(violations: tuple[Violation, ...] | list[Violation]) -> JSONResponse:
-    return JSONResponse(build_refusal(violations).model_dump(mode="json"), 422)
-
-
-def _answer(
-    status: int, error: str, message: str, headers: Mapping[str, str] | None = None
-) -> JSONResponse:
-    return JSONResponse(ErrorModel(error=error, message=message).model_dump(), status, headers)
-
-
-def _make_safe(value: Any) -> Any:
-    """A value that JSON can hold; a long or odd one as a short text."""
-    if value is None or (isinstance(value, bool | int) and abs(value) < 2**53):
-        return value
-    if isinstance(value, float) and math.isfinite(value):
-        return value
-    text = value if isinstance(value, str) else repr(value)
-    return text.encode("utf-8", "replace").decode()[:LONGEST_ECHO]

@@ -6,13 +6,14 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
 from svsa_server.access import LONGEST_BODY_BYTES, is_open
+from svsa_server.problems import MEDIA_TYPE
 
 SCHEME = "bearer"
 UPGRADED = "default"
 """What a route writes for the answer 101, whose messages FastAPI takes for no body at all."""
 
 _METHODS = ("get", "put", "post", "patch", "delete")
-_ERROR = {"application/json": {"schema": {"$ref": "#/components/schemas/ErrorModel"}}}
+_PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
 
 
 def install_openapi(app: FastAPI, needs_secret: bool) -> None:
@@ -50,6 +51,9 @@ def _complete(schema: dict[str, Any], needs_secret: bool) -> dict[str, Any]:
 
 def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
     answers = operation["responses"]
+    for answer in answers.values():
+        if answer.get("content") == {"application/json": _PROBLEM}:
+            answer["content"] = {MEDIA_TYPE: _PROBLEM}
     if UPGRADED in answers:
         answers["101"] = answers.pop(UPGRADED)
     answers["403"] = _describe("From a page of another site, or for another host than this one")
@@ -62,4 +66,4 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
 
 
 def _describe(text: str) -> dict[str, Any]:
-    return {"description": f"{text}.", "content": _ERROR}
+    return {"description": f"{text}.", "content": {MEDIA_TYPE: _PROBLEM}}

@@ -26,17 +26,17 @@ _BY_STATUS = {401: AccessError, 403: AccessError}
 
 
 def build_refusal(status: int, told: Any) -> SvsaError:
-    """The error for an answer of this status; told: its body as JSON, or what else it was.
+    """The error for an answer of this status; told: its body, a problem (RFC 9457) or anything.
 
     A refused value is a `ParameterError` with name, value, unit and bound, as of `simulate`.
     """
     if not isinstance(told, dict):
         return _BY_STATUS.get(status, LabError)(f"The lab answered {status}.")
-    message = str(told.get("message", f"The lab answered {status}."))
+    detail = str(told.get("detail", f"The lab answered {status}."))
     if violations := told.get("violations"):
         return ParameterError(*map(_read_violation, violations))
-    kind = str(told.get("error"))
-    return _BY_KIND.get(kind, _BY_STATUS.get(status, LabError))(message)
+    _, _, kind = str(told.get("type")).rpartition(":")
+    return _BY_KIND.get(kind, _BY_STATUS.get(status, LabError))(detail)
 
 
 def _read_violation(told: dict[str, Any]) -> Violation:

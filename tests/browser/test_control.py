@@ -230,7 +230,7 @@ def test_only_the_switch_of_who_is_in_control_counts(
     )
     page.wait_for_timeout(500)
     refused = bench.lab.client.post(bench.lab.session + "/start", headers=client)
-    assert "dead-man" in refused.json()["message"]
+    assert "dead-man" in refused.json()["detail"]
     bench.lab.client.delete(bench.lab.session + "/control", headers=client).raise_for_status()
     bench.ask("/start")
     bench.wait_for("run")

@@ -49,7 +49,7 @@ class BenchLab:
         """Ask for something that is refused for the state that the bench is in; why."""
         answer = self.lab.client.request(method, self.lab.session + path, json=json)
         assert answer.status_code == 409, answer.text
-        return answer.json()["message"]
+        return answer.json()["detail"]
 
     def read_drives(self) -> list[tuple[int | None, int]]:
         """Mode and commanded current, mA, of both drives, as the rig has them."""

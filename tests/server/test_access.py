@@ -63,7 +63,7 @@ def test_a_name_that_was_pointed_at_this_machine_is_refused(lab: Lab) -> None:
 def test_nothing_but_the_empty_page_is_seen_without_the_secret(guarded_lab: Lab, path: str) -> None:
     answer = httpx.get(guarded_lab.url + path, trust_env=False)
     assert answer.status_code == 401
-    assert "secret" in answer.json()["message"]
+    assert "secret" in answer.json()["detail"]
 
 
 @pytest.mark.parametrize("path", ["/api/v1/sessions/lab/stream", "/viser/lab/"])
@@ -104,7 +104,7 @@ def test_a_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
     with httpx.Client(base_url=guarded_lab.url, trust_env=False) as browser:
         wrong = browser.post("/api/v1/login", json={"secret": "guess"})
         assert wrong.status_code == 401
-        assert "not the secret" in wrong.json()["message"]
+        assert "not the secret" in wrong.json()["detail"]
         answer = browser.post("/api/v1/login", json={"secret": SECRET})
         assert answer.status_code == 204
         cookie = answer.headers["set-cookie"]

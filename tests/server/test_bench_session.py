@@ -101,7 +101,7 @@ def check_recording(bench: BenchLab, run_id: str) -> None:
     for path, body in (("/compare", None), ("/branch", {"tick": 10})):
         answer = client.post(runs + path, json=body)
         assert answer.status_code == 409, answer.text
-        assert "emulated" in answer.json()["message"]
+        assert "emulated" in answer.json()["detail"]
 
 
 def test_a_quick_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:

@@ -25,6 +25,7 @@ from svsa_server.control import (
     read_client,
 )
 from svsa_server.hosted import HostedSession
+from svsa_server.problems import TYPE_PREFIX
 from svsa_server.routes.depends import find_session
 from tests.lab import Lab
 
@@ -91,7 +92,10 @@ def test_others_are_refused_whatever_they_change_and_may_stop_and_read() -> None
                         assert answer.status_code in (200, 422), (method, below)
                         continue
                     assert answer.status_code == 409, (method, below)
-                    assert (answer.json()["error"], answer.json()["message"]) == ("held", HELD)
+                    assert (answer.json()["type"], answer.json()["detail"]) == (
+                        TYPE_PREFIX + "held",
+                        HELD,
+                    )
             state = (await client.get(SESSION, headers=BOB)).json()
             assert state["control"] == {"holder": "Ada", "mine": False, "watching": 0}
             assert state["status"] == "paused", "a pause of somebody else counts"
@@ -112,7 +116,7 @@ def test_it_is_taken_over_only_when_that_is_said_and_given_back_by_its_holder() 
         async with open_app() as client:
             await client.put(CONTROL, json={"by": "Ada"}, headers=ADA)
             refused = await client.put(CONTROL, json={"by": "Bob"}, headers=BOB)
-            assert (refused.status_code, refused.json()["message"]) == (409, HELD)
+            assert (refused.status_code, refused.json()["detail"]) == (409, HELD)
             request = {"by": "Bob", "take_over": True}
             taken = await client.put(CONTROL, json=request, headers=BOB)
             assert taken.json()["control"]["holder"] == "Bob"

@@ -87,6 +87,6 @@ def test_a_plain_get_of_the_stream_says_that_it_is_a_websocket(lab: Lab) -> None
     answer = lab.client.get(lab.session + "/stream")
     assert answer.status_code == 426
     assert answer.headers["upgrade"] == "websocket"
-    assert "WebSocket" in answer.json()["message"]
+    assert "WebSocket" in answer.json()["detail"]
     with connect(lab.stream_url, proxy=None, max_size=None) as stream:
         assert stream.recv(timeout=10).startswith('{"type":"hello"')

@@ -10,6 +10,7 @@ import pytest
 
 from svsa.errors import ParameterError, Violation
 from svsa_server.heavy_work import RETRY_AFTER_S, BusyError, HeavyWork
+from svsa_server.problems import TYPE_PREFIX
 from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
 
@@ -102,7 +103,7 @@ def test_a_full_queue_is_a_503_that_says_when_to_come_again(busy_lab: Lab) -> No
         answer = busy_lab.client.request(method, f"/api/v1/runs/{run_id}/{path}")
         assert answer.status_code == 503, path
         assert answer.headers["retry-after"] == str(RETRY_AFTER_S)
-        assert answer.json()["error"] == "busy"
+        assert answer.json()["type"] == TYPE_PREFIX + "busy"
 
 
 def test_live_sessions_are_not_late_while_a_replay_is_built(shared_lab: Lab) -> None:

@@ -61,12 +61,12 @@ def test_it_is_refused_under_a_load_and_while_something_is_recorded(lab: Lab) ->
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
     refused = lab.client.post(lab.session + "/excitation", json={})
     assert refused.status_code == 409
-    assert "load" in refused.json()["message"]
+    assert "load" in refused.json()["detail"]
     lab.client.delete(lab.session + "/loads").raise_for_status()
     lab.client.post(lab.session + "/recording", json={}).raise_for_status()
     refused = lab.client.post(lab.session + "/excitation", json={})
     assert refused.status_code == 409
-    assert "recorded" in refused.json()["message"]
+    assert "recorded" in refused.json()["detail"]
     assert lab.client.delete(lab.session + "/recording").json()["excitation"] is None
 
 
@@ -110,9 +110,9 @@ def test_a_parameter_file_is_the_model_in_library_server_and_session(lab: Lab, t
     assert (after["gains"], after["actuator"]) == (before["gains"], before["actuator"])
     refused = lab.client.put(lab.session + "/nominal", json={"toml": "[nominal]\nradius_m = 'x'"})
     assert refused.status_code == 422
-    assert "radius_m" in refused.json()["message"]
+    assert "radius_m" in refused.json()["detail"]
     refused = lab.client.put(lab.session + "/nominal", json={"toml": "= no TOML"})
-    assert "readable TOML" in refused.json()["message"]
+    assert "readable TOML" in refused.json()["detail"]
     with run_lab("--parameters", str(path)) as own:
         for state in (own.read(), own.load_figure("5")):
             assert state["configuration"]["nominal"] == configuration["actuator"]

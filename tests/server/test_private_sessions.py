@@ -46,14 +46,14 @@ def test_a_private_session_is_one_s_own(lab: Lab) -> None:
 def test_the_shared_session_is_not_ended(lab: Lab) -> None:
     answer = lab.client.delete(lab.session)
     assert answer.status_code == 409
-    assert "reset" in answer.json()["message"]
+    assert "reset" in answer.json()["detail"]
 
 
 def test_there_are_only_so_many_and_idle_ones_end(small_lab: Lab) -> None:
     names = [create(small_lab)["session"] for _ in range(2)]
     refused = small_lab.client.post(SESSIONS, json={})
     assert refused.status_code == 409
-    assert "2 private sessions" in refused.json()["message"]
+    assert "2 private sessions" in refused.json()["detail"]
     watched = small_lab.url.replace("http", "ws", 1) + f"{SESSIONS}/{names[0]}/stream"
     with connect(watched, proxy=None) as stream:
         deadline = time.monotonic() + 30
@@ -133,5 +133,5 @@ def test_effects_are_switched_over_rest(lab: Lab) -> None:
     assert state["configuration"]["effects"]["friction"] is None
     refused = lab.client.put(lab.session + "/effects", json={"delay_samples": 9})
     assert refused.status_code == 422
-    assert "at most 5" in refused.json()["message"]
+    assert "at most 5" in refused.json()["detail"]
     assert lab.jump(1)["status"] == "paused"

@@ -83,13 +83,13 @@ def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
     ):
         refused = lab.post(TUNINGS, json=asked)
         assert refused.status_code == 422
-        assert told in refused.json()["message"]
+        assert told in refused.json()["detail"]
     missing = lab.post(TUNINGS, json={"law": "esp", "session": "nowhere"})
     assert missing.status_code == lab.get(f"{TUNINGS}/nothing").status_code == 404
     names = [lab.post(TUNINGS, json={"law": "pd"}).json()["id"] for _ in range(2)]
     full = lab.post(TUNINGS, json={"law": "pd"})
     assert full.status_code == 503
-    assert "2 tunings are worked at or wait" in full.json()["message"]
+    assert "2 tunings are worked at or wait" in full.json()["detail"]
     for name in names:
         lab.delete(f"{TUNINGS}/{name}")
         state = wait_until(lab, name, lambda state: state["status"] == "cancelled")

@@ -17,7 +17,7 @@ from svsa_server.state import build_state
 router = APIRouter(prefix="/arena", tags=["arena"])
 
 
-@router.get("")
+@router.get("", responses={422: REFUSALS[422]})
 async def read_arena(_: NamedClient) -> Results:
     """The table that this version of the lab was published with, a row a law.
 

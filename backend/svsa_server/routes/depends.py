@@ -17,9 +17,9 @@ from svsa_server.control import (
     asking,
     read_client,
 )
-from svsa_server.errors import ErrorModel
 from svsa_server.heavy_work import RETRY_AFTER_S, HeavyWork
 from svsa_server.hosted import HostedSession
+from svsa_server.problems import Problem
 
 
 def find_asked(scope: Scope) -> tuple[str | None, str]:
@@ -93,17 +93,17 @@ Work = Annotated[HeavyWork, Depends(find_work)]
 RunId = Annotated[str, Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])]
 
 REFUSALS: dict[int | str, dict[str, Any]] = {
-    404: {"model": ErrorModel, "description": "No such session, load or run"},
+    404: {"model": Problem, "description": "No such session, load or run"},
     409: {
-        "model": ErrorModel,
+        "model": Problem,
         "description": "Not while the session or run is as it is, or somebody else is in control",
     },
-    422: {"model": ErrorModel, "description": "Refused values; nothing was changed"},
+    422: {"model": Problem, "description": "Refused values; nothing was changed"},
 }
 
 BUSY: dict[int | str, dict[str, Any]] = {
     503: {
-        "model": ErrorModel,
+        "model": Problem,
         "description": f"Too much is being made already: again in {RETRY_AFTER_S} s (Retry-After)",
     }
 }

@@ -3,15 +3,14 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Request, Response
-from fastapi.responses import JSONResponse
 
 import svsa
 from svsa.paper import FIGURES
 from svsa_server.access import COOKIE, SharedSecret
-from svsa_server.errors import ErrorModel
 from svsa_server.lab_schemas import FigureState, Health, LoginRequest
 from svsa_server.laboratory import SHARED_SESSION
 from svsa_server.law_schemas import LawState, list_laws
+from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.turn import TurnRoute
 
@@ -57,7 +56,7 @@ async def list_figures() -> list[FigureState]:
 @router.post(
     "/login",
     status_code=204,
-    responses={401: {"model": ErrorModel, "description": "Wrong secret"}, 422: REFUSALS[422]},
+    responses={401: {"model": Problem, "description": "Wrong secret"}, 422: REFUSALS[422]},
 )
 async def log_in(
     request: Request,
@@ -68,8 +67,7 @@ async def log_in(
     if shared is None:
         return Response(status_code=204)
     if not await shared.verify(credentials.secret):
-        refusal = ErrorModel(error="wrong_secret", message="That is not the secret of this lab.")
-        return JSONResponse(refusal.model_dump(), 401)
+        return answer_problem(401, "wrong_secret", "That is not the secret of this lab.")
     response = Response(status_code=204)
     response.set_cookie(
         COOKIE,

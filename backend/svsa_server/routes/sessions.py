@@ -5,8 +5,8 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Request, WebSocket
 from fastapi.responses import JSONResponse
 
-from svsa_server.errors import ErrorModel
 from svsa_server.openapi import UPGRADED
+from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
 from svsa_server.session_schemas import (
     ExperimentRequest,
@@ -123,7 +123,7 @@ def load_experiment(
     "/{session}/stream",
     tags=["stream"],
     status_code=426,
-    response_model=ErrorModel,
+    response_model=Problem,
     response_description="This is a WebSocket",
     description=describe_stream(BATCH_PERIOD_S),
     responses={UPGRADED: {"model": StreamMessage, "description": "The text messages"}},
@@ -131,9 +131,8 @@ def load_experiment(
 )
 async def describe(_: NamedSession) -> JSONResponse:
     """The stream beside REST: who asks without a WebSocket is told that it is one."""
-    refusal = ErrorModel(error="websocket", message="This is a WebSocket; see /docs.")
     headers = {"Upgrade": "websocket", "Connection": "Upgrade"}
-    return JSONResponse(refusal.model_dump(), 426, headers)
+    return answer_problem(426, "websocket", "This is a WebSocket; see /docs.", headers)
 
 
 @router.websocket("/{session}/stream")

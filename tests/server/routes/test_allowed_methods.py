@@ -19,4 +19,4 @@ def test_all_methods_of_a_path_are_named(lab: Lab, path: str, allowed: str) -> N
     answer = lab.client.request("TRACE", lab.session + path)
     assert answer.status_code == 405
     assert answer.headers["allow"] == allowed
-    assert allowed in answer.json()["message"]
+    assert allowed in answer.json()["detail"]

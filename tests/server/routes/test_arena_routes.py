@@ -34,7 +34,7 @@ def test_a_run_that_there_is_not_is_refused_by_name(shared_lab: Lab) -> None:
     wanted = {"law": "ndobc", "scenario": "moon"}
     answer = shared_lab.client.post(f"{ARENA}/sessions", json=wanted)
     assert answer.status_code == 422
-    assert "moon" in answer.json()["message"]
+    assert "moon" in answer.json()["detail"]
     assert shared_lab.client.post(f"{ARENA}/laws/nobody/measurement").status_code == 422
 
 

@@ -63,7 +63,7 @@ def test_what_is_wrong_is_refused_by_name_and_changes_nothing(
     before = lab.read()["configuration"]
     answer = lab.client.put(f"{lab.session}/{path}", json=body)
     assert answer.status_code == 422
-    assert words in answer.json()["message"]
+    assert words in answer.json()["detail"]
     assert lab.read()["configuration"] == before
 
 
@@ -90,4 +90,4 @@ def test_one_lane_is_set_by_its_number_and_the_others_stay(lab: Lab) -> None:
     bad = slow | {"parameters": {"position_pole_rad_per_s": 200.0}}
     answer = lab.client.put(lab.session + "/lanes/2", json=bad)
     assert answer.status_code == 422
-    assert "position_pole_rad_per_s is 200.0 rad/s" in answer.json()["message"]
+    assert "position_pole_rad_per_s is 200.0 rad/s" in answer.json()["detail"]

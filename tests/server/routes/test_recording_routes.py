@@ -81,10 +81,10 @@ def test_what_cannot_be_done_while_recording_is_told(lab: Lab) -> None:
     lab.client.post(lab.session + "/recording", json={}).raise_for_status()
     again = lab.client.post(lab.session + "/recording", json={})
     assert again.status_code == 409
-    assert "already" in again.json()["message"]
+    assert "already" in again.json()["detail"]
     lanes = lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
     assert lanes.status_code == 409
-    assert "recording" in lanes.json()["message"]
+    assert "recording" in lanes.json()["detail"]
     lab.client.post(lab.session + "/reset")
     assert lab.read()["recording"] is None
 
@@ -135,5 +135,5 @@ def test_a_folder_that_cannot_be_written_stops_no_control(tmp_path: Path) -> Non
     with run_lab_in_process(data=str(blocked)) as lab:
         refused = lab.client.post(lab.session + "/recording", json={})
         assert refused.status_code == 507
-        assert "cannot be kept" in refused.json()["message"]
+        assert "cannot be kept" in refused.json()["detail"]
         assert lab.read()["status"] == "running"

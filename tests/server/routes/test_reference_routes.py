@@ -36,7 +36,7 @@ def test_a_csv_becomes_what_a_session_is_given_and_is_looked_at(client: TestClie
 def test_a_bad_csv_is_refused_with_its_row(client: TestClient) -> None:
     refused = read(client, CSV + "0.9,1\n")
     assert refused["status"] == 422
-    assert "time_s in row 5 is 0.9 s" in refused["message"]
+    assert "time_s in row 5 is 0.9 s" in refused["detail"]
     assert "1 s" in refused["violations"][0]["bound"]
 
 

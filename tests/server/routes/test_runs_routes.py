@@ -211,7 +211,7 @@ def test_a_run_that_cannot_be_read_is_told(client: httpx.Client, catalogue: Cata
     for path in ("runs/run-bad", "runs/run-bad/samples", "runs/run-bad/export?kind=csv"):
         answer = client.get(path)
         assert answer.status_code == 409
-        assert "run-bad is damaged" in answer.json()["message"]
+        assert "run-bad is damaged" in answer.json()["detail"]
     catalogue.delete("run-bad")
     catalogue.purge("run-bad")
 
@@ -223,7 +223,7 @@ def test_a_lab_without_a_folder_for_runs_says_so(client: httpx.Client, app: Fast
     finally:
         app.state.catalogue = kept
     assert answer.status_code == 507
-    assert "cannot be kept" in answer.json()["message"]
+    assert "cannot be kept" in answer.json()["detail"]
 
 
 @pytest.mark.parametrize("points", [2, 3, 10, 99, 100, 5000])

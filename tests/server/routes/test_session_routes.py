@@ -40,7 +40,7 @@ def test_pause_step_and_start(lab: Lab) -> None:
 def test_step_while_running_is_refused_with_what_to_do(lab: Lab) -> None:
     answer = lab.client.post(lab.session + "/step", json={"ticks": 1})
     assert answer.status_code == 409
-    assert "pause it" in answer.json()["message"]
+    assert "pause it" in answer.json()["detail"]
 
 
 def test_reset_begins_a_new_run_with_what_is_set(lab: Lab) -> None:
@@ -92,14 +92,14 @@ def test_a_fault_is_named_with_its_values_and_reset_leaves_it(lab: Lab) -> None:
     assert all(math.isfinite(value) for value in state["sample"].values())
     refused = lab.client.post(lab.session + "/start")
     assert refused.status_code == 409
-    assert "reset" in refused.json()["message"]
+    assert "reset" in refused.json()["detail"]
     assert lab.client.post(lab.session + "/reset").json()["fault"] is None
 
 
 def test_unknown_names_are_told(lab: Lab) -> None:
     answer = lab.client.get("/api/v1/sessions/nowhere")
     assert answer.status_code == 404
-    assert "lab" in answer.json()["message"]
+    assert "lab" in answer.json()["detail"]
     assert lab.client.delete(lab.session + "/loads/99").status_code == 404
 
 

@@ -2,6 +2,7 @@
 
 import pytest
 
+from svsa_server.problems import MEDIA_TYPE, TYPE_PREFIX
 from tests.lab import Lab
 
 ACCEPTED = [
@@ -174,7 +175,7 @@ def test_wrong_input_names_field_unit_and_bound_and_changes_nothing(
     assert violation["name"] == name
     assert violation["unit"] == unit
     assert bound in violation["bound"]
-    assert name in answer.json()["message"]
+    assert name in answer.json()["detail"]
     assert lab.read() == before
 
 
@@ -197,7 +198,7 @@ def test_a_body_that_is_no_reference_is_refused_clearly(lab: Lab, text: str) -> 
         lab.session + "/position", content=text, headers={"Content-Type": "application/json"}
     )
     assert answer.status_code == 422
-    assert answer.json()["message"]
+    assert answer.json()["detail"]
 
 
 @pytest.mark.parametrize(
@@ -215,9 +216,15 @@ def test_malformed_json_is_named_as_such_with_its_place(
         lab.session + "/law", content=text, headers={"Content-Type": "application/json"}
     )
     assert answer.status_code == 422
-    assert answer.json()["error"] == kind
-    assert words in answer.json()["message"]
-    assert answer.json()["violations"] == []
+    assert answer.headers["Content-Type"] == MEDIA_TYPE
+    assert answer.json() == {
+        "type": TYPE_PREFIX + kind,
+        "title": "The body is no JSON",
+        "status": 422,
+        "detail": answer.json()["detail"],
+        "violations": [],
+    }
+    assert words in answer.json()["detail"]
 
 
 @pytest.mark.parametrize(
@@ -229,9 +236,9 @@ def test_a_body_that_was_not_sent_as_json_is_named_as_such(
     headers = {"Content-Type": header} if header else {}
     answer = lab.client.put(lab.session + "/law", content=b'{"law":"fl"}', headers=headers)
     assert answer.status_code == 422
-    assert answer.json()["error"] == "content_type"
-    assert words in answer.json()["message"]
-    assert "application/json" in answer.json()["message"]
+    assert answer.json()["type"] == TYPE_PREFIX + "content_type"
+    assert words in answer.json()["detail"]
+    assert "application/json" in answer.json()["detail"]
 
 
 def test_a_body_that_is_no_json_by_right_is_not_asked_for_as_json(lab: Lab) -> None:
@@ -240,8 +247,8 @@ def test_a_body_that_is_no_json_by_right_is_not_asked_for_as_json(lab: Lab) -> N
         answer = lab.client.post(
             "/api/v1/references/csv", content=b"\xff\xfe", headers={"Content-Type": header}
         )
-        assert (answer.status_code, answer.json()["error"]) == (422, kind)
-        assert "application/json" not in answer.json()["message"]
+        assert (answer.status_code, answer.json()["type"]) == (422, TYPE_PREFIX + kind)
+        assert "application/json" not in answer.json()["detail"]
 
 
 @pytest.mark.parametrize(
@@ -258,8 +265,8 @@ def test_a_route_that_is_none_is_refused_in_the_labs_own_form(
 ) -> None:
     answer = lab.client.request(method, path)
     assert answer.status_code == status
-    assert answer.json()["error"] == kind
-    assert path in answer.json()["message"]
+    assert answer.json()["type"] == TYPE_PREFIX + kind
+    assert path in answer.json()["detail"]
     assert answer.json()["violations"] == []
     assert ("Allow" in answer.headers) == (status == 405)
 

@@ -93,7 +93,7 @@ def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None
     assert failed["fault"]["message"]
     refused = lab.client.post(f"{path}/recording", json={"name": "it fails"})
     assert refused.status_code == 422
-    assert "lies right of" in refused.json()["message"]
+    assert "lies right of" in refused.json()["detail"]
     lab.client.post(f"{path}/reset").raise_for_status()
     lab.client.delete(path).raise_for_status()
     assert lab.read()["configuration"] == before
@@ -112,4 +112,4 @@ def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None
 def test_what_is_no_design_is_refused(lab: Lab, request_: dict, said: str) -> None:
     answer = lab.client.post(f"{lab.session}/design/response", json=request_)
     assert answer.status_code == 422
-    assert said in answer.json()["message"]
+    assert said in answer.json()["detail"]

@@ -43,7 +43,7 @@ export async function request(
   noteCall(method, path, body, response.status, answer);
   if (response.ok) return answer;
   const refusal = answer as Partial<Refusal> | null;
-  const message = refusal?.message ?? `${response.status} ${response.statusText}`;
+  const message = refusal?.detail ?? `${response.status} ${response.statusText}`;
   if (response.status === 401) throw new LockedError(message);
   throw new RefusedError(response.status, message, refusal?.violations ?? []);
 }

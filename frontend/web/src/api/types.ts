@@ -33,7 +33,7 @@ export type BenchStatus = BenchState["status"];
 export type LoopState = BenchState["loop"];
 export type Axis = Schemas["HomingRequest"]["step"];
 export type Figure = Schemas["ExperimentRequest"]["figure"];
-export type Refusal = Schemas["ErrorModel"];
+export type Refusal = Schemas["Problem"];
 export type OutcomeState = Schemas["OutcomeState"];
 
 /** What has a default may be left out of a request. */

@@ -1,0 +1,128 @@
+"""Refusals on the wire: problem details (RFC 9457), with name, value, unit and bound."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, Field
+
+from svsa.errors import Violation
+
+MEDIA_TYPE = "application/problem+json"
+TYPE_PREFIX = "urn:svsa:problem:"
+LONGEST_ECHO = 200
+
+TITLES = {
+    "out_of_range": "Values were refused",
+    "malformed_json": "The body is no JSON",
+    "content_type": "The body is of another media type",
+    "not_found": "It does not exist",
+    "method_not_allowed": "The method is not possible there",
+    "not_now": "It does not fit what the session is doing",
+    "held": "Somebody else is in control",
+    "record": "The record cannot be read",
+    "storage": "It cannot be stored",
+    "busy": "Too much is being made already",
+    "websocket": "This is a WebSocket",
+    "wrong_secret": "The secret is wrong",
+    "secret_needed": "The secret is needed",
+    "other_origin": "From another site",
+    "unknown_host": "For another host",
+    "too_large": "The body is too large",
+    "refused": "Refused",
+}
+"""What every kind of problem is called, in a few words that never change."""
+
+
+class ViolationModel(BaseModel):
+    """One refused value."""
+
+    name: str = Field(
+        examples=["frequency_hz"],
+        description="Path of the field in what was sent, such as rivals[0].law",
+    )
+    value: Any = Field(examples=[9.0], description="As it was given; cut short when long")
+    unit: str = Field(examples=["Hz"])
+    bound: str = Field(examples=["at most 5 Hz"])
+    limits: dict[str, float] = Field(
+        default={},
+        examples=[{"le": 5.0}],
+        description="The numbers of the bound in the unit, by ge, gt, le or lt",
+    )
+    finding: str = Field(
+        default="", description="What is wrong, where the bound is not of the value itself"
+    )
+    message: str = Field(examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."])
+
+
+class Problem(BaseModel):
+    """Why a request was refused (RFC 9457); nothing was changed."""
+
+    type: str = Field(
+        examples=[TYPE_PREFIX + "out_of_range"], description="The kind of problem, for programs"
+    )
+    title: str = Field(examples=[TITLES["out_of_range"]], description="The kind in words")
+    status: int = Field(examples=[422], description="Of the answer")
+    detail: str = Field(
+        examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."],
+        description="What was wrong this time, for people",
+    )
+    violations: list[ViolationModel] = Field(
+        default=[], description="Every value that was refused, where it was values"
+    )
+
+
+def build_problem(
+    status: int, kind: str, detail: str, violations: Sequence[Violation] = ()
+) -> Problem:
+    """The problem of this kind, one of `TITLES`."""
+    models = [build_violation(one) for one in violations]
+    return Problem(
+        type=TYPE_PREFIX + kind,
+        title=TITLES[kind],
+        status=status,
+        detail=detail,
+        violations=models,
+    )
+
+
+def answer_problem(
+    status: int,
+    kind: str,
+    detail: str,
+    headers: Mapping[str, str] | None = None,
+    violations: Sequence[Violation] = (),
+) -> JSONResponse:
+    """The problem as an answer."""
+    body = build_problem(status, kind, detail, violations).model_dump(mode="json")
+    return JSONResponse(body, status, headers, MEDIA_TYPE)
+
+
+def answer_violations(violations: Sequence[Violation]) -> JSONResponse:
+    """The answer that names every refused value."""
+    detail = " ".join(violation.message for violation in violations)
+    return answer_problem(422, "out_of_range", detail, violations=violations)
+
+
+def build_violation(violation: Violation) -> ViolationModel:
+    """A refused value on the wire."""
+    return ViolationModel(
+        name=violation.name,
+        value=_make_safe(violation.value),
+        unit=violation.unit,
+        bound=violation.bound,
+        limits=violation.limits,
+        finding=violation.finding,
+        message=violation.message,
+    )
+
+
+def _make_safe(value: Any) -> Any:
+    """A value that JSON can hold; a long or odd one as a short text."""
+    if value is None or (isinstance(value, bool | int) and abs(value) < 2**53):
+        return value
+    if isinstance(value, float) and math.isfinite(value):
+        return value
+    text = value if isinstance(value, str) else repr(value)
+    return text.encode("utf-8", "replace").decode()[:LONGEST_ECHO]
