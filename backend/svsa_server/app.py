@@ -14,6 +14,7 @@ from svsa_server.bench_start import open_bench
 from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
 from svsa_server.heavy_work import HeavyWork
+from svsa_server.jobs import Jobs
 from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.openapi import install_openapi
 from svsa_server.outcomes import OutcomeKeeper, Outcomes
@@ -25,6 +26,7 @@ from svsa_server.routes import (
     control,
     design,
     identification,
+    jobs,
     lab,
     loads,
     outcomes,
@@ -37,7 +39,6 @@ from svsa_server.routes import (
     tunings,
 )
 from svsa_server.scenes import Scenes
-from svsa_server.tunings import Tunings
 from svsa_server.turn import take_turn
 from svsa_server.viser_proxy import ViserProxy
 
@@ -85,6 +86,7 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         recordings,
         references,
         runs,
+        jobs,
         tunings,
         arena,
         outcomes,
@@ -106,7 +108,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)
     app.state.heavy_work = HeavyWork(config.most_exports)
-    app.state.tunings = Tunings(config.most_tunings)
+    app.state.jobs = Jobs({"tuning": config.most_tunings, "study": config.most_studies})
     scenes = Scenes(laboratory)
     proxy = ViserProxy(scenes.open)
     routes = list(app.router.routes)
@@ -125,7 +127,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         await asyncio.gather(*tasks, return_exceptions=True)
         await take_turn(laboratory.close)
         app.state.heavy_work.close()
-        app.state.tunings.close()
+        app.state.jobs.close()
         await app.state.recordings.close()
         await proxy.close()
         await scenes.close()

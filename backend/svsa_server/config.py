@@ -18,6 +18,7 @@ class Settings(BaseSettings):
     SVSA_CONTROL_S: how long control of a session outlives the last stream and call of whoever
     has it, s.
     SVSA_MOST_TUNINGS: tunings of laws that are worked at, one at a time, or wait.
+    SVSA_MOST_STUDIES: studies that are worked at, one at a time, or wait.
     SVSA_MOST_EXPORTS: exports, replays, comparisons, maps and laws in the arena that are worked at
     or wait.
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
@@ -32,6 +33,7 @@ class Settings(BaseSettings):
     control_s: float = Field(default=15.0, ge=1)
     most_exports: int = Field(default=10, ge=0, le=1000)
     most_tunings: int = Field(default=3, ge=0, le=100)
+    most_studies: int = Field(default=3, ge=0, le=100)
     bench: Path | None = None
     parameters: Path | None = None
 

@@ -1,15 +1,12 @@
 """Exports, replays, comparisons, maps, laws in the arena: in processes of their own, few at once.
 
-They take seconds of computing, which would make every live session late. A worker has a low
-priority: a tenth of a core that something else is always busy on, where with the lowest of all it
-would not get on for minutes. Who finds the queue full is told to come again.
+They take seconds of computing, which would make every live session late, so that a worker has a
+low priority. Who finds the queue full is told to come again.
 """
 
 import asyncio
 import multiprocessing
 import os
-import signal
-import sys
 import tempfile
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
@@ -21,11 +18,11 @@ from svsa.errors import SvsaError
 from svsa.export.formats import export
 from svsa.records.reader import open_record
 from svsa.records.resimulation import Comparison, compare_with_simulation
+from svsa.worker_process import give_way
 
 MAX_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
 RETRY_AFTER_S = 5
 _JOBS_A_WORKER = 100
-_NICENESS = 10
 
 T = TypeVar("T")
 
@@ -75,7 +72,7 @@ class HeavyWork:
             self._pool = ProcessPoolExecutor(
                 self._workers,
                 multiprocessing.get_context("spawn"),
-                _give_way,
+                give_way,
                 max_tasks_per_child=_JOBS_A_WORKER,
             )
         return self._pool
@@ -86,13 +83,6 @@ class HeavyWork:
             self._pool.shutdown(wait=False, cancel_futures=True)
             for child in multiprocessing.active_children():
                 child.terminate()
-
-
-def _give_way() -> None:
-    """A worker leaves the processor to whoever wants it, and Ctrl-C to the server."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if sys.platform != "win32":
-        os.nice(_NICENESS)
 
 
 def write_export(kind: str, folder: Path, target: Path) -> None:

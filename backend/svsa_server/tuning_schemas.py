@@ -8,7 +8,7 @@ from svsa.arena.tune import BUDGET, Stage
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.control.installed import InstalledLaw
 from svsa.run.configuration import Lane
-from svsa_server.tunings import Status
+from svsa_server.jobs import Status
 
 MAX_BUDGET = 2000
 

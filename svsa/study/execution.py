@@ -2,9 +2,6 @@
 
 import multiprocessing
 import os
-import signal
-import sys
-import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -23,10 +20,10 @@ from svsa.study.store import (
 )
 from svsa.study.study import Study
 from svsa.study.work import run_draws
+from svsa.worker_process import give_way
 
 WORKERS = min(2, os.cpu_count() or 1)
 ROWS_A_PART = 1024
-_NICENESS = 10
 
 Progress = Callable[[int, int], None]
 """Told how many rows are done, and of how many."""
@@ -37,16 +34,17 @@ def run_study(
     workers: int = WORKERS,
     rows_a_part: int = ROWS_A_PART,
     progress: Progress = lambda done, total: None,
+    is_cancelled: Callable[[], bool] = lambda: False,
 ) -> bool:
     """Run what is not done of a study; whether all of it is done then.
 
-    workers: processes; 0 runs it in this one. An interruption (Ctrl-C) waits for the parts that
-    are being worked at, keeps them and returns False. Raises `StudyError` where another process
-    works at it, and where a worker was ended.
+    workers: processes; 0 runs it in this one. is_cancelled: asked before each part; where it says
+    so, and at Ctrl-C, the parts that are being worked at are waited for and kept, and False is
+    returned. Raises `StudyError` where another process works at it, and where a worker was ended.
     """
     laws = len(stored.study.laws)
     with claim_study(stored):
-        spans = _cut(find_missing(stored), max(1, rows_a_part // laws))
+        spans = _cut(find_missing(stored), max(1, rows_a_part // laws), is_cancelled)
         done, total = count_done(stored) * laws, stored.study.row_count
         progress(done, total)
         parts = (
@@ -64,10 +62,12 @@ def run_study(
     return not find_missing(stored)
 
 
-def _cut(spans: list[Span], length: int) -> Iterator[Span]:
-    """Spans no longer than this many draws."""
+def _cut(spans: list[Span], length: int, is_cancelled: Callable[[], bool]) -> Iterator[Span]:
+    """Spans no longer than this many draws, until they are cancelled."""
     for first, stop in spans:
         for begin in range(first, stop, length):
+            if is_cancelled():
+                return
             yield begin, min(begin + length, stop)
 
 
@@ -86,7 +86,7 @@ class _Pool:
     def run(self, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[tuple[Span, pa.Table]]:
         """The parts of these spans; after an interruption those that were being worked at."""
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(self._workers, context, _give_way) as pool:
+        with ProcessPoolExecutor(self._workers, context, give_way) as pool:
             begun: dict[Future[pa.Table], Span] = {}
             interrupted: KeyboardInterrupt | None = None
             while True:
@@ -111,18 +111,3 @@ class _Pool:
                         raise StudyError(f"{text} `svsa study run {stored.name}`.") from None
             if interrupted is not None:
                 raise interrupted
-
-
-def _give_way() -> None:
-    """A worker leaves the processor to others and Ctrl-C to its parent, and ends with it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if sys.platform != "win32":
-        os.nice(_NICENESS)
-    parent = multiprocessing.parent_process()
-
-    def end_with_parent() -> None:
-        if parent is not None:
-            parent.join()
-        os._exit(1)
-
-    threading.Thread(target=end_with_parent, daemon=True).start()

@@ -6,6 +6,7 @@ import pytest
 
 import svsa
 from svsa.run.configuration import parse_design
+from svsa_server.heavy_work import RETRY_AFTER_S
 from tests.lab_in_process import run_lab_in_process
 
 LONGEST_S = 240.0
@@ -90,7 +91,14 @@ def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
     full = lab.post(TUNINGS, json={"law": "pd"})
     assert full.status_code == 503
     assert "2 tunings are worked at or wait" in full.json()["detail"]
-    for name in names:
-        lab.delete(f"{TUNINGS}/{name}")
-        state = wait_until(lab, name, lambda state: state["status"] == "cancelled")
-        assert f"{state['tried'] - 1} of 124 candidates" in lab.get(f"{TUNINGS}/{name}/file").text
+    assert full.headers["Retry-After"] == str(RETRY_AFTER_S)
+    jobs = lab.get("/api/v1/jobs").json()
+    assert {job["id"]: job["kind"] for job in jobs[:2]} == dict.fromkeys(names, "tuning")
+    begun, queued = names
+    assert lab.delete(f"/api/v1/jobs/{queued}").json()["status"] == "cancelled"
+    assert lab.get(f"{TUNINGS}/{queued}/file").status_code == 409, "nothing was tried"
+    assert lab.get("/api/v1/jobs/nothing").status_code == 404
+    wait_until(lab, begun, lambda state: state["status"] == "running")
+    lab.delete(f"{TUNINGS}/{begun}")
+    state = wait_until(lab, begun, lambda state: state["status"] == "cancelled")
+    assert f"{state['tried'] - 1} of 124 candidates" in lab.get(f"{TUNINGS}/{begun}/file").text

@@ -7,10 +7,12 @@ from fastapi.responses import Response
 
 from svsa.arena.search_space import build_space
 from svsa.arena.training import DURATION_S, TRAINING
-from svsa.control.installed import has_own_parameters
+from svsa.control.installed import get_title, has_own_parameters
 from svsa.errors import StateError
 from svsa.run.configuration import Design, Lane
+from svsa_server.jobs import Job
 from svsa_server.routes.depends import BUSY, REFUSALS
+from svsa_server.routes.jobs import find_jobs
 from svsa_server.tuning_schemas import (
     AxisState,
     FirstTrial,
@@ -19,7 +21,7 @@ from svsa_server.tuning_schemas import (
     TuningRequest,
     TuningState,
 )
-from svsa_server.tunings import Asked, Tuning, Tunings
+from svsa_server.tunings import Asked, read_file, read_trials, search
 
 router = APIRouter(prefix="/tunings", tags=["tuning"], responses=REFUSALS)
 TuningId = Annotated[str, Path(description="Id of a tuning", examples=["3f2a9c01b7de"])]
@@ -29,7 +31,7 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 @router.get("")
 def list_tunings(request: Request) -> list[TuningState]:
     """The last tunings of this server, the newest first, without what they tried."""
-    return [_build(tuning, None) for tuning in _find(request).list_all()]
+    return [_build(tuning, None) for tuning in find_jobs(request).list_all("tuning")]
 
 
 @router.post("", status_code=201, responses=BUSY)
@@ -44,7 +46,7 @@ async def start_tuning(
     build_space(wanted.law, wanted.held)
     present = _find_present(request, wanted)
     asked = Asked(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
-    return _build(_find(request).start(asked), 0)
+    return _build(find_jobs(request).start("tuning", get_title(wanted.law), search, asked), 0)
 
 
 @router.get("/{tuning}")
@@ -52,14 +54,14 @@ def read_tuning(
     request: Request, tuning: TuningId, first: Annotated[FirstTrial, Query()] = 0
 ) -> TuningState:
     """How far a tuning is, and what it tried from a number on."""
-    return _build(_find(request).get(tuning), first)
+    return _build(find_jobs(request).get(tuning, "tuning"), first)
 
 
 @router.delete("/{tuning}")
-def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
+async def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
     """Break a tuning off before its next candidate; the best so far is kept."""
-    found = _find(request).get(tuning)
-    found.stop()
+    found = find_jobs(request).get(tuning, "tuning")
+    found.cancel()
     return _build(found, None)
 
 
@@ -70,15 +72,15 @@ def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
 )
 def read_tuned_file(request: Request, tuning: TuningId) -> Response:
     """The parameter file (TOML) of the best, which says what it was measured on."""
-    found = _find(request).get(tuning)
-    if found.status not in ("done", "cancelled"):
-        raise StateError(f"The tuning {tuning} is {found.status}: its file is written at its end.")
+    found = find_jobs(request).get(tuning, "tuning")
+    text = read_file(found.folder)
+    if text is None or found.is_under_way:
+        raise StateError(
+            f"The tuning {tuning} is {found.status} and has no file: one is written at the end of"
+            " each that was begun."
+        )
     named = {"Content-Disposition": f'attachment; filename="{found.asked.law}.toml"'}
-    return Response(found.read_file(), media_type="application/toml", headers=named)
-
-
-def _find(request: Request) -> Tunings:
-    return request.app.state.tunings
+    return Response(text, media_type="application/toml", headers=named)
 
 
 def _find_present(request: Request, wanted: TuningRequest) -> Design:
@@ -88,9 +90,9 @@ def _find_present(request: Request, wanted: TuningRequest) -> Design:
     return Design(**{name: getattr(configuration, name) for name in Design.model_fields})
 
 
-def _build(tuning: Tuning, first: int | None) -> TuningState:
+def _build(tuning: Job, first: int | None) -> TuningState:
     """first: from which trial on they are told; None for none of them."""
-    asked, trials = tuning.asked, tuning.read_trials(0)
+    asked, trials = tuning.asked, read_trials(tuning.folder)
     space = build_space(asked.law, asked.held)
     best: dict[str, Any] | None = min(trials, key=lambda trial: trial["cost"], default=None)
     setting = None
@@ -103,7 +105,7 @@ def _build(tuning: Tuning, first: int | None) -> TuningState:
         )
     told = [] if first is None else trials[first:]
     return TuningState(
-        id=tuning.name,
+        id=tuning.id,
         law=asked.law,
         status=tuning.status,
         budget=asked.budget,
@@ -120,5 +122,5 @@ def _build(tuning: Tuning, first: int | None) -> TuningState:
         present=TrialState(**trials[0]) if trials else None,
         best=TrialState(**best) if best else None,
         best_setting=setting,
-        problem=tuning.problem or None,
+        problem=tuning.problem,
     )

@@ -1,0 +1,72 @@
+"""What a job's worker and the server tell each other, through the job's folder."""
+
+import json
+import time
+from collections import deque
+from pathlib import Path
+from typing import NamedTuple
+
+from svsa.records.header import replace_file
+
+PROGRESS, STOP = "progress.json", "stop"
+PERIOD_S = 0.2
+RATED_S = 15.0
+
+
+class Progress(NamedTuple):
+    """How far a job is. done, total: in what it counts, as candidates or runs. rate_per_s: lately,
+    None while nobody can say.
+    """
+
+    done: int = 0
+    total: int = 0
+    rate_per_s: float | None = None
+
+    @property
+    def left_s(self) -> float | None:
+        """How long it still takes at this rate, s; None while nobody can say."""
+        return (self.total - self.done) / self.rate_per_s if self.rate_per_s else None
+
+
+class JobFolder:
+    """The worker's side: where it writes, whom it tells how far it is, and whether to stop."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._told: deque[tuple[float, int]] = deque()
+        self._written_s = -PERIOD_S
+        self._progress = Progress()
+
+    def tell(self, done: int, total: int) -> None:
+        """Say how far it is; as often as one likes, it is written five times a second."""
+        now = time.monotonic()
+        self._told.append((now, done))
+        while len(self._told) > 2 and self._told[1][0] < now - RATED_S:
+            self._told.popleft()
+        since, before = self._told[0]
+        rate = (done - before) / (now - since) if done > before and now > since else None
+        self._progress = Progress(done, total, rate)
+        if now >= self._written_s + PERIOD_S:
+            self._written_s = now
+            self.write()
+
+    def write(self) -> None:
+        """Write what was told last."""
+        replace_file(self.path / PROGRESS, json.dumps(self._progress).encode())
+
+    def is_cancelled(self) -> bool:
+        """Whether it is to stop, and keep what is done."""
+        return (self.path / STOP).exists()
+
+
+def read_progress(folder: Path) -> Progress:
+    """What the worker in this folder told last."""
+    try:
+        return Progress(*json.loads((folder / PROGRESS).read_bytes()))
+    except FileNotFoundError:
+        return Progress()
+
+
+def ask_to_stop(folder: Path) -> None:
+    """Tell the worker in this folder to stop when it can."""
+    (folder / STOP).touch()

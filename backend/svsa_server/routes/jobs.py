@@ -1,0 +1,37 @@
+"""Long work, of whatever kind: list it, follow it, cancel it."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Request
+
+from svsa_server.job_schemas import JobState, describe_job
+from svsa_server.jobs import Jobs
+from svsa_server.routes.depends import REFUSALS
+
+router = APIRouter(prefix="/jobs", tags=["jobs"], responses=REFUSALS)
+JobId = Annotated[str, Path(description="Id of a job", examples=["3f2a9c01b7de"])]
+
+
+@router.get("")
+async def list_jobs(request: Request) -> list[JobState]:
+    """The last tunings and studies of this server, the newest first."""
+    return [describe_job(job) for job in find_jobs(request).list_all()]
+
+
+@router.get("/{job}")
+async def read_job(request: Request, job: JobId) -> JobState:
+    """How far a job is, how fast it goes and how long it still takes."""
+    return describe_job(find_jobs(request).get(job))
+
+
+@router.delete("/{job}")
+async def cancel_job(request: Request, job: JobId) -> JobState:
+    """Cancel a job: at once where it waits, else as soon as it can; what is done is kept."""
+    found = find_jobs(request).get(job)
+    found.cancel()
+    return describe_job(found)
+
+
+def find_jobs(request: Request) -> Jobs:
+    """The jobs of this server."""
+    return request.app.state.jobs
