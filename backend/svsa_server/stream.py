@@ -29,6 +29,7 @@ from svsa_server.stream_schemas import (
     StreamChannel,
     StreamError,
     StreamRequest,
+    lay_out_batch,
 )
 
 BATCH_PERIOD_S = 1.0 / 30.0
@@ -188,5 +189,6 @@ def _greet(hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...
         rate_hz=cursor.rate_hz,
         lanes=[lane + 1 for lane in cursor.read_lanes()],
         channels=[StreamChannel(**vars(channel)) for channel in named],
+        batch=lay_out_batch(),
         state=build_state(hosted),
     ).model_dump_json()

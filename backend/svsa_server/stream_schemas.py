@@ -8,7 +8,16 @@ from pydantic import BaseModel, Field
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.result.channels import ChannelName
 from svsa.run.configuration import MAX_LANES
-from svsa.session.batch import HEADER, HEADER_FIELDS, LANE_ID, TYPES
+from svsa.session.batch import (
+    HEADER,
+    HEADER_FIELDS,
+    LANE_ID,
+    MAGIC,
+    TYPES,
+    VALUE,
+    FieldName,
+    FieldType,
+)
 from svsa.signals import PLOTTED
 from svsa_server.session_schemas import SessionProgress, SessionState
 
@@ -31,8 +40,26 @@ class StreamChannel(BaseModel):
     label: str
 
 
+class BatchField(BaseModel):
+    """A field of a batch's header."""
+
+    name: FieldName
+    type: FieldType
+    byte: int = Field(description="Of the message, at which it begins")
+
+
+class BatchLayout(BaseModel):
+    """A binary message, little-endian: its header, every lane's id, every sample's values."""
+
+    magic: str = Field(default=MAGIC.decode(), description="The text that a batch begins with")
+    header_bytes: int = HEADER.size
+    header: list[BatchField]
+    lane_id: Literal["uint32"] = LANE_ID
+    value: Literal["float32"] = VALUE
+
+
 class Hello(BaseModel):
-    """The first message: what the batches will hold."""
+    """The first message: what the batches will hold, and how they are packed."""
 
     type: Literal["hello"] = "hello"
     session: str
@@ -40,6 +67,7 @@ class Hello(BaseModel):
     rate_hz: float = Field(description="Samples a second that are sent at speed 1")
     lanes: list[int] = Field(description="Numbers of the lanes, from 1")
     channels: list[StreamChannel]
+    batch: BatchLayout
     state: SessionState
 
 
@@ -60,12 +88,23 @@ class StreamError(BaseModel):
 StreamMessage = Hello | StateMessage | StreamError
 
 
+def lay_out_batch() -> BatchLayout:
+    """Where each field of a batch's header stands, as `pack_batch` packs it."""
+    codes = [code for _, code, _ in HEADER_FIELDS]
+    return BatchLayout(
+        header=[
+            BatchField(name=name, type=TYPES[code], byte=struct.calcsize("<" + "".join(codes[:n])))
+            for n, (name, code, _) in enumerate(HEADER_FIELDS)
+        ]
+    )
+
+
 def describe_stream(batch_period_s: float) -> str:
     """The stream in words (Markdown), with the layout of a batch as it is packed."""
-    rows, offset = [], 0
-    for name, code, meaning in HEADER_FIELDS:
-        rows.append(f"| {offset} | {TYPES[code]} | {name} | {meaning} |")
-        offset += struct.calcsize("<" + code)
+    rows = [
+        f"| {field.byte} | {field.type} | {field.name} | {meaning} |"
+        for field, (_, _, meaning) in zip(lay_out_batch().header, HEADER_FIELDS, strict=True)
+    ]
     return "\n".join(
         [
             "Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a"
@@ -82,12 +121,12 @@ def describe_stream(batch_period_s: float) -> str:
             "|---|---|---|---|",
             *rows,
             "",
-            f"then `{TYPES[LANE_ID]}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
+            f"then `{LANE_ID}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
             " that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come"
             " and go beside it; its place among them, which `hello.lanes` tells of the first batch,"
             " may change.",
             "",
-            f"Then `float32[count][lanes][channels]` from byte {HEADER.size} + 4 · lanes on, in the"
+            f"Then `{VALUE}[count][lanes][channels]` from byte {HEADER.size} + 4 · lanes on, in the"
             " order of these ids and of `hello.channels`; NaN is a value that is not known. A slow"
             " client gets the newest samples, with what it lost in `missed`. Of a session that runs"
             " many times faster than time each batch has the newest samples only, close together:"

@@ -2,26 +2,30 @@
 
 import struct
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 
 from svsa.errors import SvsaError
 
+FieldName = Literal["magic", "run", "first_tick", "stride", "count", "missed", "lanes"]
+FieldType = Literal["4 bytes", "uint32", "uint64"]
+
 MAGIC = b"SVSA"
-HEADER_FIELDS = (
+HEADER_FIELDS: Final[tuple[tuple[FieldName, str, str], ...]] = (
     ("magic", "4s", f"the text {MAGIC.decode()}"),
     ("run", "I", "number of the run; a new run begins at tick 0 again"),
-    ("first tick", "Q", "tick of the first sample"),
+    ("first_tick", "Q", "tick of the first sample"),
     ("stride", "I", "ticks from one sample to the next"),
     ("count", "I", "samples in this batch"),
     ("missed", "I", "samples left out before it, for a client that was too slow"),
     ("lanes", "I", "lanes in each sample"),
 )
 HEADER = struct.Struct("<" + "".join(code for _, code, _ in HEADER_FIELDS))
-LANE_ID = "I"
-TYPES = {"4s": "4 bytes", "I": "uint32", "Q": "uint64"}
-_LANE_ID, _VALUE = np.dtype("<u4"), np.dtype("<f4")
+TYPES: Final[dict[str, FieldType]] = {"4s": "4 bytes", "I": "uint32", "Q": "uint64"}
+LANE_ID: Final = "uint32"
+VALUE: Final = "float32"
+_LANE_ID, _VALUE = np.dtype(LANE_ID).newbyteorder("<"), np.dtype(VALUE).newbyteorder("<")
 
 
 class Batch(NamedTuple):

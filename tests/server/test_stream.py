@@ -75,6 +75,10 @@ def test_the_greeting_names_channels_and_units(lab: Lab) -> None:
         assert hello["type"] == "hello"
         assert hello["rate_hz"] == 200
         assert len(hello["channels"]) == 13
+        fields = {field["name"]: field["byte"] for field in hello["batch"]["header"]}
+        assert list(fields.values()) == [0, 4, 8, 16, 20, 24, 28]
+        assert fields["first_tick"] == 8
+        assert hello["batch"]["header_bytes"] == HEADER.size
         assert {"name": "position_rad", "unit": "rad", "label": "Position q"} in hello["channels"]
         assert hello["state"]["session"] == "lab"
 

@@ -359,7 +359,7 @@ export interface paths {
          *     |---|---|---|---|
          *     | 0 | 4 bytes | magic | the text SVSA |
          *     | 4 | uint32 | run | number of the run; a new run begins at tick 0 again |
-         *     | 8 | uint64 | first tick | tick of the first sample |
+         *     | 8 | uint64 | first_tick | tick of the first sample |
          *     | 16 | uint32 | stride | ticks from one sample to the next |
          *     | 20 | uint32 | count | samples in this batch |
          *     | 24 | uint32 | missed | samples left out before it, for a client that was too slow |
@@ -1607,6 +1607,58 @@ export interface components {
             high: number;
         };
         /**
+         * BatchField
+         * @description A field of a batch's header.
+         */
+        BatchField: {
+            /**
+             * Name
+             * @enum {string}
+             */
+            name: "magic" | "run" | "first_tick" | "stride" | "count" | "missed" | "lanes";
+            /**
+             * Type
+             * @enum {string}
+             */
+            type: "4 bytes" | "uint32" | "uint64";
+            /**
+             * Byte
+             * @description Of the message, at which it begins
+             */
+            byte: number;
+        };
+        /**
+         * BatchLayout
+         * @description A binary message, little-endian: its header, every lane's id, every sample's values.
+         */
+        BatchLayout: {
+            /**
+             * Magic
+             * @description The text that a batch begins with
+             * @default SVSA
+             */
+            magic: string;
+            /**
+             * Header Bytes
+             * @default 32
+             */
+            header_bytes: number;
+            /** Header */
+            header: components["schemas"]["BatchField"][];
+            /**
+             * Lane Id
+             * @default uint32
+             * @constant
+             */
+            lane_id: "uint32";
+            /**
+             * Value
+             * @default float32
+             * @constant
+             */
+            value: "float32";
+        };
+        /**
          * BenchState
          * @description A bench at this instant.
          */
@@ -2391,7 +2443,7 @@ export interface components {
         };
         /**
          * Hello
-         * @description The first message: what the batches will hold.
+         * @description The first message: what the batches will hold, and how they are packed.
          */
         Hello: {
             /**
@@ -2416,6 +2468,7 @@ export interface components {
             lanes: number[];
             /** Channels */
             channels: components["schemas"]["StreamChannel"][];
+            batch: components["schemas"]["BatchLayout"];
             state: components["schemas"]["SessionState"];
         };
         /**

@@ -1,7 +1,7 @@
 /** A figure of the paper run with both laws in a session of its own, and what came of it. */
 import { API, request } from "../api/request";
-import type { Figure, SessionState } from "../api/types";
-import { decodeBatch } from "../stream/decoder";
+import type { Figure, Hello, SessionState } from "../api/types";
+import { BatchDecoder } from "../stream/decoder";
 import { type Course, sliceCourse } from "./outcome";
 
 const DURATION_S = 20;
@@ -51,10 +51,16 @@ function readHistory(path: string, lastTick: number): Promise<Course> {
     const socket = new WebSocket(address);
     socket.binaryType = "arraybuffer";
     const parts: Course[] = [];
+    let decoder: BatchDecoder | null = null;
     const give = setTimeout(() => socket.close(), PATIENCE_MS);
     socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => {
-      if (typeof data === "string") return;
-      const batch = decodeBatch(data, CHANNELS.length);
+      if (typeof data === "string") {
+        const content = JSON.parse(data) as Hello | { type: "state" | "error" };
+        if (content.type === "hello") decoder = new BatchDecoder(content);
+        return;
+      }
+      const batch = decoder?.decode(data);
+      if (batch === undefined) return;
       parts.push(sliceCourse(batch, CHANNELS.length));
       if (batch.firstTick + batch.count * batch.stride >= lastTick) socket.close();
     };

@@ -4,7 +4,7 @@ import { readState, streamAddress } from "../api/client";
 import { LockedError, RefusedError } from "../api/errors";
 import type { Hello, SessionState } from "../api/types";
 import { type Finding, type Phase, StreamConnection } from "../stream/connection";
-import { decodeBatch } from "../stream/decoder";
+import { BatchDecoder } from "../stream/decoder";
 import { HISTORY_S, LONGEST_WINDOW_S, RATE_HZ } from "../stream/rates";
 import { SampleRing } from "../stream/ring";
 
@@ -26,6 +26,7 @@ export const isLive = computed(() => phase.value === "live");
 export const samples: { ring: SampleRing } = { ring: new SampleRing(1, []) };
 
 let periodS = 0.001;
+let decoder: BatchDecoder | null = null;
 let run = -1;
 
 /** The channels that the page asks for, and whether the answer continues what it holds already. */
@@ -69,6 +70,7 @@ function acceptText(message: string): void {
   const names = content.channels.map((channel) => channel.name);
   const continues = selection.continues && content.state.run_number === run;
   periodS = content.period_s;
+  decoder = new BatchDecoder(content);
   run = content.state.run_number;
   samples.ring = continues ? samples.ring.reselect(names) : new SampleRing(CAPACITY, names);
   take(content.state);
@@ -80,8 +82,8 @@ function acceptText(message: string): void {
 }
 
 function acceptBinary(message: ArrayBuffer): void {
-  const batch = decodeBatch(message, samples.ring.channels.length);
-  if (batch.run < run) return;
+  const batch = decoder?.decode(message);
+  if (batch === undefined || batch.run < run) return;
   if (batch.run > run) beginRun(batch.run);
   samples.ring.append(batch, periodS);
   if (batch.missed > 0) missedSamples.value += batch.missed;

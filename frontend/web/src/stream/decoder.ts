@@ -1,12 +1,10 @@
-/**
- * One binary message of the stream, little-endian:
- * u32 magic "SVSA", u32 run, u64 first tick, u32 stride, u32 count, u32 missed, u32 lanes,
- * then u32[lanes], which lane each is, then float32[count][lanes][channels]. Sample i is at tick
- * first + i·stride.
- */
+/** Binary messages of the stream, decoded as the greeting lays them out. */
+import type { Hello } from "../api/types";
 
-export const HEADER_BYTES = 32;
-export const MAGIC = 0x41535653;
+export type Greeting = Pick<Hello, "batch"> & { channels: readonly unknown[] };
+type Layout = Hello["batch"];
+type Field = Layout["header"][number];
+type FieldName = Field["name"];
 
 export interface Batch {
   run: number;
@@ -25,34 +23,78 @@ export class StreamFormatError extends Error {
   override name = "StreamFormatError";
 }
 
-export function decodeBatch(message: ArrayBuffer, channels: number): Batch {
-  if (message.byteLength < HEADER_BYTES) {
-    throw new StreamFormatError(
-      `a batch has ${message.byteLength} bytes: its header alone has ${HEADER_BYTES}`,
-    );
+const NUMBERS: Record<
+  Exclude<Field["type"], "4 bytes">,
+  (view: DataView, byte: number) => number
+> = {
+  uint32: (view, byte) => view.getUint32(byte, true),
+  uint64: (view, byte) => Number(view.getBigUint64(byte, true)),
+};
+const ARRAYS = {
+  uint32: Uint32Array,
+  float32: Float32Array,
+} satisfies Record<Layout["lane_id" | "value"], unknown>;
+
+export class BatchDecoder {
+  readonly #layout: Layout;
+  readonly #channels: number;
+  readonly #fields: ReadonlyMap<FieldName, Field>;
+
+  constructor({ batch, channels }: Greeting) {
+    this.#layout = batch;
+    this.#channels = channels.length;
+    this.#fields = new Map(batch.header.map((field) => [field.name, field]));
   }
-  const header = new DataView(message, 0, HEADER_BYTES);
-  const magic = header.getUint32(0, true);
-  if (magic !== MAGIC) {
-    throw new StreamFormatError(`a batch begins with 0x${magic.toString(16)}: it must be "SVSA"`);
+
+  /** Throws `StreamFormatError` for what is no batch of so many channels. */
+  decode(message: ArrayBuffer): Batch {
+    const { header_bytes: headerBytes, lane_id, value } = this.#layout;
+    if (message.byteLength < headerBytes) {
+      throw new StreamFormatError(
+        `a batch has ${message.byteLength} bytes: its header alone has ${headerBytes}`,
+      );
+    }
+    this.#checkMagic(message);
+    const header = new DataView(message, 0, headerBytes);
+    const count = this.#read(header, "count");
+    const lanes = this.#read(header, "lanes");
+    const size = count * lanes * this.#channels;
+    const begin = headerBytes + ARRAYS[lane_id].BYTES_PER_ELEMENT * lanes;
+    const expected = begin + ARRAYS[value].BYTES_PER_ELEMENT * size;
+    if (message.byteLength !== expected) {
+      throw new StreamFormatError(
+        `a batch has ${message.byteLength} bytes: ${count} samples of ${lanes} lanes of ${this.#channels} channels have ${expected}`,
+      );
+    }
+    return {
+      run: this.#read(header, "run"),
+      firstTick: this.#read(header, "first_tick"),
+      stride: this.#read(header, "stride"),
+      count,
+      missed: this.#read(header, "missed"),
+      lanes: Array.from(new ARRAYS[lane_id](message, headerBytes, lanes)),
+      values: new ARRAYS[value](message, begin, size),
+    };
   }
-  const count = header.getUint32(20, true);
-  const laneCount = header.getUint32(28, true);
-  const size = count * laneCount * channels;
-  const begin = HEADER_BYTES + 4 * laneCount;
-  const expected = begin + 4 * size;
-  if (message.byteLength !== expected) {
-    throw new StreamFormatError(
-      `a batch has ${message.byteLength} bytes: ${count} samples of ${laneCount} lanes of ${channels} channels have ${expected}`,
-    );
+
+  #checkMagic(message: ArrayBuffer): void {
+    const { magic } = this.#layout;
+    const bytes = new Uint8Array(message, this.#field("magic").byte, magic.length);
+    const found = new TextDecoder("latin1").decode(bytes);
+    if (found !== magic) {
+      throw new StreamFormatError(`a batch begins with "${found}": it must be "${magic}"`);
+    }
   }
-  return {
-    run: header.getUint32(4, true),
-    firstTick: Number(header.getBigUint64(8, true)),
-    stride: header.getUint32(16, true),
-    count,
-    missed: header.getUint32(24, true),
-    lanes: Array.from(new Uint32Array(message, HEADER_BYTES, laneCount)),
-    values: new Float32Array(message, begin, size),
-  };
+
+  #read(header: DataView, name: Exclude<FieldName, "magic">): number {
+    const { type, byte } = this.#field(name);
+    if (type === "4 bytes") throw new StreamFormatError(`a batch's ${name} is no number`);
+    return NUMBERS[type](header, byte);
+  }
+
+  #field(name: FieldName): Field {
+    const field = this.#fields.get(name);
+    if (field === undefined) throw new StreamFormatError(`a batch's header has no ${name}`);
+    return field;
+  }
 }
