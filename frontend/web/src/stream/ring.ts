@@ -12,6 +12,7 @@
  */
 import type { Batch } from "./decoder";
 import { DERIVED, type DerivedName, derivedFrom } from "./derived";
+import { TimeRing } from "./times";
 
 /** A piece of one column where it lies: sample i is at (start + i) mod the columns' length. */
 export interface Stretch {
@@ -28,26 +29,14 @@ interface Lane {
   columns: Map<string, Float32Array>;
 }
 
-/** So far from a sample it is still the one meant, s. */
-const REACH_S = 0.02;
-
-export class SampleRing {
-  readonly capacity: number;
+export class SampleRing extends TimeRing {
   #channels: readonly string[];
-  #time: Float64Array;
-  /** The tick at which the sample after this one is expected. */
-  #due: Float64Array;
   #lanes: Lane[] = [];
-  #next = 0;
-  #length = 0;
-  #total = 0;
 
   /** @param lanes their ids */
   constructor(capacity: number, channels: readonly string[], lanes: readonly number[] = []) {
-    this.capacity = capacity;
+    super(capacity);
     this.#channels = channels;
-    this.#time = new Float64Array(capacity);
-    this.#due = new Float64Array(capacity);
     this.arrange(lanes);
   }
 
@@ -55,28 +44,9 @@ export class SampleRing {
     return this.#channels;
   }
 
-  get length(): number {
-    return this.#length;
-  }
-
-  /** Time of the oldest sample, s; NaN when there is none. */
-  get oldestTime(): number {
-    return this.timeAt(0);
-  }
-
-  /** Time of the newest sample, s; NaN when there is none. */
-  get newestTime(): number {
-    return this.timeAt(this.#length - 1);
-  }
-
   /** How many lanes there are. */
   get lanes(): number {
     return this.#lanes.length;
-  }
-
-  clear(): void {
-    this.#next = 0;
-    this.#length = 0;
   }
 
   /** These lanes from now on, by their ids, in this order. */
@@ -88,7 +58,7 @@ export class SampleRing {
 
   /** Takes the newest samples; what is held of the same time and later gives way to them. */
   append(batch: Batch, periodS: number): void {
-    this.#dropFrom(batch.firstTick * periodS);
+    this.dropFrom(batch.firstTick * periodS);
     this.#markGap(batch, periodS);
     const derived = derivedFrom(this.#channels);
     const width = this.#channels.length;
@@ -100,11 +70,11 @@ export class SampleRing {
         let source = (row * batch.lanes.length + place) * width;
         for (const channel of this.#channels) {
           const value = place < 0 ? Number.NaN : (batch.values[source++] as number);
-          (columns.get(channel) as Float32Array)[this.#next] = value;
+          (columns.get(channel) as Float32Array)[this.head] = value;
         }
         for (const name of derived) this.#derive(columns, name);
       }
-      this.#advance(batch.firstTick + row * batch.stride, batch.stride, periodS);
+      this.advance(batch.firstTick + row * batch.stride, batch.stride, periodS);
     }
   }
 
@@ -115,8 +85,8 @@ export class SampleRing {
 
   #derive(columns: ReadonlyMap<string, Float32Array>, name: DerivedName): void {
     const { of, less } = DERIVED[name];
-    const value = (channel: string) => (columns.get(channel) as Float32Array)[this.#next] as number;
-    (columns.get(name) as Float32Array)[this.#next] = value(of) - value(less);
+    const value = (channel: string) => (columns.get(channel) as Float32Array)[this.head] as number;
+    (columns.get(name) as Float32Array)[this.head] = value(of) - value(less);
   }
 
   /** A ring for other channels that begins with what this one holds of them. */
@@ -133,15 +103,11 @@ export class SampleRing {
 
   copy(): SampleRing {
     const other = new SampleRing(this.capacity, this.#channels);
-    other.#time = this.#time.slice();
-    other.#due = this.#due.slice();
+    other.adoptTimes(this);
     other.#lanes = this.#lanes.map(({ id, columns }) => ({
       id,
       columns: new Map([...columns].map(([name, column]) => [name, column.slice()])),
     }));
-    other.#next = this.#next;
-    other.#length = this.#length;
-    other.#total = this.#total;
     return other;
   }
 
@@ -154,11 +120,11 @@ export class SampleRing {
       const lane = source.#lanes.findIndex((other) => other.id === id) + 1;
       for (const name of missing) {
         const column = this.#blank();
-        for (let index = 0; index < this.#length; index++) {
+        for (let index = 0; index < this.length; index++) {
           const time = this.timeAt(index);
           const at = source.firstAt(time);
           if (source.timeAt(at) === time) {
-            column[this.#slot(index)] = source.valueAt(name, at, lane);
+            column[this.slot(index)] = source.valueAt(name, at, lane);
           }
         }
         columns.set(name, column);
@@ -168,51 +134,19 @@ export class SampleRing {
 
   /** Newest value of a channel of lane 1, 2, …; NaN when there is none. */
   newest(channel: string, lane = 1): number {
-    return this.valueAt(channel, this.#length - 1, lane);
-  }
-
-  /** Time of a sample, counted from the oldest one, s; NaN when there is none. */
-  timeAt(index: number): number {
-    const isHeld = index >= 0 && index < this.#length;
-    return isHeld ? (this.#time[this.#slot(index)] as number) : Number.NaN;
+    return this.valueAt(channel, this.length - 1, lane);
   }
 
   /** Value of a sample, counted from the oldest one; NaN when there is none. */
   valueAt(channel: string, index: number, lane = 1): number {
     const column = this.#column(channel, lane);
-    const isHeld = column !== undefined && index >= 0 && index < this.#length;
-    return isHeld ? (column[this.#slot(index)] as number) : Number.NaN;
-  }
-
-  /** Index, counted from the oldest sample, of the first one at or after `timeS`. */
-  firstAt(timeS: number): number {
-    let low = 0;
-    let high = this.#length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if ((this.#time[this.#slot(middle)] as number) < timeS) low = middle + 1;
-      else high = middle;
-    }
-    return low;
-  }
-
-  /** Index of the sample nearest to a time; -1 when there is none. */
-  nearestTo(timeS: number): number {
-    if (this.#length === 0) return -1;
-    const after = Math.min(this.firstAt(timeS), this.#length - 1);
-    const before = Math.max(0, after - 1);
-    return timeS - this.timeAt(before) <= this.timeAt(after) - timeS ? before : after;
-  }
-
-  /** Index of the sample at a time, the nearest; -1 before the oldest and after the newest. */
-  sampleAt(timeS: number): number {
-    const isHeld = timeS >= this.oldestTime - REACH_S && timeS <= this.newestTime + REACH_S;
-    return isHeld ? this.nearestTo(timeS) : -1;
+    const isHeld = column !== undefined && index >= 0 && index < this.length;
+    return isHeld ? (column[this.slot(index)] as number) : Number.NaN;
   }
 
   /** Time of the first sample that has a number of a channel and lane, s; NaN where none has. */
   beginningOf(channel: string, lane: number): number {
-    for (let index = 0; index < this.#length; index++) {
+    for (let index = 0; index < this.length; index++) {
       if (!Number.isNaN(this.valueAt(channel, index, lane))) return this.timeAt(index);
     }
     return Number.NaN;
@@ -223,14 +157,8 @@ export class SampleRing {
     const values = this.#column(channel, lane);
     if (values === undefined) return null;
     const from = Math.max(0, first);
-    const count = Math.max(0, Math.min(end, this.#length) - from);
-    const number = this.#total - this.#length + from;
-    return { time: this.#time, values, start: this.#slot(from), count, number };
-  }
-
-  /** Copies time from sample `first` on into `out`; returns how many were copied. */
-  copyTime(first: number, out: Float64Array): number {
-    return this.#copy(this.#time, first, out, 1);
+    const count = Math.max(0, Math.min(end, this.length) - from);
+    return { time: this.time, values, start: this.slot(from), count, number: this.numberOf(from) };
   }
 
   /**
@@ -239,8 +167,8 @@ export class SampleRing {
    */
   copyChannel(channel: string, first: number, out: Float32Array, factor = 1, lane = 1): number {
     const column = this.#column(channel, lane);
-    if (column !== undefined) return this.#copy(column, first, out, factor);
-    const count = Math.min(this.#length - first, out.length);
+    if (column !== undefined) return this.copyOut(column, first, out, factor);
+    const count = Math.min(this.length - first, out.length);
     out.fill(Number.NaN, 0, count);
     return count;
   }
@@ -255,8 +183,7 @@ export class SampleRing {
 
   /** The first and the last sample that are missing before a batch, if any. */
   #markGap({ firstTick, stride }: Batch, periodS: number): void {
-    const due =
-      this.#length === 0 ? firstTick : (this.#due[this.#slot(this.#length - 1)] as number);
+    const due = this.due ?? firstTick;
     if (due >= firstTick) return;
     this.#appendBlank(due, stride, periodS);
     if (firstTick - stride > due) this.#appendBlank(firstTick - stride, stride, periodS);
@@ -264,43 +191,8 @@ export class SampleRing {
 
   #appendBlank(tick: number, stride: number, periodS: number): void {
     for (const { columns } of this.#lanes) {
-      for (const column of columns.values()) column[this.#next] = Number.NaN;
+      for (const column of columns.values()) column[this.head] = Number.NaN;
     }
-    this.#advance(tick, stride, periodS);
-  }
-
-  #advance(tick: number, stride: number, periodS: number): void {
-    this.#time[this.#next] = tick * periodS;
-    this.#due[this.#next] = tick + stride;
-    this.#next = (this.#next + 1) % this.capacity;
-    this.#length = Math.min(this.#length + 1, this.capacity);
-    this.#total++;
-  }
-
-  #dropFrom(timeS: number): void {
-    if (!(timeS <= this.newestTime)) return;
-    const dropped = this.#length - this.firstAt(timeS);
-    this.#next = (this.#next - dropped + this.capacity) % this.capacity;
-    this.#length -= dropped;
-    this.#total -= dropped;
-  }
-
-  #slot(index: number): number {
-    return (this.#next - this.#length + index + this.capacity) % this.capacity;
-  }
-
-  #copy<T extends Float32Array | Float64Array>(
-    column: T,
-    first: number,
-    out: T,
-    factor: number,
-  ): number {
-    const count = Math.min(this.#length - first, out.length);
-    let slot = this.#slot(first);
-    for (let index = 0; index < count; index++) {
-      out[index] = (column[slot] as number) * factor;
-      slot = slot + 1 === this.capacity ? 0 : slot + 1;
-    }
-    return count;
+    this.advance(tick, stride, periodS);
   }
 }
