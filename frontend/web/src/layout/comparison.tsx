@@ -1,7 +1,7 @@
 import { useCallback } from "preact/hooks";
 import type { LaneRow, SessionState } from "../api/types";
 import { inkOf } from "../plots/inks";
-import { Swatch } from "../plots/legend";
+import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
 import { isLive, samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
@@ -20,26 +20,6 @@ function CurrentError({ lane }: { lane: number }) {
   return <span ref={element} />;
 }
 
-interface CellProps {
-  isBest: boolean;
-  hint?: string | undefined;
-  children: string;
-}
-
-function Cell({ isBest, hint, children }: CellProps) {
-  return (
-    <td class={isBest ? "is-best" : ""} title={hint}>
-      {isBest && (
-        <>
-          <span aria-hidden="true">{compare.bestSign}</span>
-          <span class="visually-hidden">{compare.best}</span>
-        </>
-      )}
-      {children}
-    </td>
-  );
-}
-
 const lookOf = ({ stretches }: LaneRow) => inkOf(stretches.at(-1)?.ink ?? 0);
 
 const degrees = (rad: number | undefined) =>
@@ -50,55 +30,48 @@ export function Comparison({ state }: { state: SessionState }) {
   const { lanes, window, load_window: load } = state;
   const metrics = lanes.map((lane) => lane.in_window);
   const recoveries = lanes.map((lane) => recoveryOf(lane.since_load, load));
-  const bestRms = bestOf(metrics.map((row) => row?.rms_position_error_rad));
-  const bestPeak = bestOf(metrics.map((row) => row?.peak_position_error_rad));
-  const bestRecovery = bestOf(
-    lanes.map((lane) => lane.since_load && (lane.since_load.recovery_time_s ?? Infinity)),
+  const inUnit = (name: string, unit: string) => (
+    <>
+      {name} <span class="unit">{unit}</span>
+    </>
   );
-  const deg = <span class="unit">{compare.degrees}</span>;
+  const columns: MetricsColumn[] = [
+    {
+      key: "now",
+      title: inUnit(isLive.value ? compare.now : compare.lastKnown, compare.degrees),
+      cell: (row) => <CurrentError lane={lanes[row]?.lane ?? 1} />,
+    },
+    {
+      key: "rms",
+      title: inUnit(compare.rms, compare.degrees),
+      cell: (row) => degrees(metrics[row]?.rms_position_error_rad),
+      best: bestOf(metrics.map((row) => row?.rms_position_error_rad)),
+    },
+    {
+      key: "peak",
+      title: inUnit(compare.peak, compare.degrees),
+      cell: (row) => degrees(metrics[row]?.peak_position_error_rad),
+      best: bestOf(metrics.map((row) => row?.peak_position_error_rad)),
+    },
+    {
+      key: "recovery",
+      title: inUnit(compare.recovery, compare.recoveredFrom(load?.start_s ?? null)),
+      hint: text.windows.recovery,
+      cell: (row) => recoveries[row]?.words ?? "",
+      cellHint: (row) => recoveries[row]?.hint ?? undefined,
+      best: bestOf(
+        lanes.map((lane) => lane.since_load && (lane.since_load.recovery_time_s ?? Infinity)),
+      ),
+    },
+  ];
   return (
-    <table class="comparison" aria-label={compare.heading}>
-      <caption>{sinceOf(window)}</caption>
-      <thead>
-        <tr>
-          <th scope="col">{compare.lane}</th>
-          <th scope="col">
-            {isLive.value ? compare.now : compare.lastKnown} {deg}
-          </th>
-          <th scope="col">
-            {compare.rms} {deg}
-          </th>
-          <th scope="col">
-            {compare.peak} {deg}
-          </th>
-          <th scope="col" title={text.windows.recovery}>
-            {compare.recovery}{" "}
-            <span class="unit">{compare.recoveredFrom(load?.start_s ?? null)}</span>
-          </th>
-        </tr>
-      </thead>
-      <tbody>
-        {lanes.map((lane, index) => (
-          <tr key={lane.lane}>
-            <th scope="row">
-              <Swatch look={lookOf(lane)} />
-              {lane.name}
-            </th>
-            <td>
-              <CurrentError lane={lane.lane} />
-            </td>
-            <Cell isBest={index === bestRms}>
-              {degrees(metrics[index]?.rms_position_error_rad)}
-            </Cell>
-            <Cell isBest={index === bestPeak}>
-              {degrees(metrics[index]?.peak_position_error_rad)}
-            </Cell>
-            <Cell isBest={index === bestRecovery} hint={recoveries[index]?.hint}>
-              {recoveries[index]?.words ?? ""}
-            </Cell>
-          </tr>
-        ))}
-      </tbody>
-    </table>
+    <MetricsTable
+      class="comparison"
+      label={compare.heading}
+      caption={sinceOf(window)}
+      corner={compare.lane}
+      rows={lanes.map((lane) => ({ key: String(lane.lane), look: lookOf(lane), name: lane.name }))}
+      columns={columns}
+    />
   );
 }

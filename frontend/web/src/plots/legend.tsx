@@ -1,14 +1,7 @@
-import { text } from "../text/en";
-import type { Ink, PlotSign, Trace } from "./definitions";
-
-export interface LegendProps {
-  note: string | undefined;
-  traces: readonly Trace[];
-  hidden: ReadonlySet<string>;
-  /** The elements whose text the plot keeps up to date, by key. */
-  readings: Map<string, HTMLElement>;
-  onToggle: (key: string) => void;
-}
+import type { ComponentChildren } from "preact";
+import { useState } from "preact/hooks";
+import { plotsText } from "../text/plots";
+import type { Ink, PlotSign } from "./definitions";
 
 const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
   none: "",
@@ -18,7 +11,7 @@ const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
 };
 
 /** A piece of a curve, as it is drawn. */
-export function Swatch({ look, sign = "none" }: { look: Ink; sign?: PlotSign }) {
+export function Swatch({ look, sign = "none" }: { look: Ink; sign?: PlotSign | undefined }) {
   return (
     <svg class={`swatch ink-${look.colour}`} viewBox="0 0 22 6" aria-hidden="true">
       <path
@@ -31,29 +24,63 @@ export function Swatch({ look, sign = "none" }: { look: Ink; sign?: PlotSign }) 
   );
 }
 
+export interface LegendEntry extends Ink {
+  key: string;
+  label: string;
+  sign?: PlotSign;
+  /** Stands behind the label. */
+  remark?: ComponentChildren;
+}
+
+export interface LegendProps {
+  class?: string;
+  note?: string | undefined;
+  entries: readonly LegendEntry[];
+  hidden: ReadonlySet<string>;
+  onToggle: (key: string) => void;
+  /** The elements whose text the plot keeps up to date, by key; none: there are no values. */
+  readings?: Map<string, HTMLElement>;
+  /** Whether an entry has one value; left out, each has. */
+  isRead?: (key: string) => boolean;
+}
+
+/** Which curves are hidden, and what hides one or shows it again. */
+export function useHidden(): [ReadonlySet<string>, (key: string) => void] {
+  const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
+  const toggle = (key: string) => {
+    const next = new Set(hidden);
+    if (!next.delete(key)) next.add(key);
+    setHidden(next);
+  };
+  return [hidden, toggle];
+}
+
 /** One entry a curve with its value; pressing an entry hides the curve. */
-export function Legend({ note, traces, hidden, readings, onToggle }: LegendProps) {
-  const entries = traces.filter((trace) => trace.follows === undefined);
+export function Legend({ note, entries, hidden, onToggle, ...rest }: LegendProps) {
+  const { class: look = "legend", readings, isRead = () => true } = rest;
   return (
-    <div class="legend">
+    <div class={look}>
       {note && <span class="legend-note">{note}</span>}
-      {entries.map((trace) => (
+      {entries.map((entry) => (
         <button
-          key={trace.key}
+          key={entry.key}
           type="button"
           class="legend-entry"
-          aria-pressed={!hidden.has(trace.key)}
-          title={text.plots.toggle(trace.label)}
-          onClick={() => onToggle(trace.key)}
+          aria-pressed={!hidden.has(entry.key)}
+          title={plotsText.plots.toggle(entry.label)}
+          onClick={() => onToggle(entry.key)}
         >
-          <Swatch look={trace} sign={trace.sign} />
-          {trace.label}
-          <output
-            ref={(element) => {
-              if (element) readings.set(trace.key, element);
-              else readings.delete(trace.key);
-            }}
-          />
+          <Swatch look={entry} sign={entry.sign} />
+          <span class="legend-name">{entry.label}</span>
+          {entry.remark}
+          {readings && isRead(entry.key) && (
+            <output
+              ref={(element) => {
+                if (element) readings.set(entry.key, element);
+                else readings.delete(entry.key);
+              }}
+            />
+          )}
         </button>
       ))}
     </div>

@@ -9,7 +9,7 @@ import type { Trace } from "./definitions";
 import { EVENT_VIEW, isZoomOn } from "./eventzoom";
 import { onFrame } from "./frame";
 import { hoverShare, sampleRead } from "./hover";
-import { Legend } from "./legend";
+import { Legend, useHidden } from "./legend";
 import { PlotMenu } from "./menu";
 import { PhaseChart } from "./phase";
 import { readPiece } from "./pieces";
@@ -107,7 +107,7 @@ function Chooser({ title, groups, shown, onChoose }: ChooserProps) {
 
 export function Plot({ setup }: { setup: PlotSetup }) {
   const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
-  const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
+  const [hidden, toggle] = useHidden();
   const { content, shown, traces, isSideBySide } = useTraces(setup, chosen);
   const readings = useRef(new Map<string, HTMLElement>()).current;
   useEffect(() => keepReadings(traces, readings), [traces]);
@@ -116,12 +116,6 @@ export function Plot({ setup }: { setup: PlotSetup }) {
   const hasTruth = content.groups.some(({ traces: [leader, ...rest] }) =>
     rest.some((one) => one.follows === leader?.key && !one.continues && one.factor > 0),
   );
-
-  const toggle = (key: string) => {
-    const next = new Set(hidden);
-    if (!next.delete(key)) next.add(key);
-    setHidden(next);
-  };
   return (
     <section
       class={`plot ${isPhase ? "is-phase" : ""}`}
@@ -139,7 +133,7 @@ export function Plot({ setup }: { setup: PlotSetup }) {
         )}
         <Legend
           note={noteOf(setup, hasTruth && !isSideBySide)}
-          traces={traces}
+          entries={traces.filter((trace) => trace.follows === undefined)}
           hidden={hidden}
           readings={readings}
           onToggle={toggle}

@@ -1,66 +1,74 @@
+import type { Metrics as LaneMetrics } from "../api/types";
 import { inkOf } from "../plots/inks";
+import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
 import { describeMeasured, explainSettled } from "../runs/measured";
 import { text } from "../text/replay";
 import { formatNumber, toDegrees } from "../units";
 import { isPlaying, seek } from "./clock";
 import type { Recording, Run } from "./data";
-import { Swatch } from "./plot";
 
 const { numbers } = text;
 
-function degrees(rad: number | null | undefined): string {
-  return formatNumber(rad == null ? rad : toDegrees(rad), 3, 4);
-}
+const formatMetric = (value: number | null) => formatNumber(value, 3, 4);
+const formatError = (rad: number | null) => formatMetric(rad === null ? null : toDegrees(rad));
 
 /** Of who controlled the lane in the window. */
 const inkIn = ({ stretches, window }: Run, lane: number): number =>
   stretches[lane]?.filter(({ start_s: start }) => start <= window.start_s).at(-1)?.ink ?? lane;
 
 function Metrics({ run }: { run: Run }) {
+  const { window, metrics } = run;
+  const cell =
+    (read: (row: LaneMetrics) => number | null, format = formatError) =>
+    (lane: number) => {
+      const row = metrics[lane];
+      return format(row === undefined ? null : read(row));
+    };
+  const columns: MetricsColumn[] = [
+    { key: "rms", title: numbers.rms, cell: cell((row) => row.rms_position_error_rad) },
+    { key: "peak", title: numbers.peak, cell: cell((row) => row.peak_position_error_rad) },
+    {
+      key: "settled",
+      title: numbers.settled,
+      hint: explainSettled(window),
+      cell: cell((row) => row.settled_position_error_rad),
+    },
+    {
+      key: "rms stiffness",
+      title: numbers.rms,
+      cell: cell((row) => row.rms_stiffness_error_nm_per_rad, formatMetric),
+    },
+    {
+      key: "peak stiffness",
+      title: numbers.peak,
+      cell: cell((row) => row.peak_stiffness_error_nm_per_rad, formatMetric),
+    },
+  ];
+  const group = (name: string, unit: string, count: number) => ({
+    title: (
+      <>
+        {name} <span class="unit">{unit}</span>
+      </>
+    ),
+    columns: count,
+  });
   return (
-    <table class="metrics">
-      <caption title={numbers.hint}>{numbers.heading(describeMeasured(run.window))}</caption>
-      <thead>
-        <tr>
-          <th scope="col" rowSpan={2}>
-            <span class="visually-hidden">{numbers.lane}</span>
-          </th>
-          <th scope="colgroup" colSpan={3}>
-            {numbers.position} <span class="unit">{numbers.degrees}</span>
-          </th>
-          <th scope="colgroup" colSpan={2}>
-            {numbers.stiffness} <span class="unit">{numbers.stiffnessUnit}</span>
-          </th>
-        </tr>
-        <tr>
-          <th scope="col">{numbers.rms}</th>
-          <th scope="col">{numbers.peak}</th>
-          <th scope="col" title={explainSettled(run.window)}>
-            {numbers.settled}
-          </th>
-          <th scope="col">{numbers.rms}</th>
-          <th scope="col">{numbers.peak}</th>
-        </tr>
-      </thead>
-      <tbody>
-        {run.window.lanes.map((lane, index) => {
-          const row = run.metrics[index];
-          return (
-            <tr key={`${index}.${lane}`}>
-              <th scope="row">
-                <Swatch curve={inkOf(inkIn(run, index))} />
-                <span class="legend-name">{lane}</span>
-              </th>
-              <td>{degrees(row?.rms_position_error_rad)}</td>
-              <td>{degrees(row?.peak_position_error_rad)}</td>
-              <td>{degrees(row?.settled_position_error_rad)}</td>
-              <td>{formatNumber(row?.rms_stiffness_error_nm_per_rad, 3, 4)}</td>
-              <td>{formatNumber(row?.peak_stiffness_error_nm_per_rad, 3, 4)}</td>
-            </tr>
-          );
-        })}
-      </tbody>
-    </table>
+    <MetricsTable
+      class="metrics"
+      caption={numbers.heading(describeMeasured(window))}
+      captionHint={numbers.hint}
+      corner={<span class="visually-hidden">{numbers.lane}</span>}
+      groups={[
+        group(numbers.position, numbers.degrees, 3),
+        group(numbers.stiffness, numbers.stiffnessUnit, 2),
+      ]}
+      rows={window.lanes.map((name, index) => ({
+        key: `${index}.${name}`,
+        look: inkOf(inkIn(run, index)),
+        name,
+      }))}
+      columns={columns}
+    />
   );
 }
 

@@ -1,12 +1,13 @@
-import { useSignalEffect } from "@preact/signals";
-import { useEffect, useRef, useState } from "preact/hooks";
-import { Swatch } from "../plots/legend";
-import { palette } from "../plots/palette";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import uPlot from "uplot";
+import { Legend, useHidden } from "../plots/legend";
+import { type StaticContent, spanWithin, wholeOf } from "../plots/staticchart";
+import { useStaticChart } from "../plots/usestaticchart";
 import { text } from "../text/en";
 import { DifferenceTable } from "./differencetable";
-import { MetricsTable } from "./metricstable";
+import { drawEdges } from "./edges";
 import { CHANNELS, nameCurve, type Overlaid, type OverlayChannel, readOverlaid } from "./overlaid";
-import { OverlayChart } from "./overlaychart";
+import { OverlayTable } from "./overlaytable";
 import { PlaceLink } from "./placelink";
 import { attempt } from "./problem";
 
@@ -16,40 +17,40 @@ const TITLES: Record<OverlayChannel, { title: string; unit: string }> = {
   stiffness_error_nm_per_rad: { title: words.stiffness, unit: words.stiffnessUnit },
 };
 
+const LEAST_SPANS: Record<OverlayChannel, number> = {
+  position_error_rad: 0.004,
+  stiffness_error_nm_per_rad: 0.001,
+};
+const TIME_AXIS_PX = 26;
+
 interface PlotProps {
   channel: OverlayChannel;
   curves: readonly Overlaid[];
+  view: ReturnType<typeof spanWithin>;
   hidden: ReadonlySet<string>;
 }
 
-function OverlayPlot({ channel, curves, hidden }: PlotProps) {
-  const host = useRef<HTMLDivElement>(null);
-  const chart = useRef<OverlayChart | null>(null);
+function describeChart({ channel, curves, view }: Omit<PlotProps, "hidden">): StaticContent {
+  const tables = curves.map(
+    (curve): uPlot.AlignedData => [Array.from(curve.time), curve.values[channel]],
+  );
+  const [time, ...values] = uPlot.join(tables);
+  return {
+    time,
+    curves: curves.map(({ key, ink }, index) => ({ key, ...ink, values: values[index] ?? [] })),
+    leastSpan: LEAST_SPANS[channel],
+    padding: [8, 14, 0, 0],
+    timeAxis: { size: TIME_AXIS_PX, tick: words.timeTick },
+    group: "overlay",
+    ...view,
+    drawBelow: (plot) => drawEdges(plot, curves),
+  };
+}
+
+function OverlayPlot({ channel, curves, view, hidden }: PlotProps) {
   const { title, unit } = TITLES[channel];
-  useEffect(() => {
-    const element = host.current;
-    if (element === null) return;
-    const made = new OverlayChart(element, curves, channel);
-    chart.current = made;
-    const observer = new ResizeObserver(() =>
-      made.resize(element.clientWidth, element.clientHeight),
-    );
-    observer.observe(element);
-    return () => {
-      observer.disconnect();
-      made.destroy();
-      chart.current = null;
-    };
-  }, [curves, channel]);
-  useEffect(() => {
-    curves.forEach((curve, index) => {
-      chart.current?.show(index, !hidden.has(curve.key));
-    });
-  }, [curves, hidden]);
-  useSignalEffect(() => {
-    void palette.value;
-    chart.current?.redraw();
-  });
+  const content = useMemo(() => describeChart({ channel, curves, view }), [channel, curves, view]);
+  const host = useStaticChart(content, hidden);
   return (
     <section class="overlay-plot" aria-label={title}>
       <h3>
@@ -60,44 +61,47 @@ function OverlayPlot({ channel, curves, hidden }: PlotProps) {
   );
 }
 
-interface LegendProps {
-  curves: readonly Overlaid[];
-  hidden: ReadonlySet<string>;
-  onToggle: (key: string) => void;
-}
-
 /** What time 0 is of a run whose numbers are of no load. */
 const beginningOf = ({ window }: Overlaid): string =>
   window?.label ? words.fromChange(window.label) : words.fromStart;
 
-function OverlayLegend({ curves, hidden, onToggle }: LegendProps) {
+function Remark({ curve }: { curve: Overlaid }) {
   return (
-    <div class="overlay-legend">
-      {curves.map((curve) => (
-        <button
-          key={curve.key}
-          type="button"
-          class="legend-entry"
-          aria-pressed={!hidden.has(curve.key)}
-          title={words.toggle(nameCurve(curve))}
-          onClick={() => onToggle(curve.key)}
-        >
-          <Swatch look={curve.ink} />
-          {nameCurve(curve)}
-          {!curve.hasOnset && <small class="unit"> {beginningOf(curve)}</small>}
-          {curve.changedS !== null && (
-            <small class="unit"> {words.measured(curve.changedS.toFixed(2))}</small>
-          )}
-        </button>
+    <>
+      {!curve.hasOnset && <small class="unit"> {beginningOf(curve)}</small>}
+      {curve.changedS !== null && (
+        <small class="unit"> {words.measured(curve.changedS.toFixed(2))}</small>
+      )}
+    </>
+  );
+}
+
+function OverlayCurves({ curves }: { curves: readonly Overlaid[] }) {
+  const [hidden, toggle] = useHidden();
+  const view = useMemo(() => spanWithin(wholeOf(curves.map(({ time }) => time))), [curves]);
+  return (
+    <>
+      <Legend
+        class="overlay-legend"
+        entries={curves.map((curve) => ({
+          key: curve.key,
+          ...curve.ink,
+          label: nameCurve(curve),
+          remark: <Remark curve={curve} />,
+        }))}
+        hidden={hidden}
+        onToggle={toggle}
+      />
+      {CHANNELS.map((channel) => (
+        <OverlayPlot key={channel} {...{ channel, curves, view, hidden }} />
       ))}
-    </div>
+    </>
   );
 }
 
 /** Runs over one another, from where the window of the numbers of each begins: its last load. */
 export function OverlayPage({ runs }: { runs: readonly string[] }) {
   const [curves, setCurves] = useState<readonly Overlaid[] | null>(null);
-  const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
   const key = runs.join();
   useEffect(() => {
     let isGone = false;
@@ -108,11 +112,6 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
       isGone = true;
     };
   }, [key]);
-  const toggle = (curve: string) => {
-    const next = new Set(hidden);
-    if (!next.delete(curve)) next.add(curve);
-    setHidden(next);
-  };
   return (
     <>
       <div class="runs-head">
@@ -127,11 +126,8 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
       {curves?.length === 0 && <p class="runs-empty">{words.nothing}</p>}
       {curves && curves.length > 0 && (
         <div class="overlay">
-          <OverlayLegend curves={curves} hidden={hidden} onToggle={toggle} />
-          {CHANNELS.map((channel) => (
-            <OverlayPlot key={channel} channel={channel} curves={curves} hidden={hidden} />
-          ))}
-          <MetricsTable curves={curves} />
+          <OverlayCurves curves={curves} />
+          <OverlayTable curves={curves} />
           <DifferenceTable runs={key.split(",")} />
         </div>
       )}

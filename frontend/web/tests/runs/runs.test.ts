@@ -20,7 +20,7 @@ let tellDegrees: typeof import("../../src/runs/columns").tellDegrees;
 let describeMeasured: typeof import("../../src/runs/measured").describeMeasured;
 let explainSettled: typeof import("../../src/runs/measured").explainSettled;
 let overlay: typeof import("../../src/runs/overlaid").overlay;
-let areAlike: typeof import("../../src/runs/metricstable").areAlike;
+let areAlike: typeof import("../../src/runs/overlaytable").areAlike;
 let drawSpark: typeof import("../../src/runs/spark").drawSpark;
 let findWords: typeof import("../../src/runs/found").findWords;
 let excerpt: typeof import("../../src/runs/found").excerpt;
@@ -45,7 +45,7 @@ beforeAll(async () => {
   ({ describeMeasured, explainSettled } = await import("../../src/runs/measured"));
   ({ tellDegrees } = await import("../../src/runs/columns"));
   ({ overlay } = await import("../../src/runs/overlaid"));
-  ({ areAlike } = await import("../../src/runs/metricstable"));
+  ({ areAlike } = await import("../../src/runs/overlaytable"));
   ({ drawSpark } = await import("../../src/runs/spark"));
   ({ findWords, excerpt } = await import("../../src/runs/found"));
   ({ formatSetting } = await import("../../src/runs/difference"));

@@ -1,5 +1,5 @@
 import type { Metrics } from "../api/types";
-import { Swatch } from "../plots/legend";
+import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { bestOf } from "../widgets/best";
@@ -63,56 +63,45 @@ function windowOf({ window, lane, measuredLane }: Overlaid): string {
 }
 
 /** The curves of an overlay in numbers. */
-export function MetricsTable({ curves }: { curves: readonly Overlaid[] }) {
-  const columns = COLUMNS.map((column) => ({ ...column, ...readColumn(curves, column) }));
+export function OverlayTable({ curves }: { curves: readonly Overlaid[] }) {
+  const columns: MetricsColumn[] = COLUMNS.map((column) => {
+    const { values, best } = readColumn(curves, column);
+    return {
+      key: column.name,
+      title: (
+        <>
+          {column.name} <span class="unit">{column.unit}</span>
+        </>
+      ),
+      cell: (row) => formatNumber(values[row], 3, 4),
+      best,
+    };
+  });
+  const window: MetricsColumn = {
+    key: words.window,
+    title: words.window,
+    hint: words.windowHint,
+    class: "overlay-window",
+    cell: (row) => windowOf(curves[row] as Overlaid),
+  };
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
     <section class="overlay-table" tabIndex={0} aria-label={words.table}>
-      <table>
-        <caption>
+      <MetricsTable
+        caption={
           <span>
             {words.table}
             {!areAlike(curves) && <small class="unit"> {words.unequal}</small>}
           </span>
-        </caption>
-        <thead>
-          <tr>
-            <th scope="col">{words.run}</th>
-            <th scope="col" title={words.windowHint}>
-              {words.window}
-            </th>
-            {columns.map((column) => (
-              <th key={column.name} scope="col">
-                {column.name} <span class="unit">{column.unit}</span>
-              </th>
-            ))}
-          </tr>
-        </thead>
-        <tbody>
-          {curves.map((curve, row) => (
-            <tr key={curve.key}>
-              <th scope="row">
-                <span class="overlay-name">
-                  <Swatch look={curve.ink} />
-                  {nameCurve(curve)}
-                </span>
-              </th>
-              <td class="overlay-window">{windowOf(curve)}</td>
-              {columns.map((column) => (
-                <td key={column.name} class={row === column.best ? "is-best" : ""}>
-                  {row === column.best && (
-                    <>
-                      <span aria-hidden="true">{text.compare.bestSign}</span>
-                      <span class="visually-hidden">{text.compare.best}</span>{" "}
-                    </>
-                  )}
-                  {formatNumber(column.values[row], 3, 4)}
-                </td>
-              ))}
-            </tr>
-          ))}
-        </tbody>
-      </table>
+        }
+        corner={words.run}
+        rows={curves.map((curve) => ({
+          key: curve.key,
+          look: curve.ink,
+          name: nameCurve(curve),
+        }))}
+        columns={[window, ...columns]}
+      />
     </section>
   );
 }

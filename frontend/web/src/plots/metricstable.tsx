@@ -1,0 +1,104 @@
+import type { ComponentChildren } from "preact";
+import { plotsText } from "../text/plots";
+import type { Ink } from "./definitions";
+import { Swatch } from "./legend";
+
+const { compare: words } = plotsText;
+
+/** Who was measured. */
+export interface MeasuredRow {
+  key: string;
+  look: Ink;
+  name: string;
+}
+
+export interface MetricsColumn {
+  key: string;
+  title: ComponentChildren;
+  hint?: string | undefined;
+  class?: string;
+  /** A row's value in words. */
+  cell: (row: number) => ComponentChildren;
+  cellHint?: (row: number) => string | undefined;
+  /** The row that is marked as the best. */
+  best?: number;
+}
+
+interface MetricsTableProps {
+  class?: string;
+  label?: string;
+  caption: ComponentChildren;
+  captionHint?: string;
+  /** The head of the rows' names. */
+  corner: ComponentChildren;
+  /** What several columns have in common stands above them. */
+  groups?: readonly { title: ComponentChildren; columns: number }[];
+  rows: readonly MeasuredRow[];
+  columns: readonly MetricsColumn[];
+}
+
+/** Numbers of errors, a row a lane. */
+export function MetricsTable({ label, caption, captionHint, ...rest }: MetricsTableProps) {
+  const { class: look, corner, groups, rows, columns } = rest;
+  const cornerHead = (
+    <th scope="col" rowSpan={groups ? 2 : 1}>
+      {corner}
+    </th>
+  );
+  return (
+    <table class={look} aria-label={label}>
+      <caption title={captionHint}>{caption}</caption>
+      <thead>
+        {groups && (
+          <tr>
+            {cornerHead}
+            {groups.map(({ title, columns: count }, index) => (
+              <th key={index} scope="colgroup" colSpan={count}>
+                {title}
+              </th>
+            ))}
+          </tr>
+        )}
+        <tr>
+          {!groups && cornerHead}
+          {columns.map((column) => (
+            <th key={column.key} scope="col" title={column.hint}>
+              {column.title}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        {rows.map((row, index) => (
+          <tr key={row.key}>
+            <th scope="row">
+              <span class="metrics-name">
+                <Swatch look={row.look} />
+                <span class="legend-name">{row.name}</span>
+              </span>
+            </th>
+            {columns.map((column) => (
+              <Cell key={column.key} column={column} row={index} />
+            ))}
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function Cell({ column, row }: { column: MetricsColumn; row: number }) {
+  const isBest = column.best === row;
+  const classes = [column.class, isBest && "is-best"].filter(Boolean).join(" ");
+  return (
+    <td class={classes || undefined} title={column.cellHint?.(row)}>
+      {isBest && (
+        <>
+          <span aria-hidden="true">{words.bestSign}</span>
+          <span class="visually-hidden">{words.best}</span>
+        </>
+      )}
+      {column.cell(row)}
+    </td>
+  );
+}

@@ -1,0 +1,29 @@
+/** Lines on an overlay where windows begin and end. */
+import type uPlot from "uplot";
+import { palette } from "../plots/palette";
+import type { Overlaid } from "./overlaid";
+
+/** Where the windows of the numbers begin, and in its colour where that of a curve ends. */
+export function drawEdges(plot: uPlot, curves: readonly Overlaid[]): void {
+  drawEdge(plot, 0, palette.peek().mark);
+  curves.forEach(({ changedS, ink }, index) => {
+    const isShown = plot.series[index + 1]?.show === true;
+    if (changedS !== null && isShown) drawEdge(plot, changedS, palette.peek()[ink.colour]);
+  });
+}
+
+function drawEdge(plot: uPlot, timeS: number, colour: string): void {
+  const { ctx: context, bbox } = plot;
+  const { min = 0, max = 0 } = plot.scales.x as uPlot.Scale;
+  if (min > timeS || max < timeS) return;
+  const x = Math.round(plot.valToPos(timeS, "x", true));
+  context.save();
+  context.strokeStyle = colour;
+  context.lineWidth = devicePixelRatio;
+  context.setLineDash([2 * devicePixelRatio, 3 * devicePixelRatio]);
+  context.beginPath();
+  context.moveTo(x, bbox.top);
+  context.lineTo(x, bbox.top + bbox.height);
+  context.stroke();
+  context.restore();
+}
