@@ -30,7 +30,7 @@ def main() -> None:
     """On two cores: the loop and what goes through it here, what shares nothing with it beside."""
     beside = [
         start("tests.compile_all", BATCHES),
-        start("tests.paper.golden", **GENERIC),
+        start("tests.paper.golden", "--figures", **GENERIC),
     ]
     prepare()
     compile_bench()

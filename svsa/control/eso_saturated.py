@@ -19,6 +19,7 @@ import numpy as np
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.law import Law, Setting
+from svsa.control.matrices import multiply, raise_to, solve
 from svsa.control.parameters import LawParameters
 from svsa.model.dynamics import Actuator
 from svsa.model.exponential import exp
@@ -95,12 +96,10 @@ def build_observer_gains(order: int, omega: float, period: float) -> tuple[float
         for column in range(row, order):
             A[row, column] = power
             power *= period / (column - row + 1)
-    C = np.zeros((1, order))
-    C[0, 0] = 1.0
-    seen = np.vstack([C @ np.linalg.matrix_power(A, k + 1) for k in range(order)])
+    first, last = np.eye(order)[:1], np.eye(order)[:, -1:]
+    seen = np.vstack([multiply(first, raise_to(A, k + 1)) for k in range(order)])
     factor = A - exp(-omega * period) * np.eye(order)
-    last = np.linalg.solve(seen, np.eye(order)[:, -1])
-    gains = np.linalg.matrix_power(factor, order) @ last
+    gains = multiply(raise_to(factor, order), solve(seen, last))[:, 0]
     return tuple(float(gain) for gain in gains)
 
 

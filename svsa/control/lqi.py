@@ -4,17 +4,16 @@ The nominal chain at φ = 0 falls into [q, q̇, θ1, θ̇1, ∫e] and [θ2, θ̇
 Riccati equation of each is solved; between them the gains are interpolated over log σ_d.
 """
 
-import math
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import expm, solve_discrete_are
 
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.flat import compute_flat
 from svsa.control.law import Law, Setting
+from svsa.control.matrices import compute_exponential, multiply, solve, solve_riccati, weigh
 from svsa.control.parameters import LawParameters
 from svsa.model.dynamics import Actuator, compute_deflection
 from svsa.model.exponential import log
@@ -27,9 +26,22 @@ from svsa.model.spring import compute_stiffness, compute_stiffness_slope
 from svsa.signals import Disturbance, Reference, State, Torque
 from svsa.simd.choice import choose, greatest, least
 
-STIFFNESSES = tuple(float(sigma) for sigma in np.geomspace(3.0, 150.0, 10))
-LOG_FIRST = math.log(STIFFNESSES[0])
-LOG_STEP = math.log(STIFFNESSES[1] / STIFFNESSES[0])
+STIFFNESSES = (
+    3.0,
+    4.633356314839137,
+    7.155996913419903,
+    11.052094495921164,
+    17.06943060829173,
+    26.362918033212313,
+    40.71626424892361,
+    62.88432002480307,
+    97.12182043042883,
+    150.0,
+)
+"""N·m/rad, each by the same ratio above the one before. Written out, as their logarithms are: a
+power has other last digits on another machine."""
+LOG_FIRST = 1.0986122886681098
+LOG_STEP = 0.4346692228253496
 WEIGHT1_NM, WEIGHT2_NM = 15.0, 5.0
 
 
@@ -84,10 +96,10 @@ def solve_regulator(
 ) -> np.ndarray:
     """The gains k of u = −k x for ẋ = A x + b u sampled with a held input; Q, r per sample."""
     n = len(A)
-    whole = expm(np.block([[A, b[:, None]], [np.zeros((1, n + 1))]]) * period)
+    whole = compute_exponential(np.block([[A, b[:, None]], [np.zeros((1, n + 1))]]) * period)
     Ad, bd = whole[:n, :n], whole[:n, n:]
-    P = solve_discrete_are(Ad, bd, Q, np.array([[r]]))
-    return (np.linalg.solve(r + bd.T @ P @ bd, bd.T @ P @ Ad))[0]
+    P = solve_riccati(Ad, bd, Q, np.array([[r]]))
+    return solve(r + multiply(bd.T, P, bd), multiply(bd.T, P, Ad))[0]
 
 
 class Chain(NamedTuple):
@@ -145,14 +157,14 @@ def _solve_at(sigma: float, weights: tuple[float, ...], chain: Chain) -> list[fl
     A[1] = [-sigma / n.M, -n.D / n.M, sigma / n.M, 0.0, 0.0]
     A[3] = [sigma / n.B1, 0.0, -sigma / n.B1, -n.D1 / n.B1, 0.0]
     A[4, 0] = 1.0
-    Q = np.diag([position**-2, velocity**-2, 0.0, 0.0, (position * time) ** -2])
-    first = solve_regulator(A, np.array([0, 0, 0, 1 / n.B1, 0]), Q, WEIGHT1_NM**-2, T)
+    Q = np.diag([weigh(position), weigh(velocity), 0.0, 0.0, weigh(position * time)])
+    first = solve_regulator(A, np.array([0, 0, 0, 1 / n.B1, 0]), Q, weigh(WEIGHT1_NM), T)
     slope = float(compute_lever_ratio_slope(n.gamma))
     mu = compute_lever_ratio_for_stiffness(sigma, n.K)
     g = float(compute_stiffness_slope(mu, n.K, slope))
     A = np.array([[0.0, 1.0, 0.0], [0.0, -n.D2 / n.B2, 0.0], [g, 0.0, 0.0]])
-    Q = np.diag([(g / stiffness) ** 2, 0.0, (stiffness * stiffness_time) ** -2])
-    second = solve_regulator(A, np.array([0.0, 1 / n.B2, 0.0]), Q, WEIGHT2_NM**-2, T)
+    Q = np.diag([weigh(stiffness / g), 0.0, weigh(stiffness * stiffness_time)])
+    second = solve_regulator(A, np.array([0.0, 1 / n.B2, 0.0]), Q, weigh(WEIGHT2_NM), T)
     return [*first, *second]
 
 

@@ -16,12 +16,12 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import solve_discrete_are
 
 from svsa.checked import Number, quantity
 from svsa.compilation import compiled
 from svsa.control.disturbed import compute_disturbed
 from svsa.control.law import Law, Setting
+from svsa.control.matrices import multiply, raise_to, solve_riccati, weigh
 from svsa.control.parameters import LawParameters
 from svsa.model.dynamics import Actuator
 from svsa.model.linearization import compute_linearization, solve_decoupling
@@ -112,18 +112,18 @@ def build_chain(order: int, step: float) -> tuple[np.ndarray, np.ndarray]:
 def condense(weights: Row, effort: float) -> Plan:
     """The problem of a chain e → …, whose input is Δy. weights: 1/error² of e and its rates."""
     A, B = build_chain(len(weights), BLOCK_S)
-    Q, R = np.diag(weights), np.array([[effort**-2]])
-    P = solve_discrete_are(A, B, Q, R)
+    Q, R = np.diag(weights), np.array([[weigh(effort)]])
+    P = solve_riccati(A, B, Q, R)
     n = len(weights)
-    free = np.vstack([np.linalg.matrix_power(A, k + 1) for k in range(BLOCKS)])
+    free = np.vstack([raise_to(A, k + 1) for k in range(BLOCKS)])
     forced = np.zeros((n * BLOCKS, BLOCKS))
     for k in range(BLOCKS):
         for i in range(k + 1):
-            forced[n * k : n * k + n, i : i + 1] = np.linalg.matrix_power(A, k - i) @ B
+            forced[n * k : n * k + n, i : i + 1] = multiply(raise_to(A, k - i), B)
     cost = np.kron(np.eye(BLOCKS), Q)
     cost[-n:, -n:] = P
-    H = forced.T @ cost @ forced + np.eye(BLOCKS) * R[0, 0]
-    G = forced.T @ cost @ free
+    H = multiply(forced.T, cost, forced) + np.eye(BLOCKS) * R[0, 0]
+    G = multiply(forced.T, cost, free)
     scale = float(np.max(np.diag(H)))
     return Plan(
         tuple(float(v) for v in (H / scale).ravel()),
@@ -135,10 +135,10 @@ def condense(weights: Row, effort: float) -> Plan:
 def build(parameters: Horizon, setting: Setting) -> Constants:
     """Both condensed problems, and β as a share of a period."""
     p = parameters
-    weights = (p.position_rad**-2, p.velocity_rad_per_s**-2, 0.0, 0.0)
+    weights = (weigh(p.position_rad), weigh(p.velocity_rad_per_s), 0.0, 0.0)
     return Constants(
         position=condense(weights, p.snap_rad_per_s4),
-        stiffness=condense((p.stiffness_nm_per_rad**-2, 0.0), p.stiffening_nm_per_rad_s2),
+        stiffness=condense((weigh(p.stiffness_nm_per_rad), 0.0), p.stiffening_nm_per_rad_s2),
         share=compute_share(p.observer_rad_per_s, setting.period),
         torque1_max=setting.torque1_max,
         torque2_max=setting.torque2_max,
