@@ -7,9 +7,13 @@ from collections.abc import AsyncIterator
 from fastapi import APIRouter, FastAPI
 
 import svsa
+from svsa.records.catalogue.runs import find_data_folder
 from svsa.run.configuration import load_prototype, read_design
 from svsa.session.session import Session
-from svsa_server.access import AccessGuard, SharedSecret
+from svsa_server.access.class_keys import ClassKeys
+from svsa_server.access.doors import ClassDoor, Door, OpenDoor, SecretDoor
+from svsa_server.access.guard import AccessGuard
+from svsa_server.access.people import People
 from svsa_server.bench_start import open_bench
 from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
@@ -18,9 +22,11 @@ from svsa_server.jobs import Jobs
 from svsa_server.laboratory import Laboratory, build_shared_session
 from svsa_server.openapi import install_openapi
 from svsa_server.outcomes import OutcomeKeeper, Outcomes
+from svsa_server.ownership import is_visible
 from svsa_server.page import build_page_routes
 from svsa_server.recording import Recordings, open_catalogue
 from svsa_server.routes import (
+    access,
     arena,
     bench,
     control,
@@ -49,13 +55,16 @@ _DESCRIPTION = (
 )
 
 
-def build_app(config: Settings | None = None, shared: Session | None = None) -> FastAPI:
+def build_app(
+    config: Settings | None = None, shared: Session | None = None, keys: ClassKeys | None = None
+) -> FastAPI:
     """The lab as an ASGI application; sessions live as long as it runs.
 
-    shared: the session that everyone shares; a simulated one if left out.
+    shared: the session that everyone shares; a simulated one if left out. keys: of a class, if
+    they are open already.
     """
     config = config or Settings()
-    secret = SharedSecret(config.secret_text) if config.secret_text else None
+    door = build_door(config, keys)
     app = FastAPI(
         title="SVSA Lab",
         version=svsa.__version__,
@@ -64,17 +73,18 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         docs_url=None,
         redoc_url=None,
     )
-    app.state.secret = secret
+    app.state.door = door
     app.state.config = config
     app.state.shared = shared
     app.state.design = read_design(config.parameters) if config.parameters else load_prototype()
     app.state.outcomes = Outcomes()
     app.add_middleware(OutcomeKeeper, outcomes=app.state.outcomes)
-    app.add_middleware(AccessGuard, secret=secret)
+    app.add_middleware(AccessGuard, door=door, hosts=config.host_names, is_visible=is_visible)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
     for part in (
         lab,
+        access,
         sessions,
         control,
         bench,
@@ -94,8 +104,15 @@ def build_app(config: Settings | None = None, shared: Session | None = None) -> 
         api.include_router(part.router)
     app.include_router(api)
     app.router.routes.extend(build_page_routes())
-    install_openapi(app, needs_secret=secret is not None)
+    install_openapi(app, needs_secret=door.kind != "open")
     return app
+
+
+def build_door(config: Settings, keys: ClassKeys | None = None) -> Door:
+    """How people come in, as it is configured."""
+    if config.classroom:
+        return ClassDoor(keys or ClassKeys.open(find_data_folder())[0], People())
+    return SecretDoor(config.secret_text) if config.secret_text else OpenDoor()
 
 
 @contextlib.asynccontextmanager

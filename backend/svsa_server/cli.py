@@ -12,7 +12,9 @@ from svsa.extras import require_extra
 def serve(
     host: Annotated[
         str,
-        typer.Option(help="Address; 'auto' is every address with SVSA_SECRET, else 127.0.0.1."),
+        typer.Option(
+            help="Address; 'auto' is every address with SVSA_SECRET or --class, else 127.0.0.1."
+        ),
     ] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8000,
     bench: Annotated[
@@ -22,15 +24,21 @@ def serve(
         Path | None,
         typer.Option(help="Parameter file, as identify writes it; the paper's if left out."),
     ] = None,
+    classroom: Annotated[
+        bool,
+        typer.Option(
+            "--class", help="People join with a name and a class code; one operates at a time."
+        ),
+    ] = False,
 ) -> None:
     """Start the lab: the page, the REST interface, the streams and the 3D view.
 
-    Listening beyond this machine needs a shared secret in SVSA_SECRET.
+    Listening beyond this machine needs --class, or a shared secret in SVSA_SECRET.
     """
     require_extra("server")
     from svsa_server.serve import run_server
 
-    run_server(host, port, bench, parameters)
+    run_server(host, port, bench, parameters, classroom)
 
 
 def excite(

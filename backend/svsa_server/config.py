@@ -23,6 +23,9 @@ class Settings(BaseSettings):
     or wait.
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
     SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
+    SVSA_CLASSROOM: whether people join with a name and a class code, and have roles.
+    SVSA_HOSTS: names with commas between, under which others reach the lab, besides addresses and
+    the names of this machine.
     """
 
     model_config = SettingsConfigDict(env_prefix="SVSA_", extra="ignore", frozen=True)
@@ -36,6 +39,8 @@ class Settings(BaseSettings):
     most_studies: int = Field(default=3, ge=0, le=100)
     bench: Path | None = None
     parameters: Path | None = None
+    classroom: bool = False
+    hosts: str = ""
 
     @property
     def secret_text(self) -> str | None:
@@ -43,19 +48,31 @@ class Settings(BaseSettings):
         text = self.secret.get_secret_value() if self.secret else ""
         return text or None
 
+    @property
+    def host_names(self) -> frozenset[str]:
+        """The names in `hosts`, in small letters."""
+        return frozenset(name.strip().lower() for name in self.hosts.split(",") if name.strip())
+
     def choose_host(self, host: str) -> str:
-        """The address for `host`; "auto" is every address, but only where a secret is set."""
+        """The address for `host`; "auto" is every address, but only where not everyone gets in."""
         if host != "auto":
             return host
-        return "0.0.0.0" if self.secret_text else "127.0.0.1"  # noqa: S104
+        return "0.0.0.0" if self.secret_text or self.classroom else "127.0.0.1"  # noqa: S104
 
     def check_exposure(self, host: str) -> None:
-        """Raise `SecurityError` where strangers could reach a lab that has no secret."""
-        if self.secret_text is None:
+        """Raise `SecurityError` where strangers could reach a lab that keeps nobody out."""
+        if self.classroom:
+            if self.secret_text is not None:
+                raise SecurityError(
+                    "A class has a code and an instructor token of its own: leave out SVSA_SECRET,"
+                    " or --class."
+                )
+        elif self.secret_text is None:
             if not is_loopback(host):
                 raise SecurityError(
-                    f"Listening on {host} lets others in: set SVSA_SECRET to a shared secret of at"
-                    f" least {SHORTEST_SECRET} characters, or listen on 127.0.0.1."
+                    f"Listening on {host} lets others in: serve a class with --class, set"
+                    f" SVSA_SECRET to a shared secret of at least {SHORTEST_SECRET} characters, or"
+                    " listen on 127.0.0.1."
                 )
         elif len(self.secret_text) < SHORTEST_SECRET:
             raise SecurityError(

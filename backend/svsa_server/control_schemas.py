@@ -8,10 +8,11 @@ from svsa.checked import Checked, Flag, quantity
 
 LONGEST_NAME = 40
 _CONTROLS = r"\u0000-\u001f\u007f-\u009f"
-_READABLE = rf"^[^{_CONTROLS}]*[^\s{_CONTROLS}][^{_CONTROLS}]*$"
+READABLE = rf"^[^{_CONTROLS}]*[^\s{_CONTROLS}][^{_CONTROLS}]*$"
 
 
-def _check_printable(name: str) -> str:
+def check_printable(name: str) -> str:
+    """The name without what stands around it; raises `ValueError` where it cannot be read."""
     if not name.strip() or not name.isprintable():
         raise ValueError("a text that can be read")
     return name.strip()
@@ -22,8 +23,8 @@ class ControlRequest(Checked):
 
     by: Annotated[
         str,
-        Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": _READABLE}),
-        AfterValidator(_check_printable),
+        Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": READABLE}),
+        AfterValidator(check_printable),
     ] = quantity("", "Who is in control, as everybody is told, in printable characters")
     take_over: Flag = quantity("", "Whoever is in control loses it", default=False)
 

@@ -18,11 +18,11 @@ class HostedSession:
 
     session: what people start, pause and change. `hand`: who is in control of it. `excitation`:
     what is being played on it, or None. `last_use`: when it was last asked for; infinite for one
-    that never ends by itself.
+    that never ends by itself. `owner`: the id of the person whose it is; empty for everybody's.
     """
 
-    def __init__(self, session: Session, last_use: float = math.inf) -> None:
-        self.session = session
+    def __init__(self, session: Session, last_use: float = math.inf, owner: str = "") -> None:
+        self.session, self.owner = session, owner
         self.hand = ControlHand(session.name)
         self.excitation: Excitation | None = None
         self.last_use = last_use

@@ -1,17 +1,10 @@
-"""What goes over the wire about the lab: its door, its figures, its health."""
+"""What goes over the wire about the lab: its figures, its health."""
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel
 
-from svsa.checked import Checked, quantity
 from svsa.reference.trajectories import PositionReference, StiffnessReference
-
-
-class LoginRequest(Checked):
-    """The shared secret."""
-
-    secret: Annotated[str, Field(max_length=1000)] = quantity("", "The lab's shared secret")
 
 
 class FigureState(BaseModel):

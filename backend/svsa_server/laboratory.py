@@ -51,27 +51,33 @@ class Laboratory:
     def get(self, name: str) -> HostedSession:
         """The session of this name, which counts as using it; raises `UnknownError`."""
         if name not in self.sessions:
-            known = ", ".join(list(self.sessions)[:10])
+            open_to_all = [one for one, hosted in self.sessions.items() if not hosted.owner]
+            known = ", ".join(open_to_all[:10])
             raise UnknownError(f"There is no session {name[:80]!r}; sessions here: {known}.")
         self.sessions[name].touch()
         return self.sessions[name]
 
-    def create(self, configuration: Configuration) -> HostedSession:
+    def create(self, configuration: Configuration, owner: str = "") -> HostedSession:
         """A new private session, running; raises `StateError` when there are too many."""
         self._check_room()
         session = SimulatedSession(build_name(), configuration)
         session.start()
-        return self._add(session)
+        return self._add(session, owner)
 
     async def branch(
-        self, configuration: Configuration, commands: list[Command], tick: int, run_id: str
+        self,
+        configuration: Configuration,
+        commands: list[Command],
+        tick: int,
+        run_id: str,
+        owner: str = "",
     ) -> HostedSession:
         """A private session, paused, that goes on from a recorded run at a tick."""
         self._check_room()
         session = await asyncio.to_thread(
             SimulatedSession.branch, build_name(), configuration, commands, tick, run_id
         )
-        return self._add(session)
+        return self._add(session, owner)
 
     def _check_room(self) -> None:
         if len(self.sessions) > self._most_sessions:
@@ -80,8 +86,8 @@ class Laboratory:
                 " end one, or wait for an idle one to end."
             )
 
-    def _add(self, session: Session) -> HostedSession:
-        hosted = self.sessions[session.name] = HostedSession(session, time.monotonic())
+    def _add(self, session: Session, owner: str) -> HostedSession:
+        hosted = self.sessions[session.name] = HostedSession(session, time.monotonic(), owner)
         return hosted
 
     def end(self, name: str) -> None:

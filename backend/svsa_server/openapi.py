@@ -5,7 +5,8 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
-from svsa_server.access import LONGEST_BODY_BYTES, is_open
+from svsa_server.access.guard import LONGEST_BODY_BYTES
+from svsa_server.access.permissions import find_permission
 from svsa_server.problems import MEDIA_TYPE
 
 SCHEME = "bearer"
@@ -39,13 +40,14 @@ def _complete(schema: dict[str, Any], needs_secret: bool) -> dict[str, Any]:
         SCHEME: {
             "type": "http",
             "scheme": "bearer",
-            "description": "The shared secret of the lab (SVSA_SECRET), where it has one.",
+            "description": "The shared secret of the lab (SVSA_SECRET), or a token of its class.",
         }
     }
     for path, item in schema["paths"].items():
         for method in _METHODS:
             if method in item:
-                _complete_operation(item[method], needs_secret and not is_open(path))
+                is_open = find_permission(method.upper(), path).permission.role is None
+                _complete_operation(item[method], needs_secret and not is_open)
     return schema
 
 
@@ -56,10 +58,14 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
             answer["content"] = {MEDIA_TYPE: _PROBLEM}
     if UPGRADED in answers:
         answers["101"] = answers.pop(UPGRADED)
-    answers["403"] = _describe("From a page of another site, or for another host than this one")
+    answers["403"] = _describe(
+        "From a page of another site, for another host than this one, or not for this role"
+    )
     if needs_secret:
         operation["security"] = [{SCHEME: []}]
-        answers["401"] = _describe("The shared secret is missing or wrong")
+        answers["401"] = _describe(
+            "The shared secret, or the token of a class, is missing or wrong"
+        )
     if "requestBody" in operation:
         answers["400"] = _describe("The body is no JSON")
         answers["413"] = _describe(f"The body is longer than {LONGEST_BODY_BYTES} bytes")

@@ -63,9 +63,14 @@ class Recordings:
         self._catalogue = catalogue
         self._finishing: set[asyncio.Task[None]] = set()
 
-    async def start(self, session: Session, name: str, tags: tuple[str, ...], notes: str) -> None:
-        """Record a session from now on; raises `StateError`, `RecordError`, `ParameterError`."""
-        header = build_header(session, name, tags, notes)
+    async def start(
+        self, session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
+    ) -> None:
+        """Record a session from now on; raises `StateError`, `RecordError`, `ParameterError`.
+
+        owner: id of the person whose run it is, in a class.
+        """
+        header = build_header(session, name, tags, notes, owner)
         recorder = await asyncio.to_thread(self._catalogue.record, header)
         session.journal.on_recorded = self.finish
         try:
@@ -95,7 +100,9 @@ class Recordings:
             _log.warning("Run %s was not entered: %s", recorder.header.run_id, error)
 
 
-def build_header(session: Session, name: str, tags: tuple[str, ...], notes: str) -> RecordHeader:
+def build_header(
+    session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
+) -> RecordHeader:
     """What the record of this session says of itself; raises `ParameterError`.
 
     Unstable gains, which may be tried in a private session, are refused as everywhere: their
@@ -111,6 +118,7 @@ def build_header(session: Session, name: str, tags: tuple[str, ...], notes: str)
         name=name,
         tags=tags if session.plant == "simulated" else tuple(dict.fromkeys((*tags, session.plant))),
         notes=notes,
+        owner=owner,
         branch_of=session.journal.branch_of,
         lanes=tuple(f"lane{number + 1}" for number in range(len(session.run.lanes))),
         configuration=session.journal.initial.model_dump(mode="json"),

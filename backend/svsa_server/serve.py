@@ -9,7 +9,9 @@ from rich.console import Console
 from svsa.cli import prepare
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.records.catalogue.runs import find_data_folder
 from svsa.run.configuration import read_design
+from svsa_server.access.class_keys import FILE, ClassKeys, ToldOnce
 from svsa_server.compiling import compile_laws
 from svsa_server.config import Settings
 from svsa_server.console import HINT, watch_keyboard
@@ -52,7 +54,9 @@ class AnnouncedServer(uvicorn.Server):
             Console(soft_wrap=True).print(self.announcement, highlight=False)
 
 
-def run_server(host: str, port: int, bench: Path | None, parameters: Path | None) -> None:
+def run_server(
+    host: str, port: int, bench: Path | None, parameters: Path | None, classroom: bool = False
+) -> None:
     """Serve the lab until a signal ends it, with a bench where its file is given.
 
     Raises `SecurityError`, `ListenError`, and `ParameterError` for a wrong bench file. A bench
@@ -60,7 +64,12 @@ def run_server(host: str, port: int, bench: Path | None, parameters: Path | None
     """
     config = Settings()
     bench = bench or config.bench
-    config = config.model_copy(update={"parameters": parameters or config.parameters})
+    config = config.model_copy(
+        update={
+            "parameters": parameters or config.parameters,
+            "classroom": classroom or config.classroom,
+        }
+    )
     if bench is not None and config.parameters is not None:
         bound = "left out with a bench: its own file names it, as [design] file"
         raise ParameterError(Violation("--parameters", str(config.parameters), "", bound))
@@ -70,13 +79,14 @@ def run_server(host: str, port: int, bench: Path | None, parameters: Path | None
     listener = bind(chosen, port)
     # A bench's loop cannot wait for a compiler: it has every law before it begins.
     prepare((PAPERS_LAW, BASELINE) if bench is None else None)
+    keys, told = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
     from svsa_server.laboratory import build_shared_session
 
     shared = build_shared_session(bench, design)
     server = AnnouncedServer(
         uvicorn.Config(
-            build_app(config, shared),
+            build_app(config, shared, keys),
             log_level="warning",
             ws_max_size=65536,
             ws_per_message_deflate=False,
@@ -84,10 +94,26 @@ def run_server(host: str, port: int, bench: Path | None, parameters: Path | None
         )
     )
     server.announcement = describe_address(host, chosen, listener.getsockname()[1])
+    if keys is not None:
+        server.announcement += f"\n{describe_class(told)}"
     with compile_laws(), watch_keyboard(shared.stop_from_keyboard) as watched:
         if watched and bench:
             server.announcement += f"\n{HINT}"
         server.run(sockets=[listener])
+
+
+def describe_class(told: ToldOnce | None) -> str:
+    """What lets people into the class; told once, at its first start."""
+    if told is None:
+        return (
+            "A class: its code and instructor token are those of its first start. The instructor's"
+            f" page makes a new code; without {FILE} in SVSA_DATA the next start makes both anew."
+        )
+    return (
+        f"A class. Students join with their name and the code [bold]{told.code}[/].\n"
+        f"The instructor's token: [bold]{told.instructor_token}[/]\n"
+        "Neither is shown again, nor kept but as a hash."
+    )
 
 
 def describe_address(asked: str, host: str, port: int) -> str:
@@ -97,5 +123,7 @@ def describe_address(asked: str, host: str, port: int) -> str:
     reach = " and on every address of this machine" if everywhere else ""
     text = f"SVSA Lab is at [bold]http://{name}:{port}/[/]{reach}  (stop with Ctrl-C)"
     if asked == "auto" and not everywhere:
-        text += "\nOnly this machine or container reaches it: others need SVSA_SECRET set."
+        text += (
+            "\nOnly this machine or container reaches it: others need --class, or SVSA_SECRET set."
+        )
     return text

@@ -19,6 +19,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.session.batch import pack_batch
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
+from svsa_server.access.roles import Person
 from svsa_server.control import asking, read_client
 from svsa_server.hosted import HostedSession
 from svsa_server.session_schemas import SessionProgress, SessionState
@@ -119,12 +120,13 @@ class SampleCursor:
         return -(-tick // self._stride) * self._stride
 
 
-async def stream_session(websocket: WebSocket, hosted: HostedSession) -> None:
-    """Serve one client until it leaves."""
+async def stream_session(websocket: WebSocket, hosted: HostedSession, person: Person) -> None:
+    """Serve one client until it leaves; in a class it is the person, whatever it calls itself."""
     await websocket.accept()
     try:
         query = dict(websocket.query_params)
-        client = read_client(query.pop("client", None), "client")
+        named = read_client(query.pop("client", None), "client")
+        client = person.id or named
         request, channels = read_stream_request(query)
         cursor = SampleCursor(hosted.session, request, channels)
     except ParameterError as error:

@@ -24,7 +24,7 @@ from websockets.asyncio.client import ClientConnection
 from websockets.typing import Subprotocol
 
 from svsa.errors import SvsaError
-from svsa_server.access import is_same_origin
+from svsa_server.access.origin import is_same_origin
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024

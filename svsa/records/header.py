@@ -61,6 +61,7 @@ class RecordHeader(Checked):
     name: str = quantity("", "What people call the run", default="")
     tags: tuple[str, ...] = quantity("", "Words to find the run by", default=())
     notes: str = quantity("", "What people wrote about the run", default="")
+    owner: str = quantity("", "Id of who recorded it, in a class; empty elsewhere", default="")
     branch_of: BranchPoint | None = quantity(
         "", "Run and tick from which this one went on", default=None
     )

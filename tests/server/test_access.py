@@ -123,3 +123,12 @@ def test_ctrl_c_ends_the_lab_quickly() -> None:
     with run_lab() as lab:
         lab.process.terminate()
         assert lab.process.wait(15) in (0, -15)
+
+
+def test_an_open_lab_has_neither_class_nor_persons(lab) -> None:
+    told = lab.client.get("/api/v1/access").json()
+    assert (told["door"], told["inside"], told["role"]) == ("open", True, "instructor")
+    body = {"name": "Ada", "code": "x"}
+    assert lab.client.post("/api/v1/join", json=body).status_code == 409
+    assert lab.client.post("/api/v1/tokens", json={}).status_code == 409
+    assert lab.client.post("/api/v1/leave").status_code == 204

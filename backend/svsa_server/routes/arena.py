@@ -10,7 +10,7 @@ from svsa.arena.results import Results, load_published
 from svsa.control.installed import BASELINE, PAPERS_LAW, InstalledLaw
 from svsa.run.configuration import Lane
 from svsa_server.arena_schemas import MeasuredRow, ScenarioRequest
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, Work
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
 from svsa_server.session_schemas import SessionState
 from svsa_server.state import build_state
 
@@ -42,6 +42,7 @@ async def measure(
 async def see_scenario(
     request: Request,
     _: NamedClient,
+    person: NamedPerson,
     wanted: Annotated[
         ScenarioRequest, Body(examples=[{"law": "ndobc_w", "scenario": "unloading"}])
     ],
@@ -49,6 +50,5 @@ async def see_scenario(
     """A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL."""
     beside = BASELINE if wanted.law == PAPERS_LAW else PAPERS_LAW
     configuration = find_scenario(wanted.scenario).build_configuration(wanted.law)
-    return build_state(
-        request.app.state.laboratory.create(configuration.changed(rivals=(Lane(law=beside),)))
-    )
+    compared = configuration.changed(rivals=(Lane(law=beside),))
+    return build_state(request.app.state.laboratory.create(compared, person.id))

@@ -9,6 +9,8 @@ from starlette.types import Scope
 
 from svsa.errors import ParameterError
 from svsa.records.catalogue.runs import Catalogue
+from svsa_server.access.guard import PERSON
+from svsa_server.access.roles import EVERYBODY, Person
 from svsa_server.control import (
     CHANGING,
     CLIENT_HEADER,
@@ -27,8 +29,17 @@ def find_asked(scope: Scope) -> tuple[str | None, str]:
     return scope.get("method"), scope["route"].path.partition("{session}")[2]
 
 
+async def find_person(connection: HTTPConnection) -> Person:
+    """Who calls, as the guard has proved it."""
+    return connection.scope.get(PERSON) or EVERYBODY
+
+
+NamedPerson = Annotated[Person, Depends(find_person)]
+
+
 async def find_client(
     connection: HTTPConnection,
+    person: NamedPerson,
     client: Annotated[
         str | None,
         Header(
@@ -40,11 +51,12 @@ async def find_client(
 ) -> str | None:
     """The client that calls, for whom the answer is; None where it does not name itself.
 
-    Raises `ParameterError` for a wrong name, but a stop is not refused for want of one.
+    In a class it is the person, whatever the header says. Raises `ParameterError` for a wrong
+    name, but a stop is not refused for want of one.
     """
-    name = None
+    name = person.id or None
     try:
-        name = read_client(client, CLIENT_HEADER)
+        name = name or read_client(client, CLIENT_HEADER)
     except ParameterError:
         if find_asked(connection.scope) not in STOPS:
             raise

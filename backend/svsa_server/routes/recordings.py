@@ -7,7 +7,7 @@ from fastapi import APIRouter, Body, Request
 
 from svsa.records.resimulation import check_simulated, read_origin
 from svsa_server.recording_schemas import RecordingRequest
-from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
 from svsa_server.session_schemas import BranchRequest, SessionState
 from svsa_server.state import build_state
 
@@ -18,10 +18,13 @@ router = APIRouter(tags=["recording"], responses=REFUSALS)
 async def start_recording(
     request: Request,
     hosted: NamedSession,
+    person: NamedPerson,
     wanted: Annotated[RecordingRequest, Body(examples=[{"name": "3 kg at 15 N·m/rad"}])],
 ) -> SessionState:
     """Record every sample and command from now on, at full rate."""
-    await request.app.state.recordings.start(hosted.session, wanted.name, wanted.tags, wanted.notes)
+    await request.app.state.recordings.start(
+        hosted.session, wanted.name, wanted.tags, wanted.notes, owner=person.id
+    )
     return build_state(hosted)
 
 
@@ -36,6 +39,7 @@ async def stop_recording(hosted: NamedSession) -> SessionState:
 async def branch_run(
     request: Request,
     run_id: str,
+    person: NamedPerson,
     wanted: Annotated[BranchRequest, Body(examples=[{"tick": 5000}])],
 ) -> SessionState:
     """A private session that goes on, paused, from a recorded run as it stood at a tick."""
@@ -43,5 +47,5 @@ async def branch_run(
     check_simulated(record)
     configuration, commands = read_origin(record)
     laboratory = request.app.state.laboratory
-    hosted = await laboratory.branch(configuration, commands, wanted.tick, run_id)
+    hosted = await laboratory.branch(configuration, commands, wanted.tick, run_id, person.id)
     return build_state(hosted)

@@ -12,14 +12,17 @@ from svsa.records.catalogue.entry import (
     MAX_PAGE_SIZE,
     MAX_PAGES,
     SORTS,
+    Reader,
     RunEntry,
 )
 from svsa.records.catalogue.entry import Query as RunQuery
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.measured_window import trace_record
+from svsa_server.access.roles import Role
+from svsa_server.laboratory import SHARED_SESSION
 from svsa_server.lanes import build_window, list_record_stretches, name_lanes
 from svsa_server.routes import run_difference, run_files, run_origins, run_samples
-from svsa_server.routes.depends import REFUSALS, RunId, Runs
+from svsa_server.routes.depends import REFUSALS, NamedPerson, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
 from svsa_server.run_schemas import (
     RunCommand,
@@ -45,6 +48,7 @@ Facet = Annotated[str | None, Query(max_length=LONGEST_FACET)]
 @router.get("/runs")
 def list_runs(
     runs: Runs,
+    person: NamedPerson,
     search: Annotated[
         str,
         Query(
@@ -77,9 +81,14 @@ def list_runs(
     page_size: Annotated[int, Query(ge=1, le=MAX_PAGE_SIZE)] = 50,
     trash: Annotated[bool, Query(description="What was deleted instead")] = False,
 ) -> RunList:
-    """The runs, newest first, a page at a time."""
+    """The runs, newest first, a page at a time.
+
+    In a class: those of the shared session, and of private ones one's own; for instructors all.
+    """
     wanted = RunQuery(search, tag, law, load, figure, plant, sort, page, page_size, trash)
-    found, facets = runs.query(wanted), runs.list_facets()
+    if person.role is not Role.INSTRUCTOR:
+        wanted = dataclasses.replace(wanted, reader=Reader(person.id, SHARED_SESSION))
+    found, facets = runs.query(wanted), runs.list_facets(wanted.reader)
     return RunList(
         runs=[RunSummary(**values) for values in _list_values(runs, *found.runs)],
         total=found.total,

@@ -7,7 +7,7 @@ from fastapi.responses import JSONResponse
 
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
-from svsa_server.routes.depends import REFUSALS, NamedClient, NamedSession
+from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
 from svsa_server.session_schemas import (
     ExperimentRequest,
     SessionRequest,
@@ -24,20 +24,23 @@ router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS, rou
 
 
 @router.get("")
-async def list_sessions(request: Request, _: NamedClient) -> list[SessionState]:
-    """Every session of this server."""
-    return [build_state(hosted) for hosted in request.app.state.laboratory.sessions.values()]
+async def list_sessions(
+    request: Request, _: NamedClient, person: NamedPerson
+) -> list[SessionState]:
+    """Every session of this server; in a class the shared one and one's own."""
+    hosted = request.app.state.laboratory.sessions.values()
+    return [build_state(one) for one in hosted if person.may_see(one.owner)]
 
 
 @router.post("", status_code=201)
 async def create_session(
     request: Request,
+    person: NamedPerson,
     wanted: Annotated[SessionRequest, Body(examples=[{"figure": "4a", "rivals": [{"law": "fl"}]}])],
 ) -> SessionState:
     """A private simulated session, running; it ends by itself when nobody uses it."""
-    return build_state(
-        request.app.state.laboratory.create(wanted.build_configuration(request.app.state.design))
-    )
+    configuration = wanted.build_configuration(request.app.state.design)
+    return build_state(request.app.state.laboratory.create(configuration, person.id))
 
 
 @router.delete("/{session}", status_code=204)
@@ -136,6 +139,6 @@ async def describe(_: NamedSession) -> JSONResponse:
 
 
 @router.websocket("/{session}/stream")
-async def stream(websocket: WebSocket, hosted: NamedSession) -> None:
+async def stream(websocket: WebSocket, hosted: NamedSession, person: NamedPerson) -> None:
     """Samples as they come; see `stream_schemas` for the format."""
-    await stream_session(websocket, hosted)
+    await stream_session(websocket, hosted, person)

@@ -10,8 +10,10 @@ from svsa.arena.training import DURATION_S, TRAINING
 from svsa.control.installed import get_title, has_own_parameters
 from svsa.errors import StateError
 from svsa.run.configuration import Design, Lane
+from svsa_server.access.roles import Person
+from svsa_server.errors import UnknownError
 from svsa_server.jobs import Job
-from svsa_server.routes.depends import BUSY, REFUSALS
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.jobs import find_jobs
 from svsa_server.tuning_schemas import (
     AxisState,
@@ -37,6 +39,7 @@ def list_tunings(request: Request) -> list[TuningState]:
 @router.post("", status_code=201, responses=BUSY)
 async def start_tuning(
     request: Request,
+    person: NamedPerson,
     wanted: Annotated[TuningRequest, Body(examples=[{"law": "fl_integral", "budget": 30}])],
 ) -> TuningState:
     """Begin to tune a law: Sobol points, then Nelder–Mead, on five training runs.
@@ -44,7 +47,7 @@ async def start_tuning(
     It takes about a second a candidate, and makes no live session late.
     """
     build_space(wanted.law, wanted.held)
-    present = _find_present(request, wanted)
+    present = _find_present(request, person, wanted)
     asked = Asked(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
     return _build(find_jobs(request).start("tuning", get_title(wanted.law), search, asked), 0)
 
@@ -83,10 +86,13 @@ def read_tuned_file(request: Request, tuning: TuningId) -> Response:
     return Response(text, media_type="application/toml", headers=named)
 
 
-def _find_present(request: Request, wanted: TuningRequest) -> Design:
+def _find_present(request: Request, person: Person, wanted: TuningRequest) -> Design:
     if wanted.session is None:
         return request.app.state.design
-    configuration = request.app.state.laboratory.get(wanted.session).session.run.configuration
+    hosted = request.app.state.laboratory.get(wanted.session)
+    if not person.may_see(hosted.owner):
+        raise UnknownError(f"There is no session {wanted.session!r} of yours.")
+    configuration = hosted.session.run.configuration
     return Design(**{name: getattr(configuration, name) for name in Design.model_fields})
 
 

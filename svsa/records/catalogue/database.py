@@ -7,7 +7,14 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from svsa.records.catalogue.entry import FACETS, CatalogueError, Query, RunEntry, RunPage
+from svsa.records.catalogue.entry import (
+    FACETS,
+    CatalogueError,
+    Query,
+    Reader,
+    RunEntry,
+    RunPage,
+)
 from svsa.records.catalogue.table import get, has, prepare, put, put_branches
 
 BUSY_TIMEOUT_S = 5.0
@@ -88,14 +95,29 @@ class Database:
             total = found[0][1]
         return RunPage(entries, total, query.page, query.page_size)
 
-    def list_facets(self) -> dict[str, dict[str, int]]:
+    def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
         """What the runs outside the trash can be filtered by: facet, value, how many runs."""
-        select = "SELECT facet, value, runs FROM counts WHERE runs > 0 ORDER BY facet, value"
+        select, values = "SELECT facet, value, runs FROM counts WHERE runs > 0", []
+        if reader is not None:
+            readable, values = _build_readable(reader)
+            select = (
+                "SELECT facet, value, count(*) FROM facets WHERE trash = 0"  # noqa: S608
+                f" AND run IN (SELECT id FROM runs WHERE {readable}) GROUP BY facet, value"
+            )
         facets: dict[str, dict[str, int]] = {facet: {} for facet in FACETS}
         with self._connect() as connection:
-            for facet, value, count in connection.execute(select):
+            for facet, value, count in connection.execute(
+                f"{select} ORDER BY facet, value", values
+            ):
                 facets[facet][value] = count
         return facets
+
+    def measure_bytes(self, owner: str) -> int:
+        """What the runs of one owner take, those in the trash too."""
+        select = "SELECT coalesce(sum(bytes), 0) FROM runs WHERE owner = ?"
+        with self._connect() as connection:
+            (taken,) = connection.execute(select, (owner,)).fetchone()
+            return taken
 
     def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
         """Those of these runs that are known, by id."""
@@ -161,7 +183,15 @@ def _build_condition(query: Query) -> tuple[str, list[Any]]:
     for word in query.words:
         conditions.append("(instr(search, ?) OR id = ?)")
         values += (word, word)
+    if query.reader is not None:
+        readable, readers = _build_readable(query.reader)
+        conditions.append(readable)
+        values += readers
     return " AND ".join(conditions), values
+
+
+def _build_readable(reader: Reader) -> tuple[str, list[Any]]:
+    return "(owner IN ('', ?) OR session = ?)", [reader.person, reader.open_session]
 
 
 def build_order(sort: str) -> str:

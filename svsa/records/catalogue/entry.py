@@ -3,7 +3,7 @@
 import json
 import unicodedata
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import msgspec
 
@@ -53,7 +53,7 @@ class RunEntry:
     metrics: per lane, of `window`; None where there are none, or no finite ones. fault: what the
     run ended in.
     settings: None while it is recorded, and where they cannot be read. branch_of: where it
-    went on from.
+    went on from. owner: id of who recorded it, in a class.
     """
 
     id: str
@@ -78,6 +78,7 @@ class RunEntry:
     deleted: str | None = None
     settings: RunSettings | None = None
     branch_of: BranchPoint | None = None
+    owner: str = ""
 
     @property
     def title(self) -> str:
@@ -113,6 +114,13 @@ class RunPage:
     page_size: int
 
 
+class Reader(NamedTuple):
+    """For whom a list is, in a class: runs of theirs, of nobody, and of the session open to all."""
+
+    person: str
+    open_session: str
+
+
 @dataclass(frozen=True)
 class Query:
     """What of the list is asked for; raises `ParameterError` for what cannot be.
@@ -122,7 +130,7 @@ class Query:
     branched from; or be its id. tag, law, load, figure, plant: only runs with this one; a law
     that controlled any lane, a kind of load that was on or "none", a key of a figure. sort: a
     column of `SORTS`, with - before it from the greatest down; what is not known comes last.
-    trash: what was deleted instead.
+    trash: what was deleted instead. reader: for whom it is; None for somebody who sees all.
     """
 
     search: str = ""
@@ -135,6 +143,7 @@ class Query:
     page: int = 1
     page_size: int = 50
     trash: bool = False
+    reader: Reader | None = None
 
     def __post_init__(self) -> None:
         if self.sort.removeprefix("-") not in SORTS:

@@ -18,6 +18,7 @@ from svsa.records.catalogue.database import Database
 from svsa.records.catalogue.entry import (
     CatalogueError,
     Query,
+    Reader,
     RunEntry,
     RunPage,
     UnknownRunError,
@@ -132,9 +133,13 @@ class Catalogue:
         """The page of the list that `query` asks for."""
         return self._database.query(query)
 
-    def list_facets(self) -> dict[str, dict[str, int]]:
+    def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
         """What the list can be filtered by: facet, value, on how many runs (see `Query`)."""
-        return self._database.list_facets()
+        return self._database.list_facets(reader)
+
+    def measure_bytes(self, owner: str) -> int:
+        """What the runs of one owner take on the disk, those in the trash too."""
+        return self._database.measure_bytes(owner)
 
     def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
         """Those of these runs that the list has, in the trash or not, by id."""

@@ -1,7 +1,8 @@
 """The tables of the catalogue: columns to sort and filter by, and the entries as they are.
 
-Format 3. A catalogue of format 1, which knew no settings, or of 2, whose metrics were of whole
-records, is written anew from its entries; `describe_older` then reads the rest from the folders.
+Format 4. A catalogue of format 1, which knew no settings, of 2, whose metrics were of whole
+records, or of 3, which knew no owners, is written anew from its entries; `describe_older` then
+reads the rest from the folders.
 """
 
 import re
@@ -19,8 +20,8 @@ from svsa.records.catalogue.entry import (
     write_entry,
 )
 
-VERSION = 3
-_REBUILT = (0, 1, 2)
+VERSION = 4
+_REBUILT = (0, 1, 2, 3)
 _COLUMNS = {
     "id": "TEXT PRIMARY KEY",
     "created": "TEXT NOT NULL",
@@ -41,12 +42,14 @@ _COLUMNS = {
     "settled_position_error_rad": "REAL",
     "rms_position_error_rad": "REAL",
     "branch_run": "TEXT",
+    "owner": "TEXT NOT NULL",
     "search": "TEXT NOT NULL",
 }
 _SCHEMA = (
     f"CREATE TABLE runs ({', '.join(f'{name} {kind}' for name, kind in _COLUMNS.items())})",
     *(f"CREATE INDEX runs_by_{column} ON runs (trash, {column}, id)" for column in SORTS),
     "CREATE INDEX runs_by_origin ON runs (branch_run)",
+    "CREATE INDEX runs_by_owner ON runs (owner)",
     "CREATE TABLE IF NOT EXISTS entries (id TEXT PRIMARY KEY, entry TEXT)",
     "CREATE TABLE facets (facet TEXT, value TEXT, run TEXT, trash INTEGER,"
     " PRIMARY KEY (facet, value, run)) WITHOUT ROWID",
@@ -154,6 +157,7 @@ def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
         "settled_position_error_rad": first.settled_position_error_rad if first else None,
         "rms_position_error_rad": first.rms_position_error_rad if first else None,
         "branch_run": entry.branch_of.run_id if entry.branch_of else None,
+        "owner": entry.owner,
     }
 
 

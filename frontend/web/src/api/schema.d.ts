@@ -105,6 +105,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/access": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Access
+         * @description How one comes in, and as whom this request has come.
+         */
+        get: operations["read_access_api_v1_access_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/login": {
         parameters: {
             query?: never;
@@ -116,9 +136,75 @@ export interface paths {
         put?: never;
         /**
          * Log In
-         * @description Trade the shared secret for a cookie; where none is set, everyone is in already.
+         * @description Trade the shared secret, or the instructor token of a class, for a cookie.
+         *
+         *     Where the lab is open, everyone is in already.
          */
         post: operations["log_in_api_v1_login_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/join": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Join
+         * @description Join the class with a name and its code; a cookie says from then on who one is.
+         *
+         *     A name that somebody here has already gets a number.
+         */
+        post: operations["join_api_v1_join_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/leave": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Leave
+         * @description Forget who this browser is.
+         */
+        post: operations["leave_api_v1_leave_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Create Token
+         * @description A bearer token, told once, with which a script comes in as oneself, or as an observer.
+         *
+         *     It asks for control like a person. An instructor's scripts are operators, too.
+         */
+        post: operations["create_token_api_v1_tokens_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -134,7 +220,7 @@ export interface paths {
         };
         /**
          * List Sessions
-         * @description Every session of this server.
+         * @description Every session of this server; in a class the shared one and one's own.
          */
         get: operations["list_sessions_api_v1_sessions_get"];
         put?: never;
@@ -1199,6 +1285,8 @@ export interface paths {
         /**
          * List Runs
          * @description The runs, newest first, a page at a time.
+         *
+         *     In a class: those of the shared session, and of private ones one's own; for instructors all.
          */
         get: operations["list_runs_api_v1_runs_get"];
         put?: never;
@@ -1457,6 +1545,38 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * AccessState
+         * @description How one comes into this lab, and as whom this request has come.
+         */
+        AccessState: {
+            /**
+             * Door
+             * @description open: everybody on this machine; secret: with the shared secret; class: with a name and the class code
+             * @enum {string}
+             */
+            door: "open" | "secret" | "class";
+            /**
+             * Inside
+             * @description Whether the lab knows who asks
+             */
+            inside: boolean;
+            /**
+             * Id
+             * @description Of the person, in a class; empty elsewhere
+             */
+            id: string;
+            /**
+             * Name
+             * @description Of the person, in a class; empty elsewhere
+             */
+            name: string;
+            /**
+             * Role
+             * @description null: not inside
+             */
+            role: ("observer" | "operator" | "instructor") | null;
+        };
         /**
          * ActuatorParameters
          * @description The constants of Eq 1–5, of the true plant or of the nominal model.
@@ -2800,12 +2920,12 @@ export interface components {
         };
         /**
          * LoginRequest
-         * @description The shared secret.
+         * @description The shared secret, or the instructor token of a class.
          */
         LoginRequest: {
             /**
              * Secret
-             * @description The lab's shared secret
+             * @description The lab's shared secret, or the instructor token of its class
              */
             secret: string;
         };
@@ -5180,6 +5300,37 @@ export interface components {
             share: number;
         };
         /**
+         * TokenRequest
+         * @description Asks for a token with which a script comes in.
+         */
+        TokenRequest: {
+            /**
+             * Role
+             * @description What the script may be; not more than one is oneself
+             * @default operator
+             * @enum {string}
+             */
+            role: "observer" | "operator";
+        };
+        /**
+         * TokenState
+         * @description A bearer token, which is told once.
+         */
+        TokenState: {
+            /** Token */
+            token: string;
+            /**
+             * Name
+             * @description As whom a script with it comes in
+             */
+            name: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "observer" | "operator" | "instructor";
+        };
+        /**
          * TorqueDemandState
          * @description What the load asks of the motors, from a simulation of the session's motion.
          */
@@ -5437,7 +5588,7 @@ export interface operations {
                     "application/json": components["schemas"]["Health"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5464,7 +5615,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5491,7 +5642,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5520,7 +5671,7 @@ export interface operations {
                     "application/json": components["schemas"]["LawState"][];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5549,7 +5700,36 @@ export interface operations {
                     "application/json": components["schemas"]["FigureState"][];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    read_access_api_v1_access_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccessState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5589,7 +5769,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Wrong secret */
+            /** @description A wrong secret, token or code */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -5598,7 +5778,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5627,6 +5807,180 @@ export interface operations {
             };
         };
     };
+    join_api_v1_join_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["JoinRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AccessState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description A wrong secret, token or code */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    leave_api_v1_leave_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
+    create_token_api_v1_tokens_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorModel"];
+                };
+            };
+        };
+    };
     list_sessions_api_v1_sessions_get: {
         parameters: {
             query?: never;
@@ -5648,7 +6002,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"][];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5717,7 +6071,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5788,7 +6142,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5848,7 +6202,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5910,7 +6264,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5972,7 +6326,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6034,7 +6388,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6096,7 +6450,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6158,7 +6512,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6233,7 +6587,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6317,7 +6671,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6401,7 +6755,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6483,7 +6837,7 @@ export interface operations {
                     "application/json": components["schemas"]["Hello"] | components["schemas"]["StateMessage"] | components["schemas"]["StreamError"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6567,7 +6921,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6638,7 +6992,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6700,7 +7054,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6775,7 +7129,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6846,7 +7200,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6908,7 +7262,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6983,7 +7337,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7067,7 +7421,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7151,7 +7505,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7235,7 +7589,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7323,7 +7677,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7407,7 +7761,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7491,7 +7845,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7575,7 +7929,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7659,7 +8013,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7743,7 +8097,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7827,7 +8181,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7913,7 +8267,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7997,7 +8351,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8081,7 +8435,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8174,7 +8528,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8267,7 +8621,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8360,7 +8714,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8453,7 +8807,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8524,7 +8878,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8599,7 +8953,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8670,7 +9024,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8733,7 +9087,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8808,7 +9162,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8879,7 +9233,7 @@ export interface operations {
                     "application/json": components["schemas"]["SessionState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8950,7 +9304,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9028,7 +9382,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9088,7 +9442,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9148,7 +9502,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9207,7 +9561,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunSamples"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9271,7 +9625,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunMetrics"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9336,7 +9690,7 @@ export interface operations {
                     "application/octet-stream": string;
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9404,7 +9758,7 @@ export interface operations {
                     "text/html": string;
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9472,7 +9826,7 @@ export interface operations {
                     "text/html": string;
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9540,7 +9894,7 @@ export interface operations {
                     "application/json": components["schemas"]["Comparison"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9611,7 +9965,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunOrigin"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9670,7 +10024,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunOrigin"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9732,7 +10086,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunDifference"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9807,7 +10161,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunList"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9866,7 +10220,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunDetails"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9925,7 +10279,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunSummary"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9997,7 +10351,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10065,7 +10419,7 @@ export interface operations {
                     "application/json": components["schemas"]["RunSummary"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10295,7 +10649,7 @@ export interface operations {
                     "application/json": components["schemas"]["TuningState"][];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10364,7 +10718,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10444,7 +10798,7 @@ export interface operations {
                     "application/json": components["schemas"]["TuningState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10503,7 +10857,7 @@ export interface operations {
                     "application/json": components["schemas"]["TuningState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10562,7 +10916,7 @@ export interface operations {
                     "application/toml": string;
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10621,7 +10975,7 @@ export interface operations {
                     "application/json": components["schemas"]["Results"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10665,7 +11019,7 @@ export interface operations {
                     "application/json": components["schemas"]["MeasuredRow"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10746,7 +11100,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10814,7 +11168,7 @@ export interface operations {
                     "application/json": components["schemas"]["OutcomeState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;

@@ -1,0 +1,1 @@
+"""Who may do what: doors that tell who comes, the table of permissions, the guard before all."""

@@ -1,0 +1,137 @@
+"""The class code and the instructor token: drawn once, told once, kept as hashes.
+
+The code is short enough to be read from a wall, so its hash is a slow one (scrypt); the token is
+256 random bits, for which a quick one is as good. What people carry, cookie or bearer token, is
+their name and role with a signature, and is worth nothing elsewhere or after its time.
+"""
+
+import base64
+import hashlib
+import hmac
+import json
+import os
+import secrets
+from pathlib import Path
+from typing import NamedTuple
+
+from itsdangerous import BadData, URLSafeTimedSerializer
+
+from svsa.errors import SecurityError
+from svsa_server.access.roles import Person, Role
+
+FILE = "class.json"
+LONGEST_SIGNED = 2000
+SIGNED_AGE_S = 120 * 24 * 3600
+_LETTERS = "ABCDEFGHJKMNPQRSTUVWXYZ23456789"  # none that is read as another
+_CODE_LENGTH = 8
+_TOKEN_PREFIX = "svsa-instructor-"  # noqa: S105
+_SCRYPT = {"n": 2**14, "r": 8, "p": 1}
+
+
+class ToldOnce(NamedTuple):
+    """What stands nowhere else after it was told."""
+
+    code: str
+    instructor_token: str
+
+
+class ClassKeys:
+    """What proves who is who, in a file that only this user reads. Raises `SecurityError`."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            kept = json.loads(path.read_text(encoding="utf-8"))
+            self._salt, self._code = (base64.b64decode(kept[name]) for name in ("salt", "code"))
+            self._token = bytes.fromhex(kept["instructor_sha256"])
+            self._key: str = kept["signing_key"]
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise SecurityError(
+                f"The keys of the class in {path} cannot be read ({error}): delete the file, and"
+                " the next start makes new ones."
+            ) from None
+        self._signer = URLSafeTimedSerializer(self._key, salt="svsa person")
+
+    @classmethod
+    def open(cls, folder: Path) -> tuple["ClassKeys", ToldOnce | None]:
+        """The keys of the class in this folder, made if there are none and then told once."""
+        path = folder / FILE
+        told = None
+        if not path.exists():
+            told = ToldOnce(_draw_code(), _TOKEN_PREFIX + secrets.token_urlsafe(32))
+            _write(
+                path,
+                {
+                    **_hash_anew(told.code),
+                    "instructor_sha256": _digest(told.instructor_token).hex(),
+                    "signing_key": secrets.token_hex(32),
+                },
+            )
+        return cls(path), told
+
+    def is_code(self, code: str) -> bool:
+        """Whether this is the class code, however it is spaced; takes some 50 ms."""
+        return hmac.compare_digest(_stretch(code, self._salt), self._code)
+
+    def is_instructor(self, token: str) -> bool:
+        """Whether this is the instructor token."""
+        return hmac.compare_digest(_digest(token), self._token)
+
+    def renew_code(self) -> str:
+        """A new class code; who has joined stays, the old one lets nobody in any more."""
+        code = _draw_code()
+        hashed = _hash_anew(code)
+        kept = json.loads(self._path.read_text(encoding="utf-8"))
+        _write(self._path, kept | hashed)
+        self._salt, self._code = (base64.b64decode(hashed[name]) for name in ("salt", "code"))
+        return code
+
+    def sign(self, person: Person) -> str:
+        """What this person carries from now on."""
+        return str(self._signer.dumps([person.id, person.name, person.role.word]))
+
+    def read_person(self, signed: str) -> Person | None:
+        """Who carries this; None where this class has not signed it, or too long ago."""
+        if not signed or len(signed) > LONGEST_SIGNED:
+            return None
+        try:
+            name_, shown, role = self._signer.loads(signed, max_age=SIGNED_AGE_S)
+            return Person(name_, shown, Role[role.upper()])
+        except (BadData, ValueError, KeyError, TypeError, AttributeError):
+            return None
+
+
+def _draw_code() -> str:
+    drawn = "".join(secrets.choice(_LETTERS) for _ in range(_CODE_LENGTH))
+    return f"{drawn[:4]}-{drawn[4:]}"
+
+
+def _hash_anew(code: str) -> dict[str, str]:
+    salt = secrets.token_bytes(16)
+    return {
+        "salt": base64.b64encode(salt).decode(),
+        "code": base64.b64encode(_stretch(code, salt)).decode(),
+    }
+
+
+def _stretch(code: str, salt: bytes) -> bytes:
+    plain = "".join(letter for letter in code.upper() if letter.isalnum())
+    return hashlib.scrypt(plain.encode(), salt=salt, **_SCRYPT)
+
+
+def _digest(token: str) -> bytes:
+    return hashlib.sha256(token.encode()).digest()
+
+
+def _write(path: Path, kept: dict[str, str]) -> None:
+    """Whole or not at all, and readable by this user alone."""
+    partly = path.with_suffix(".part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partly.unlink(missing_ok=True)
+        descriptor = os.open(partly, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+            json.dump(kept, file)
+        partly.replace(path)
+    except OSError as error:
+        raise SecurityError(f"The keys of the class cannot be kept in {path}: {error}.") from None

@@ -1,0 +1,125 @@
+"""ASGI middleware before all else: where from, under which name, how long, who, and may they.
+
+Without a secret and without a class the lab listens on loopback only, and a request must name a
+loopback host (a web site that points its own name at 127.0.0.1 does not get in).
+"""
+
+from collections.abc import Awaitable, Callable
+
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from svsa_server.access.doors import Door, read_bearer
+from svsa_server.access.origin import is_own_name, is_same_origin, read_host
+from svsa_server.access.permissions import WEBSOCKET, Permission, find_permission
+from svsa_server.access.roles import EVERYBODY, Person
+from svsa_server.config import is_loopback
+from svsa_server.problems import answer_problem
+
+LONGEST_BODY_BYTES = 4 * 1024 * 1024
+PERSON = "svsa.person"
+
+Visibility = Callable[[Scope, Permission, dict[str, str], Person], Awaitable[bool]]
+
+
+class Refusal(Exception):  # noqa: N818
+    """Answered at once: status, kind of problem, and what is told."""
+
+    def __init__(self, status: int, kind: str, detail: str) -> None:
+        super().__init__(detail)
+        self.status, self.kind = status, kind
+
+
+class AccessGuard:
+    """Refuses what may not come in, and says in `scope[PERSON]` who calls.
+
+    hosts: names that it answers to besides its own. is_visible: whether what a path names may be
+    seen by who calls.
+    """
+
+    def __init__(
+        self, app: ASGIApp, door: Door, hosts: frozenset[str], is_visible: Visibility
+    ) -> None:
+        self._app, self._door, self._hosts, self._is_visible = app, door, hosts, is_visible
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a refusal, or hand the request on."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        try:
+            self._check_place(scope)
+            scope[PERSON] = await self._admit(scope)
+        except Refusal as refusal:
+            await _refuse(scope, receive, send, refusal)
+            return
+        await self._app(scope, _bound_body(scope, receive), send)
+
+    def _check_place(self, scope: Scope) -> None:
+        if not is_same_origin(scope):
+            message = "Requests from the pages of other sites are refused."
+            raise Refusal(403, "other_origin", message)
+        host = read_host(scope)
+        if self._door.kind == "open":
+            if not is_loopback(host):
+                message = f"This lab answers to localhost only, not to {host!r}."
+                raise Refusal(403, "unknown_host", message)
+        elif not is_own_name(host, self._hosts):
+            message = f"This lab does not answer to {host[:80]!r}: name it in SVSA_HOSTS."
+            raise Refusal(403, "unknown_host", message)
+        length = Headers(scope=scope).get("content-length", "0")
+        if not length.isdecimal() or int(length) > LONGEST_BODY_BYTES:
+            message = f"A request holds at most {LONGEST_BODY_BYTES} bytes."
+            raise Refusal(413, "too_large", message)
+
+    async def _admit(self, scope: Scope) -> Person | None:
+        """Who calls; None for somebody without a name, where that is allowed."""
+        method = scope.get("method", WEBSOCKET)
+        permission, named = find_permission(method, find_path(scope))
+        headers = Headers(scope=scope)
+        person = self._door.admit(headers)
+        if permission.role is None or person is EVERYBODY:
+            return person
+        if person is None:
+            if read_bearer(headers):
+                await self._door.patience.wait()
+            raise Refusal(401, *self._door.needed)
+        if person.role < permission.role:
+            message = f"This needs the role {permission.role.word}; yours is {person.role.word}."
+            raise Refusal(403, "not_allowed", message)
+        if not await self._is_visible(scope, permission, named, person):
+            kind = permission.scope.rpartition(" ")[2]
+            message = f"This {kind} belongs to who made it; only they and the instructor may."
+            raise Refusal(403, "not_yours", message)
+        return person
+
+
+def find_path(scope: Scope) -> str:
+    """The path below the prefix that a proxy serves the lab under."""
+    return scope["path"].removeprefix(scope.get("root_path", "")) or "/"
+
+
+def _bound_body(scope: Scope, receive: Receive) -> Receive:
+    """`receive` for a body without a length: cut off as if the client had gone."""
+    if scope["type"] != "http":
+        return receive
+    received = 0
+
+    async def receive_bounded() -> Message:
+        nonlocal received
+        message = await receive()
+        received += len(message.get("body", b""))
+        return message if received <= LONGEST_BODY_BYTES else {"type": "http.disconnect"}
+
+    return receive_bounded
+
+
+async def _refuse(scope: Scope, receive: Receive, send: Send, refusal: Refusal) -> None:
+    if scope["type"] == "websocket" and "websocket.http.response" not in scope.get(
+        "extensions", {}
+    ):
+        await send({"type": "websocket.close", "code": 1008, "reason": refusal.kind})
+        return
+    headers = {"WWW-Authenticate": "Bearer"} if refusal.status == 401 else None
+    answer = answer_problem(refusal.status, refusal.kind, str(refusal), headers)
+    await answer(scope, receive, send)

@@ -1,0 +1,46 @@
+"""Where a request comes from, and under which name it came: no page of another site gets in.
+
+A site may point its own name at this machine, and its pages then have the same origin as the lab.
+So the lab answers to names that no other site can have: addresses, names of this machine, and
+those that it was told.
+"""
+
+import ipaddress
+import socket
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers
+from starlette.types import Scope
+
+from svsa_server.config import is_loopback
+
+
+def is_same_origin(scope: Scope) -> bool:
+    """Whether a request comes from the lab's own page, or not from a page at all."""
+    headers = Headers(scope=scope)
+    origin = headers.get("origin")
+    return origin is None or urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
+
+
+def read_host(scope: Scope) -> str:
+    """The name that a request came under, without its port; empty where it has none."""
+    try:
+        return urlsplit("//" + Headers(scope=scope).get("host", "")).hostname or ""
+    except ValueError:
+        return ""
+
+
+def is_own_name(host: str, told: frozenset[str]) -> bool:
+    """Whether a lab beyond loopback answers to this name. told: names that it was given."""
+    if is_loopback(host) or host.lower() in told | _find_own_names():
+        return True
+    try:
+        ipaddress.ip_address(host)
+    except ValueError:
+        return False
+    return True
+
+
+def _find_own_names() -> frozenset[str]:
+    name = socket.gethostname().lower()
+    return frozenset({name, name.partition(".")[0], f"{name.partition('.')[0]}.local"})

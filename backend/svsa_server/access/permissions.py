@@ -1,0 +1,169 @@
+"""The table of permissions: who may call which route and WebSocket. What is not in it is the
+instructor's alone.
+
+`session` and `run` say that what a route's path names must be visible to who calls: a private
+session and its runs are their maker's and the instructor's. `own run` asks for its maker.
+"""
+
+from functools import lru_cache
+from re import Pattern
+from typing import Literal, NamedTuple
+
+from starlette.routing import compile_path
+
+from svsa_server.access.roles import Role
+
+WEBSOCKET = "WEBSOCKET"
+Scope = Literal["", "session", "run", "own run"]
+
+
+class Permission(NamedTuple):
+    """The least role (None: not even a name is needed), and what of the path must be one's own."""
+
+    role: Role | None
+    scope: Scope = ""
+
+
+ANYBODY = Permission(None)
+INSTRUCTOR_ONLY = Permission(Role.INSTRUCTOR)
+_SESSION = "/api/v1/sessions/{session}"
+_RUN = "/api/v1/runs/{run_id}"
+
+TABLE: dict[Permission, tuple[str, ...]] = {
+    ANYBODY: (
+        "GET /",
+        "GET /icon.svg",
+        "GET /assets/{path:path}",
+        "GET /api/v1/health",
+        "GET /api/v1/access",
+        "POST /api/v1/login",
+        "POST /api/v1/join",
+        "POST /api/v1/quick-stop",  # whoever sees something go wrong may stop it
+        "POST /api/v1/emergency-stop",
+    ),
+    Permission(Role.OBSERVER): (
+        "GET /docs",
+        "GET /openapi.json",
+        "POST /api/v1/leave",
+        "POST /api/v1/tokens",
+        "GET /api/v1/laws",
+        "GET /api/v1/figures",
+        "GET /api/v1/arena",
+        "GET /api/v1/sessions",
+        "GET /api/v1/runs",
+        "GET /api/v1/tunings",
+        "GET /api/v1/jobs",
+        "GET /api/v1/jobs/{job}",
+        "GET /api/v1/requests/{request_name}",
+        "POST /api/v1/references/csv",
+        "POST /api/v1/references/position/preview",
+        "POST /api/v1/references/stiffness/preview",
+    ),
+    Permission(Role.OBSERVER, "session"): (
+        f"GET {_SESSION}",
+        f"GET {_SESSION}/stream",
+        f"WEBSOCKET {_SESSION}/stream",
+        f"GET {_SESSION}/origin",
+        "GET /viser/{session}",
+        "WEBSOCKET /viser/{session}",
+        "GET /viser/{session}/{path:path}",
+        "WEBSOCKET /viser/{session}/",
+        f"POST {_SESSION}/pause",
+        f"POST {_SESSION}/quick-stop",
+        f"POST {_SESSION}/emergency-stop",
+        f"POST {_SESSION}/predict",
+        f"POST {_SESSION}/design/response",
+        f"POST {_SESSION}/design/stability",
+        f"POST {_SESSION}/design/region",
+        f"POST {_SESSION}/design/simulation",
+    ),
+    Permission(Role.OBSERVER, "run"): (
+        f"GET {_RUN}",
+        f"GET {_RUN}/samples",
+        f"GET {_RUN}/metrics",
+        f"GET {_RUN}/export",
+        f"GET {_RUN}/replay",
+        f"GET {_RUN}/replay.html",
+        f"GET {_RUN}/origin",
+        f"GET {_RUN}/difference",
+        f"POST {_RUN}/compare",
+    ),
+    Permission(Role.OPERATOR): (
+        "POST /api/v1/sessions",
+        "POST /api/v1/arena/laws/{law}/measurement",
+        "POST /api/v1/arena/sessions",
+        "POST /api/v1/tunings",
+        "GET /api/v1/tunings/{tuning}",
+        "DELETE /api/v1/tunings/{tuning}",
+        "DELETE /api/v1/jobs/{job}",
+        "GET /api/v1/tunings/{tuning}/file",
+    ),
+    Permission(Role.OPERATOR, "run"): (f"POST {_RUN}/branch",),
+    Permission(Role.OPERATOR, "own run"): (
+        f"PATCH {_RUN}",
+        f"DELETE {_RUN}",
+        f"POST {_RUN}/restore",
+    ),
+    Permission(Role.OPERATOR, "session"): (
+        f"DELETE {_SESSION}",
+        f"PUT {_SESSION}/control",
+        f"DELETE {_SESSION}/control",
+        f"POST {_SESSION}/start",
+        f"POST {_SESSION}/reset",
+        f"POST {_SESSION}/step",
+        f"PUT {_SESSION}/speed",
+        f"POST {_SESSION}/experiment",
+        f"POST {_SESSION}/bench/arm",
+        f"POST {_SESSION}/bench/home",
+        f"POST {_SESSION}/bench/clear",
+        f"POST {_SESSION}/bench/restart",
+        f"PUT {_SESSION}/position",
+        f"PUT {_SESSION}/stiffness",
+        f"PUT {_SESSION}/law",
+        f"PUT {_SESSION}/gains",
+        f"PUT {_SESSION}/parameters",
+        f"PUT {_SESSION}/observer",
+        f"PATCH {_SESSION}/actuator",
+        f"PATCH {_SESSION}/nominal",
+        f"PUT {_SESSION}/nominal",
+        f"PUT {_SESSION}/effects",
+        f"PUT {_SESSION}/lanes",
+        f"PUT {_SESSION}/lanes/{{lane}}",
+        f"POST {_SESSION}/excitation",
+        f"DELETE {_SESSION}/excitation",
+        f"POST {_SESSION}/loads",
+        f"DELETE {_SESSION}/loads",
+        f"DELETE {_SESSION}/loads/{{load_id}}",
+        f"POST {_SESSION}/recording",
+        f"DELETE {_SESSION}/recording",
+    ),
+}
+
+
+class Found(NamedTuple):
+    """What the table says of a request, and what its path names."""
+
+    permission: Permission
+    named: dict[str, str]
+
+
+def _compile() -> list[tuple[str, Pattern[str], Permission]]:
+    compiled = []
+    for permission, entries in TABLE.items():
+        for entry in entries:
+            method, path = entry.split(" ", 1)
+            compiled.append((method, compile_path(path)[0], permission))
+    return compiled
+
+
+_COMPILED = _compile()
+
+
+@lru_cache(maxsize=1024)
+def find_permission(method: str, path: str) -> Found:
+    """The permission for a method (or WEBSOCKET) at a path; what is not listed is instructors'."""
+    method = "GET" if method == "HEAD" else method
+    for known, pattern, permission in _COMPILED:
+        if known == method and (match := pattern.match(path)):
+            return Found(permission, match.groupdict())
+    return Found(INSTRUCTOR_ONLY, {})

@@ -1,0 +1,58 @@
+"""Roles, and the people who have them."""
+
+from enum import IntEnum
+from typing import Literal, NamedTuple
+
+RoleName = Literal["observer", "operator", "instructor"]
+
+
+class Role(IntEnum):
+    """What a person may do; each role may do what those before it may.
+
+    An observer watches, measures and stops. An operator also asks for control of the shared
+    session, and has private sessions and runs. An instructor takes and locks control, and sees
+    everybody's.
+    """
+
+    OBSERVER = 1
+    OPERATOR = 2
+    INSTRUCTOR = 3
+
+    @property
+    def word(self) -> RoleName:
+        """As it is written on the wire."""
+        return _WORDS[self]
+
+
+_WORDS: dict[Role, RoleName] = {
+    Role.OBSERVER: "observer",
+    Role.OPERATOR: "operator",
+    Role.INSTRUCTOR: "instructor",
+}
+
+
+class Person(NamedTuple):
+    """Who calls, as the server has proved it.
+
+    id: what sessions and runs know their maker by; empty where the lab knows no persons. name: as
+    everybody is told.
+    """
+
+    id: str
+    name: str
+    role: Role
+
+    def may_see(self, owner: str) -> bool:
+        """Whether what belongs to `owner` may be seen; an empty owner is everybody."""
+        return owner in ("", self.id) or self.role is Role.INSTRUCTOR
+
+    def may_change(self, owner: str) -> bool:
+        """Whether a run that `owner` made may be changed; what nobody made is the instructor's."""
+        return owner == self.id or self.role is Role.INSTRUCTOR
+
+
+EVERYBODY = Person("", "", Role.INSTRUCTOR)
+"""Whoever gets into a lab without a class."""
+
+INSTRUCTOR = Person("instructor", "Instructor", Role.INSTRUCTOR)
+"""Whoever has the instructor token of a class."""

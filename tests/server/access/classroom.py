@@ -1,0 +1,65 @@
+"""A class in this process, with its code and token, and people who have joined."""
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import httpx
+
+from svsa_server.access.class_keys import ClassKeys, ToldOnce
+from tests.lab import Lab
+from tests.lab_in_process import run_lab_in_process
+
+SHARED = "/api/v1/sessions/lab"
+
+
+class Classroom(NamedTuple):
+    """lab: its client is a stranger. told: code and token."""
+
+    lab: Lab
+    told: ToldOnce
+
+    def join(self, name: str, role: str = "operator") -> httpx.Client:
+        """A browser of somebody who has joined."""
+        browser = self.open_browser()
+        body = {"name": name, "code": self.told.code, "role": role}
+        browser.post("/api/v1/join", json=body).raise_for_status()
+        return browser
+
+    def log_in(self) -> httpx.Client:
+        """The instructor's browser."""
+        browser = self.open_browser()
+        body = {"secret": self.told.instructor_token}
+        browser.post("/api/v1/login", json=body).raise_for_status()
+        return browser
+
+    def open_browser(self, token: str | None = None) -> httpx.Client:
+        """A stranger's, or a script's that has a token."""
+        headers = {"Authorization": f"Bearer {token}"} if token else None
+        stranger = self.lab.client
+        return httpx.Client(
+            transport=stranger._transport,
+            base_url=stranger.base_url,
+            headers=headers,
+            trust_env=False,
+        )
+
+
+@contextlib.contextmanager
+def run_class(folder: Path, **settings: str) -> Iterator[Classroom]:
+    """A class whose runs and keys are in this folder."""
+    _, told = ClassKeys.open(folder)
+    assert told is not None
+    with run_lab_in_process(data=str(folder), classroom="1", **settings) as lab:
+        yield Classroom(lab, told)
+
+
+def read_kind(answer: httpx.Response) -> str:
+    """Why a request was refused."""
+    return answer.json()["type"].rpartition(":")[2]
+
+
+def read_person(browser: httpx.Client) -> dict:
+    """As whom the lab knows this browser."""
+    return browser.get("/api/v1/access").raise_for_status().json()

@@ -1,0 +1,218 @@
+"""A class over REST: joined, logged in, refused; what belongs to whom."""
+
+import json
+import os
+import stat
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from svsa.errors import SecurityError
+from svsa_server.access import class_keys
+from svsa_server.access.class_keys import ClassKeys
+from svsa_server.access.people import HERE_S, People
+from svsa_server.access.roles import INSTRUCTOR, Person, Role
+from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
+
+ADA = Person("p-1", "Ada", Role.OPERATOR)
+
+
+@pytest.fixture(scope="module")
+def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
+    with run_class(tmp_path_factory.mktemp("class")) as room:
+        yield room
+
+
+def test_keys_are_told_once_and_kept_as_hashes_that_others_cannot_read(tmp_path: Path) -> None:
+    keys, told = ClassKeys.open(tmp_path)
+    assert told is not None
+    path = tmp_path / class_keys.FILE
+    kept = path.read_text(encoding="utf-8")
+    assert told.code not in kept
+    assert told.code.replace("-", "") not in kept
+    assert told.instructor_token not in kept
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600 or os.name == "nt"
+    again, nothing = ClassKeys.open(tmp_path)
+    assert nothing is None
+    for opened in (keys, again):
+        assert opened.is_code(told.code.lower().replace("-", " "))
+        assert not opened.is_code(told.code[:-1])
+        assert opened.is_instructor(told.instructor_token)
+        assert not opened.is_instructor("")
+    assert again.read_person(keys.sign(ADA)) == ADA
+
+
+def test_a_new_code_lets_nobody_in_by_the_old_one(tmp_path: Path) -> None:
+    keys, told = ClassKeys.open(tmp_path)
+    assert told is not None
+    carried = keys.sign(ADA)
+    code = keys.renew_code()
+    again, _ = ClassKeys.open(tmp_path)
+    for opened in (keys, again):
+        assert opened.is_code(code)
+        assert not opened.is_code(told.code)
+        assert opened.read_person(carried) == ADA
+
+
+def test_what_nobody_signed_or_long_ago_is_nobody(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    keys, _ = ClassKeys.open(tmp_path / "one")
+    other, _ = ClassKeys.open(tmp_path / "other")
+    signed = keys.sign(ADA)
+    payload, rest = signed.split(".", 1)
+    forged = keys.sign(INSTRUCTOR).split(".", 1)[0] + "." + rest
+    for wrong in ("", "x", forged, payload, signed[:-2], other.sign(ADA), "a" * 5000):
+        assert keys.read_person(wrong) is None, wrong
+    now = time.time()
+    monkeypatch.setattr(time, "time", lambda: now + class_keys.SIGNED_AGE_S + 2)
+    assert keys.read_person(signed) is None
+
+
+def test_damaged_keys_say_what_to_do(tmp_path: Path) -> None:
+    (tmp_path / class_keys.FILE).write_text(json.dumps({"salt": "x"}))
+    with pytest.raises(SecurityError, match="delete the file"):
+        ClassKeys.open(tmp_path)
+
+
+def test_who_is_here_was_heard_within_a_minute_and_names_are_told_apart() -> None:
+    now = [0.0]
+    people = People(lambda: now[0])
+    ada = people.join("Ada", Role.OPERATOR)
+    other = people.join("Ada", Role.OBSERVER)
+    assert (ada.name, other.name) == ("Ada", "Ada (2)")
+    assert ada.id != other.id
+    now[0] = HERE_S - 1
+    people.hear(other)
+    now[0] = HERE_S + 1
+    assert people.list_here() == [other]
+    assert people.join("Ada", Role.OPERATOR).name == "Ada"
+    people.forget(other)
+    assert people.find(other.id) is None
+
+
+def test_a_stranger_is_told_to_join_and_may_only_stop(classroom: Classroom) -> None:
+    stranger = classroom.lab.client
+    assert read_person(stranger) == {
+        "door": "class",
+        "inside": False,
+        "id": "",
+        "name": "",
+        "role": None,
+    }
+    refused = stranger.get(SHARED)
+    assert (refused.status_code, read_kind(refused)) == (401, "join_needed")
+    assert "class code" in refused.json()["detail"]
+    assert stranger.post("/api/v1/quick-stop").status_code == 204
+
+
+def test_a_student_joins_with_a_name_and_the_code_and_is_known_by_a_cookie(
+    classroom: Classroom,
+) -> None:
+    wrong = {"name": "Ada", "code": "XXXX-XXXX"}
+    refused = classroom.lab.client.post("/api/v1/join", json=wrong)
+    assert (refused.status_code, read_kind(refused)) == (401, "wrong_code")
+    right = {"name": "Ada", "code": classroom.told.code}
+    browser = classroom.open_browser()
+    answer = browser.post("/api/v1/join", json=right)
+    cookie = answer.headers["set-cookie"].lower()
+    assert "httponly" in cookie
+    assert "samesite=strict" in cookie
+    assert classroom.told.code.lower() not in cookie
+    told = read_person(browser)
+    assert (told["inside"], told["name"], told["role"]) == (True, "Ada", "operator")
+    assert browser.get(SHARED).status_code == 200
+    assert browser.post("/api/v1/leave").status_code == 204
+    assert read_person(browser)["inside"] is False
+
+
+@pytest.mark.parametrize("body", [{"name": "\t"}, {"name": "x" * 41}, {"role": "instructor"}])
+def test_a_wrong_join_is_refused_with_its_bound(classroom: Classroom, body: dict) -> None:
+    wanted = {"name": "Ada", "code": classroom.told.code} | body
+    answer = classroom.lab.client.post("/api/v1/join", json=wanted)
+    assert answer.status_code == 422
+    assert [each["name"] for each in answer.json()["violations"]] == list(body)
+
+
+def test_the_instructor_comes_in_by_the_token_as_cookie_or_bearer(classroom: Classroom) -> None:
+    assert read_person(classroom.log_in())["role"] == "instructor"
+    script = classroom.open_browser(classroom.told.instructor_token)
+    assert read_person(script)["role"] == "instructor"
+    wrong = classroom.lab.client.post("/api/v1/login", json={"secret": classroom.told.code})
+    assert wrong.status_code == 401
+    assert "instructor token" in wrong.json()["detail"]
+
+
+def test_a_script_comes_in_by_a_token_and_is_not_more_than_who_made_it(
+    classroom: Classroom,
+) -> None:
+    ada = classroom.join("Ada")
+    token = ada.post("/api/v1/tokens", json={"role": "observer"}).json()["token"]
+    script = classroom.open_browser(token)
+    assert read_person(script) == read_person(ada) | {"role": "observer"}
+    assert script.get(SHARED).status_code == 200
+    refused = script.post("/api/v1/sessions", json={})
+    assert (refused.status_code, read_kind(refused)) == (403, "not_allowed")
+    assert script.post(SHARED + "/pause").status_code == 200
+    more = script.post("/api/v1/tokens", json={"role": "operator"}).json()
+    assert more["role"] == "observer"
+    assert classroom.open_browser(token + "x").get(SHARED).status_code == 401
+
+
+def test_a_private_session_and_its_runs_are_their_makers_and_the_instructors(
+    classroom: Classroom,
+) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    state = ada.post("/api/v1/sessions", json={}).raise_for_status().json()
+    path = f"/api/v1/sessions/{state['session']}"
+    ada.post(path + "/pause").raise_for_status()
+    recording = ada.post(path + "/recording", json={"name": "mine"}).raise_for_status().json()
+    run_id = recording["recording"]["run_id"]
+    ada.post(path + "/step", json={"ticks": 100}).raise_for_status()
+    ada.delete(path + "/recording").raise_for_status()
+    run = f"/api/v1/runs/{run_id}"
+    for below in ("", "/origin"):
+        assert read_kind(bob.get(path + below)) == "not_yours"
+    for call in ("/start", "/pause", "/quick-stop"):
+        assert bob.post(path + call).status_code == 403
+    assert bob.delete(path).status_code == 403
+    assert bob.get(f"/viser/{state['session']}/").status_code == 403
+    assert read_kind(bob.get(run)) == "not_yours"
+    for browser, sees in ((ada, True), (bob, False), (instructor, True)):
+        listed = browser.get("/api/v1/runs").json()
+        assert (run_id in [one["id"] for one in listed["runs"]]) is sees
+        assert bool(listed["facets"]["plant"]) is sees
+        sessions = [one["session"] for one in browser.get("/api/v1/sessions").json()]
+        assert (state["session"] in sessions) is sees
+    tuning = {"law": "fl_integral", "budget": 5, "session": state["session"]}
+    assert bob.post("/api/v1/tunings", json=tuning).status_code == 404
+    assert bob.patch(run, json={"name": "his"}).status_code == 403
+    assert ada.patch(run, json={"name": "hers"}).json()["name"] == "hers"
+    assert instructor.delete(run).status_code == 200
+    assert instructor.delete(path).status_code == 204
+
+
+def test_a_run_of_the_shared_session_is_read_by_all_and_changed_by_who_recorded_it(
+    classroom: Classroom,
+) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    state = instructor.post(SHARED + "/recording", json={"name": "shown"}).json()
+    instructor.delete(SHARED + "/recording").raise_for_status()
+    run = f"/api/v1/runs/{state['recording']['run_id']}"
+    assert ada.get(run).status_code == 200
+    assert read_kind(bob.delete(run)) == "not_yours"
+    assert instructor.delete(run).status_code == 200
+
+
+def test_a_name_of_another_site_is_not_answered(classroom: Classroom, tmp_path: Path) -> None:
+    rebound = {"Host": "evil.example"}
+    refused = classroom.lab.client.get("/api/v1/health", headers=rebound)
+    assert (refused.status_code, read_kind(refused)) == (403, "unknown_host")
+    for host in ("192.168.1.20:8000", "[fe80::1]:8000", "localhost"):
+        answer = classroom.lab.client.get("/api/v1/health", headers={"Host": host})
+        assert answer.status_code == 200, host
+    with run_class(tmp_path, hosts="Lab.example, other.example") as room:
+        named = room.lab.client.get("/api/v1/health", headers={"Host": "lab.example"})
+        assert named.status_code == 200
