@@ -14,12 +14,14 @@ from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.doors import ClassDoor, Door, OpenDoor, SecretDoor
 from svsa_server.access.guard import AccessGuard
 from svsa_server.access.people import People
+from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.bench_start import open_bench
 from svsa_server.config import Settings
+from svsa_server.control_queue import ControlQueue
 from svsa_server.errors import install_error_handlers
 from svsa_server.heavy_work import HeavyWork
 from svsa_server.jobs import Jobs
-from svsa_server.laboratory import Laboratory, build_shared_session
+from svsa_server.laboratory import SHARED_SESSION, Laboratory, build_shared_session
 from svsa_server.openapi import install_openapi
 from svsa_server.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.ownership import is_visible
@@ -115,12 +117,25 @@ def build_door(config: Settings, keys: ClassKeys | None = None) -> Door:
     return SecretDoor(config.secret_text) if config.secret_text else OpenDoor()
 
 
+def build_queue(config: Settings) -> ControlQueue:
+    """The control of a class's shared session."""
+    return ControlQueue(
+        SHARED_SESSION, lambda client: client == INSTRUCTOR.id, config.idle_operator_s
+    )
+
+
 @contextlib.asynccontextmanager
 async def _live(app: FastAPI) -> AsyncIterator[None]:
     """Start the sessions, and end them and their 3D views with the server."""
     config: Settings = app.state.config
     shared = app.state.shared or build_shared_session(None, design=app.state.design)
-    laboratory = Laboratory(shared, config.most_sessions, config.idle_s, config.control_s)
+    laboratory = Laboratory(
+        shared,
+        config.most_sessions,
+        config.idle_s,
+        config.control_s,
+        build_queue(config) if config.classroom else None,
+    )
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)

@@ -24,6 +24,8 @@ class Settings(BaseSettings):
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
     SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
     SVSA_CLASSROOM: whether people join with a name and a class code, and have roles.
+    SVSA_IDLE_OPERATOR_S: how long whoever is in control in a class may give no command before it
+    goes on to who waits, s.
     SVSA_HOSTS: names with commas between, under which others reach the lab, besides addresses and
     the names of this machine.
     """
@@ -40,6 +42,7 @@ class Settings(BaseSettings):
     bench: Path | None = None
     parameters: Path | None = None
     classroom: bool = False
+    idle_operator_s: float = Field(default=90.0, ge=1)
     hosts: str = ""
 
     @property

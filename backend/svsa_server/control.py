@@ -18,7 +18,10 @@ CLIENT_HEADER = "SVSA-Client"
 STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop"), ("POST", "/emergency-stop")})
 ASKING = ("/predict", *map("/design/".__add__, ("response", "stability", "region", "simulation")))
 OPEN_TO_ALL = (
-    STOPS | {("POST", path) for path in ASKING} | {("PUT", "/control"), ("DELETE", "/control")}
+    STOPS
+    | {("POST", path) for path in ASKING}
+    | {("PUT", "/control"), ("DELETE", "/control")}
+    | {("POST", "/control/handover"), ("PUT", "/control/lock")}
 )
 CHANGING = frozenset({"POST", "PUT", "PATCH", "DELETE"})
 
@@ -38,7 +41,12 @@ class Holder(NamedTuple):
 
 
 class ControlHand:
-    """The hand of the session of this name. Times are monotonic, s."""
+    """The hand of the session of this name. Times are monotonic, s.
+
+    rests_when_free: whether nobody may command it then, so that a bench comes to rest.
+    """
+
+    rests_when_free = False
 
     def __init__(self, session: str) -> None:
         self.holder: Holder | None = None
@@ -67,7 +75,7 @@ class ControlHand:
             self.check(holder.client)
         self.holder, self._heard = holder, now
 
-    def give_back(self, client: str | None) -> None:
+    def give_back(self, client: str | None, now: float) -> None:
         """Nobody in control; raises `HeldError` where another one is."""
         self.check(client)
         self.holder = None
@@ -77,7 +85,10 @@ class ControlHand:
         if self.is_held_by(client):
             self._heard = now
 
-    def free_if_left(self, now: float, patience_s: float) -> bool:
+    def note_command(self, client: str | None, now: float) -> None:
+        """Its holder has given a command, which here means no more than a call."""
+
+    def settle(self, now: float, patience_s: float) -> bool:
         """Free it where its holder was not heard for longer than `patience_s`; whether it did."""
         is_left = self.holder is not None and now - self._heard > patience_s
         if is_left:

@@ -29,6 +29,40 @@ class ControlRequest(Checked):
     take_over: Flag = quantity("", "Whoever is in control loses it", default=False)
 
 
+class HandoverRequest(Checked):
+    """Gives control to somebody who waits for it."""
+
+    to: Annotated[str, Field(max_length=LONGEST_NAME)] = quantity(
+        "", "Id of the person, as `queue.waiting` names it"
+    )
+
+
+class LockRequest(Checked):
+    """Locks control of a session, or unlocks it."""
+
+    locked: Flag = quantity("", "Whether nobody but the instructor is in control")
+
+
+class WaitingState(BaseModel):
+    """Somebody who waits for control."""
+
+    id: str
+    name: str
+
+
+class QueueState(BaseModel):
+    """Who waits for control of the shared session of a class."""
+
+    waiting: list[WaitingState] = Field(description="Who gets it next stands first")
+    place: int | None = Field(
+        description="Of whoever this answer is for, 1 is next; null: does not wait"
+    )
+    locked: bool = Field(description="Nobody but the instructor is in control")
+    idle_s: float = Field(
+        description="For how long a holder may give no command while somebody waits"
+    )
+
+
 class ControlState(BaseModel):
     """Who may command a session; everybody may watch, pause and stop it."""
 

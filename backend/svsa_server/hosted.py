@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from svsa.errors import StateError
 from svsa.session.session import Session
 from svsa_server.control import ControlHand, Holder
+from svsa_server.control_queue import ControlQueue
 from svsa_server.excitation import Excitation, check_excitable
 
 
@@ -21,9 +22,15 @@ class HostedSession:
     that never ends by itself. `owner`: the id of the person whose it is; empty for everybody's.
     """
 
-    def __init__(self, session: Session, last_use: float = math.inf, owner: str = "") -> None:
+    def __init__(
+        self,
+        session: Session,
+        last_use: float = math.inf,
+        owner: str = "",
+        hand: ControlHand | None = None,
+    ) -> None:
         self.session, self.owner = session, owner
-        self.hand = ControlHand(session.name)
+        self.hand = hand or ControlHand(session.name)
         self.excitation: Excitation | None = None
         self.last_use = last_use
         self._streams: Counter[str | None] = Counter()
@@ -65,25 +72,61 @@ class HostedSession:
         self._changes += 1
         self.touch()
 
+    def list_viewers(self) -> set[str]:
+        """The clients that have a stream of it open, of those that name themselves."""
+        return {client for client in self._streams if client is not None}
+
     def take_control(self, holder: Holder, take_over: bool) -> None:
         """As `ControlHand.take`, now."""
-        self.hand.take(holder, take_over, time.monotonic())
-        self._changes += 1
+        with self._changing_hand():
+            self.hand.take(holder, take_over, time.monotonic())
 
     def give_control_back(self, client: str | None) -> None:
         """As `ControlHand.give_back`."""
-        self.hand.give_back(client)
-        self._changes += 1
+        with self._changing_hand():
+            self.hand.give_back(client, time.monotonic())
+
+    def hand_control_over(self, client: str | None, to: str) -> None:
+        """As `ControlQueue.hand_over`; raises `StateError` where nobody waits in a queue."""
+        with self._changing_hand():
+            self.find_queue().hand_over(client, to, time.monotonic())
+
+    def lock_control(self, is_locked: bool) -> None:
+        """As `ControlQueue.lock`; raises `StateError` where there is no queue."""
+        with self._changing_hand():
+            self.find_queue().lock(is_locked, time.monotonic())
+
+    def find_queue(self) -> ControlQueue:
+        """The hand of a class's session; raises `StateError` for any other."""
+        if not isinstance(self.hand, ControlQueue):
+            raise StateError(f"Nobody waits for control of session {self.session.name}.")
+        return self.hand
 
     def free_hand_if_left(self, now: float, patience_s: float) -> None:
         """End the control of a holder who, with no stream open, is silent for patience_s."""
+        for client in self.list_viewers():
+            self.hand.hear(client, now)
         holder = self.hand.holder
-        if holder is None:
-            return
-        if self._streams[holder.client]:
-            self.hand.hear(holder.client, now)
-        if self.hand.free_if_left(now, patience_s):
+        if self.hand.settle(now, patience_s):
             self._changes += 1
+            self._rest_after(holder)
+
+    @contextlib.contextmanager
+    def _changing_hand(self) -> Iterator[None]:
+        holder = self.hand.holder
+        yield
+        self._changes += 1
+        self._rest_after(holder)
+
+    def _rest_after(self, before: Holder | None) -> None:
+        """A bench ramps down where it is handed on; it does not start before it is at rest."""
+        now = self.hand.holder
+        if before is None or (now is not None and now.client == before.client):
+            return
+        if now is None and not self.hand.rests_when_free:
+            return
+        if self.session.plant != "simulated" and self.session.status == "running":
+            self.session.halt("control was handed over")
 
     def check_excitable(self) -> None:
         """Raise `StateError` where the excitation would not tell what it should."""

@@ -20,6 +20,7 @@ from svsa.session.bench import BenchSession
 from svsa.session.hands import Hands
 from svsa.session.session import Session
 from svsa.session.simulated import SimulatedSession
+from svsa_server.control import ControlHand
 from svsa_server.errors import UnknownError
 from svsa_server.hosted import HostedSession
 from svsa_server.turn import let_pass
@@ -37,13 +38,18 @@ class Laboratory:
 
     most_sessions: private ones at once. idle_s: how long a private session lives without a
     request or a stream, s. control_s: how long control of a session outlives what its holder
-    does, s.
+    does, s. shared_hand: that of the shared session, of a class.
     """
 
     def __init__(
-        self, shared: Session, most_sessions: int, idle_s: float, control_s: float
+        self,
+        shared: Session,
+        most_sessions: int,
+        idle_s: float,
+        control_s: float,
+        shared_hand: ControlHand | None = None,
     ) -> None:
-        self.sessions = {shared.name: HostedSession(shared)}
+        self.sessions = {shared.name: HostedSession(shared, hand=shared_hand)}
         self._most_sessions = most_sessions
         self._idle_s = idle_s
         self._control_s = control_s

@@ -13,7 +13,7 @@ from svsa.plant.effects import IDEAL, Effects
 from svsa.run.configuration import MAX_LANES, Configuration, Design
 from svsa.run.events import Event
 from svsa_server.bench_schemas import BenchState
-from svsa_server.control_schemas import ControlState
+from svsa_server.control_schemas import ControlState, QueueState
 from svsa_server.lane_schemas import LaneMetrics, LaneState, WindowState
 from svsa_server.law_schemas import InstalledLane
 from svsa_server.recording_schemas import ExcitationState, RecordingState
@@ -117,6 +117,10 @@ class SessionState(SessionProgress):
     session: str
     branch_of: BranchState | None = Field(description="null unless its run is a branch")
     control: ControlState
+    queue: QueueState | None = Field(
+        description="null where nobody waits in turn: in a lab without a class, and in private"
+        " sessions"
+    )
     rate_hz: float
     configuration: ConfigurationState
     loads: list[LoadState]

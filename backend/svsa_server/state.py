@@ -14,8 +14,9 @@ from svsa.session.bench import BenchSession
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_NAMES
 from svsa_server.bench_state import build_bench_state
-from svsa_server.control import asking
-from svsa_server.control_schemas import ControlState
+from svsa_server.control import ControlHand, asking
+from svsa_server.control_queue import ControlQueue
+from svsa_server.control_schemas import ControlState, QueueState, WaitingState
 from svsa_server.excitation import build_excitation
 from svsa_server.gain_schemas import GainsState, Root
 from svsa_server.hosted import HostedSession
@@ -72,6 +73,7 @@ def build_state(hosted: HostedSession) -> SessionState:
         session=session.name,
         branch_of=_build_branch(session.journal.branch_of),
         control=_build_control(hosted),
+        queue=_build_queue(hosted.hand),
         rate_hz=1.0 / run.period_s,
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
@@ -87,6 +89,17 @@ def _build_control(hosted: HostedSession) -> ControlState:
         holder=hand.holder.name if hand.holder else None,
         mine=hand.is_held_by(asking.get()),
         watching=hosted.streams,
+    )
+
+
+def _build_queue(hand: ControlHand) -> QueueState | None:
+    if not isinstance(hand, ControlQueue):
+        return None
+    return QueueState(
+        waiting=[WaitingState(id=one.client, name=one.name) for one in hand.waiting],
+        place=hand.find_place(asking.get()),
+        locked=hand.is_locked,
+        idle_s=hand.idle_s,
     )
 
 

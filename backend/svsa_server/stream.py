@@ -149,6 +149,7 @@ async def _listen(websocket: WebSocket, hosted: HostedSession, client: str | Non
     """Wait for the client to leave; whatever it says holds the dead-man's switch of a bench."""
     while (await websocket.receive())["type"] != "websocket.disconnect":
         if hosted.hand.admits(client):
+            hosted.hand.note_command(client, time.monotonic())
             hosted.session.hear_operator()
 
 

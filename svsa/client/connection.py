@@ -23,9 +23,9 @@ _NOT_SENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
 class Connection:
     """An address of a lab, and how a script shows itself there.
 
-    secret: the lab's, or None where it has none. client: what the script is known by; the lab
-    gives control to it. patience_s: for how long a lab that does not answer, is busy or starts
-    again is asked anew, s.
+    secret: the lab's, or a token of its class, or None where it has neither. client: what the
+    script is known by; the lab gives control to it. patience_s: for how long a lab that does not
+    answer, is busy or starts again is asked anew, s.
     """
 
     def __init__(
@@ -92,7 +92,7 @@ class Connection:
                     raise LabError(f"The lab at {self.url} does not answer: {error}.") from None
                 time.sleep(PAUSE_S)
                 continue
-            if answer.status_code == 503 and time.monotonic() < until:
+            if answer.status_code in (429, 503) and time.monotonic() < until:
                 time.sleep(float(answer.headers.get("Retry-After", PAUSE_S)))
                 continue
             if answer.is_error:

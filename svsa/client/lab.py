@@ -29,7 +29,8 @@ def connect(
 ) -> "Lab":
     """A running lab; a context closes it. Raises `LabError` where none answers.
 
-    secret: the lab's; left out, that of the environment (SVSA_SECRET). client: what the lab knows
+    secret: the lab's, or a token of its class; left out, that of the environment (SVSA_SECRET).
+    client: what the lab knows
     this script by, drawn at random if left out. patience_s: for how long a lab that does not
     answer, or is busy, is asked again, s.
     """

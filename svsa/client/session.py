@@ -6,6 +6,7 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from svsa.client.connection import Connection
+from svsa.client.control import ControlledDoor
 from svsa.client.door import SessionDoor
 from svsa.client.loads import Loads
 from svsa.client.recording import Recording
@@ -25,7 +26,7 @@ _POSITION: TypeAdapter[PositionReference] = TypeAdapter(PositionReference)
 _STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)
 
 
-class RemoteSession(SessionDoor):
+class RemoteSession(ControlledDoor):
     """A session by its name; every property is asked of the lab when it is read.
 
     Setting one returns when the lab has taken it, and `acted` says at which tick it holds; what
@@ -199,17 +200,6 @@ class RemoteSession(SessionDoor):
             state = self.call("POST", "/step", {"ticks": ticks})
         if fault := read_fault(state):
             raise FaultError(fault)
-
-    def take_control(self, by: str, take_over: bool = False) -> None:
-        """Only this script may command from now on; everybody may pause and stop it.
-
-        Raises `ControlError` where somebody else is in control, unless `take_over`.
-        """
-        self.call("PUT", "/control", {"by": by, "take_over": take_over})
-
-    def give_control_back(self) -> None:
-        """Everybody may command again."""
-        self.call("DELETE", "/control")
 
     def record(self, name: str = "", tags: tuple[str, ...] = (), notes: str = "") -> Recording:
         """Record every sample and command from now on; a context ends it."""

@@ -25,7 +25,7 @@ from svsa.session.clock import Pace
 from svsa.session.fault_latch import FaultLatch
 from svsa.session.hands import Hands
 from svsa.session.journal import Journal
-from svsa.session.session import Status
+from svsa.session.session import PROGRAM_ERROR, Status
 from svsa.session.supervised_loop import SupervisedLoop
 from svsa.signals import State
 
@@ -216,9 +216,9 @@ class BenchSession:
         if self.bench_status in MOVING:
             self._ask("stop", "stopped by hand")
 
-    def halt(self) -> None:
+    def halt(self, why: str = PROGRAM_ERROR) -> None:
         """Ramp to zero torque, without waiting for the loop to say that it does."""
-        self.loop.processes.tell("stop", "an error of the program")
+        self.loop.processes.tell("stop", why)
 
     def quick_stop(self) -> None:
         """The quick stop: zero current now, latched, even where the loop does not listen."""

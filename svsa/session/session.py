@@ -12,6 +12,8 @@ from svsa.run.run import Run
 from svsa.session.clock import Pace
 from svsa.session.journal import Journal
 
+PROGRAM_ERROR = "an error of the program"
+
 Status = Literal["running", "paused", "fault"]
 
 
@@ -73,8 +75,8 @@ class Session(Protocol):
         """Bring the run to rest."""
         ...
 
-    def halt(self) -> None:
-        """As `pause`, at once, whatever else goes on: after an error of the program."""
+    def halt(self, why: str = PROGRAM_ERROR) -> None:
+        """As `pause`, at once, whatever else goes on, without waiting for it."""
         ...
 
     def quick_stop(self) -> None:

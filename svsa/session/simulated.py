@@ -11,7 +11,7 @@ from svsa.run.configuration import Configuration
 from svsa.run.run import Run
 from svsa.session.clock import Pace, SimulationClock
 from svsa.session.journal import Journal
-from svsa.session.session import Status
+from svsa.session.session import PROGRAM_ERROR, Status
 
 BURST_TICKS = 2_000
 
@@ -108,7 +108,7 @@ class SimulatedSession:
         self.clock.stop()
         self.journal.version += 1
 
-    def halt(self) -> None:
+    def halt(self, why: str = PROGRAM_ERROR) -> None:
         """As `pause`, which waits for nothing."""
         self.pause()
 

@@ -108,6 +108,7 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"DELETE {_SESSION}",
         f"PUT {_SESSION}/control",
         f"DELETE {_SESSION}/control",
+        f"POST {_SESSION}/control/handover",
         f"POST {_SESSION}/start",
         f"POST {_SESSION}/reset",
         f"POST {_SESSION}/step",
@@ -137,6 +138,7 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"POST {_SESSION}/recording",
         f"DELETE {_SESSION}/recording",
     ),
+    INSTRUCTOR_ONLY: (f"PUT {_SESSION}/control/lock",),
 }
 
 

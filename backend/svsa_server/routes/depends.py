@@ -78,10 +78,12 @@ async def find_session(
     while somebody else is in control.
     """
     found: HostedSession = connection.app.state.laboratory.get(session)
-    found.hand.hear(client, time.monotonic())
+    now = time.monotonic()
+    found.hand.hear(client, now)
     asked = find_asked(connection.scope)
     if asked[0] in CHANGING and asked not in OPEN_TO_ALL:
         found.hand.check(client)
+        found.hand.note_command(client, now)
     return found
 
 

@@ -14,7 +14,14 @@ from svsa_server.access import class_keys
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.people import HERE_S, People
 from svsa_server.access.roles import INSTRUCTOR, Person, Role
-from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
+from tests.server.access.classroom import (
+    SHARED,
+    Classroom,
+    read_kind,
+    read_person,
+    run_class,
+    wait_for_run,
+)
 
 ADA = Person("p-1", "Ada", Role.OPERATOR)
 
@@ -173,6 +180,7 @@ def test_a_private_session_and_its_runs_are_their_makers_and_the_instructors(
     ada.post(path + "/step", json={"ticks": 100}).raise_for_status()
     ada.delete(path + "/recording").raise_for_status()
     run = f"/api/v1/runs/{run_id}"
+    wait_for_run(ada, run)
     for below in ("", "/origin"):
         assert read_kind(bob.get(path + below)) == "not_yours"
     for call in ("/start", "/pause", "/quick-stop"):
@@ -201,6 +209,7 @@ def test_a_run_of_the_shared_session_is_read_by_all_and_changed_by_who_recorded_
     state = instructor.post(SHARED + "/recording", json={"name": "shown"}).json()
     instructor.delete(SHARED + "/recording").raise_for_status()
     run = f"/api/v1/runs/{state['recording']['run_id']}"
+    wait_for_run(instructor, run)
     assert ada.get(run).status_code == 200
     assert read_kind(bob.delete(run)) == "not_yours"
     assert instructor.delete(run).status_code == 200

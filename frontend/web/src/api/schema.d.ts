@@ -482,14 +482,59 @@ export interface paths {
          *
          *     Where another client is in control, only with `take_over`. Control ends by itself some time
          *     after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
+         *
+         *     In a class one asks for the shared session by it, under the name that one has joined with, and
+         *     waits in `queue` where it is not free; `take_over` is the instructor's. Control goes on to who
+         *     waits when its holder gives no command for SVSA_IDLE_OPERATOR_S (90 s). A bench ramps down
+         *     before it is handed on.
          */
         put: operations["take_control_api_v1_sessions__session__control_put"];
         post?: never;
         /**
          * Give Control Back
-         * @description Everybody may command again.
+         * @description Everybody may command again; in a class who waits first, or one waits no longer.
          */
         delete: operations["give_control_back_api_v1_sessions__session__control_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/control/handover": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Hand Control Over
+         * @description Give control to one of those who wait for it in a class; its holder or an instructor does.
+         */
+        post: operations["hand_control_over_api_v1_sessions__session__control_handover_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/control/lock": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Lock Control
+         * @description The instructor locks control: whoever had it is first to get it back when it is unlocked.
+         */
+        put: operations["lock_control_api_v1_sessions__session__control_lock_put"];
+        post?: never;
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -2548,6 +2593,17 @@ export interface components {
             command: components["schemas"]["SetPosition"] | components["schemas"]["SetStiffness"] | components["schemas"]["SetLaw"] | components["schemas"]["SetLaws"] | components["schemas"]["SetGains"] | components["schemas"]["SetParameters"] | components["schemas"]["SetObserver"] | components["schemas"]["SetActuator"] | components["schemas"]["SetNominal"] | components["schemas"]["SetEffects"] | components["schemas"]["SetRivals"] | components["schemas"]["SetLane"] | components["schemas"]["ApplyLoad"] | components["schemas"]["RemoveLoad"];
         };
         /**
+         * HandoverRequest
+         * @description Gives control to somebody who waits for it.
+         */
+        HandoverRequest: {
+            /**
+             * To
+             * @description Id of the person, as `queue.waiting` names it
+             */
+            to: string;
+        };
+        /**
          * Health
          * @description That the server lives.
          */
@@ -2673,6 +2729,29 @@ export interface components {
              * @description Why it failed
              */
             problem: string | null;
+        };
+        /**
+         * JoinRequest
+         * @description Joins the class.
+         */
+        JoinRequest: {
+            /**
+             * Name
+             * @description What everybody is told, in printable characters
+             */
+            name: string;
+            /**
+             * Code
+             * @description The class code
+             */
+            code: string;
+            /**
+             * Role
+             * @description An observer only watches, and stops
+             * @default operator
+             * @enum {string}
+             */
+            role: "observer" | "operator";
         };
         /**
          * Lane
@@ -2917,6 +2996,17 @@ export interface components {
             active: boolean;
             /** Load */
             load: components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
+        };
+        /**
+         * LockRequest
+         * @description Locks control of a session, or unlocks it.
+         */
+        LockRequest: {
+            /**
+             * Locked
+             * @description Whether nobody but the instructor is in control
+             */
+            locked: boolean;
         };
         /**
          * LoginRequest
@@ -3546,6 +3636,32 @@ export interface components {
              * @default 0.5
              */
             hold_s: number;
+        };
+        /**
+         * QueueState
+         * @description Who waits for control of the shared session of a class.
+         */
+        QueueState: {
+            /**
+             * Waiting
+             * @description Who gets it next stands first
+             */
+            waiting: components["schemas"]["WaitingState"][];
+            /**
+             * Place
+             * @description Of whoever this answer is for, 1 is next; null: does not wait
+             */
+            place: number | null;
+            /**
+             * Locked
+             * @description Nobody but the instructor is in control
+             */
+            locked: boolean;
+            /**
+             * Idle S
+             * @description For how long a holder may give no command while somebody waits
+             */
+            idle_s: number;
         };
         /**
          * ReasonState
@@ -4595,6 +4711,8 @@ export interface components {
             /** @description null unless its run is a branch */
             branch_of: components["schemas"]["BranchState"] | null;
             control: components["schemas"]["ControlState"];
+            /** @description null where nobody waits in turn: in a lab without a class, and in private sessions */
+            queue: components["schemas"]["QueueState"] | null;
             /** Rate Hz */
             rate_hz: number;
             configuration: components["schemas"]["ConfigurationState"];
@@ -5534,6 +5652,16 @@ export interface components {
             message: string;
         };
         /**
+         * WaitingState
+         * @description Somebody who waits for control.
+         */
+        WaitingState: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+        };
+        /**
          * WindowState
          * @description A part of the run in which nothing was changed, from start to before end.
          */
@@ -5706,7 +5834,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -5835,7 +5963,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description A wrong secret, token or code */
@@ -5844,7 +5972,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description From a page of another site, for another host than this one, or not for this role. */
@@ -5853,7 +5981,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
@@ -5862,7 +5990,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description The body is longer than 4194304 bytes. */
@@ -5871,7 +5999,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Refused values; nothing was changed */
@@ -5880,7 +6008,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -5907,7 +6035,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -5940,7 +6068,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description From a page of another site, for another host than this one, or not for this role. */
@@ -5949,7 +6077,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
@@ -5958,7 +6086,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description The body is longer than 4194304 bytes. */
@@ -5967,7 +6095,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Refused values; nothing was changed */
@@ -5976,7 +6104,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ErrorModel"];
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
         };
@@ -7012,6 +7140,174 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    hand_control_over_api_v1_sessions__session__control_handover_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["HandoverRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    lock_control_api_v1_sessions__session__control_lock_put: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LockRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -10475,7 +10771,7 @@ export interface operations {
                     "application/json": components["schemas"]["JobState"][];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10534,7 +10830,7 @@ export interface operations {
                     "application/json": components["schemas"]["JobState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -10593,7 +10889,7 @@ export interface operations {
                     "application/json": components["schemas"]["JobState"];
                 };
             };
-            /** @description From a page of another site, or for another host than this one. */
+            /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
                 headers: {
                     [name: string]: unknown;

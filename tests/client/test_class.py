@@ -1,0 +1,70 @@
+"""Scripts in a class: they come in by a token, and ask for control like a person."""
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+import svsa
+from svsa.client import AccessError, ControlError
+from svsa_server.access.class_keys import ClassKeys
+from svsa_server.access.roles import Person, Role
+from tests.lab import run_lab
+
+ADA, BOB = Person("p-1", "Ada", Role.OPERATOR), Person("p-2", "Bob", Role.OPERATOR)
+
+
+@pytest.fixture(scope="module")
+def tokens(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, str]]:
+    """The address of a class, and tokens of two students."""
+    folder: Path = tmp_path_factory.mktemp("class")
+    keys, _ = ClassKeys.open(folder)
+    with run_lab("--class", data=str(folder)) as lab:
+        yield lab.url, keys.sign(ADA), keys.sign(BOB)
+
+
+def test_a_script_without_a_token_is_told_how_one_comes_in(tokens: tuple[str, str, str]) -> None:
+    with pytest.raises(AccessError, match="join it with your name and the class code"):
+        svsa.connect(tokens[0])
+
+
+def test_a_script_waits_for_its_turn_and_gives_up_in_time(tokens: tuple[str, str, str]) -> None:
+    url, ada_s, bob_s = tokens
+    with svsa.connect(url, ada_s) as ada, svsa.connect(url, bob_s) as bob:
+        with pytest.raises(ControlError, match="Nobody is in control of session lab"):
+            ada.session.law = "fl"
+        ada.session.take_control()
+        ada.session.law = "fl"
+        with pytest.raises(ControlError, match="Ada is in control of session lab: place 1"):
+            bob.session.take_control(wait_s=0.0)
+        assert ada.session.waiting == ()
+        taking = threading.Thread(target=bob.session.take_control)
+        taking.start()
+        while not ada.session.waiting:
+            pass
+        with pytest.raises(svsa.ParameterError, match="Bob"):
+            ada.session.hand_control_over("Eve")
+        ada.session.hand_control_over("Bob")
+        taking.join()
+        bob.session.law = "ndobc"
+        with pytest.raises(ControlError, match="Bob is in control"):
+            ada.session.law = "fl"
+        bob.session.give_control_back()
+
+
+def test_a_script_has_sessions_streams_and_runs_of_its_own(tokens: tuple[str, str, str]) -> None:
+    url, ada_s, bob_s = tokens
+    with svsa.connect(url, ada_s) as ada, svsa.connect(url, bob_s) as bob:
+        result = ada.run("4a", duration_s=0.2, name="mine")
+        assert result.name == "mine"
+        assert len(list(ada.runs)) == 1
+        assert list(bob.runs) == []
+        assert len(next(ada.session.stream(duration_s=0.1)).ticks)
+
+
+def test_a_token_stands_in_no_address(tokens: tuple[str, str, str]) -> None:
+    url, ada_s, _ = tokens
+    refused = httpx.get(f"{url}/api/v1/sessions?token={ada_s}", trust_env=False)
+    assert refused.status_code == 401
