@@ -52,13 +52,14 @@ from svsa.run.configuration import (
 if TYPE_CHECKING:
     from svsa import design
     from svsa.arena.tune import tune
-    from svsa.client import connect
+    from svsa.client import connect, connect_async
     from svsa.records.catalogue.runs import Catalogue
     from svsa.result.recorded import export_run, open_run, resimulate, runs
 
 _LATE = {
     "design": "svsa.design",
     "connect": "svsa.client",
+    "connect_async": "svsa.client",
     "Catalogue": "svsa.records.catalogue.runs",
     "tune": "svsa.arena.tune",
     **dict.fromkeys(("export_run", "open_run", "resimulate", "runs"), "svsa.result.recorded"),
@@ -113,6 +114,7 @@ __all__ = [
     "StepsStiffness",
     "SvsaError",
     "connect",
+    "connect_async",
     "design",
     "export_run",
     "load_prototype",

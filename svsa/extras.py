@@ -11,7 +11,7 @@ from typing import Literal
 from svsa.errors import SvsaError
 
 DISTRIBUTION = "svsa-lab"
-Extra = Literal["server", "client", "bench", "plot", "nidaqmx"]
+Extra = Literal["server", "client", "bench", "plot", "nidaqmx", "xarray"]
 MODULES: dict[Extra, tuple[str, ...]] = {
     "server": (
         *("fastapi", "pydantic_settings", "uvicorn", "websockets", "httpx"),
@@ -21,6 +21,7 @@ MODULES: dict[Extra, tuple[str, ...]] = {
     "bench": ("can", "serial", "cantools"),
     "plot": ("matplotlib",),
     "nidaqmx": ("nidaqmx",),
+    "xarray": ("xarray",),
 }
 
 

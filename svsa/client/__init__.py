@@ -18,6 +18,7 @@ from svsa.extras import require_extra
 
 require_extra("client")
 
+from svsa.client.asynchronous import AsyncLab, AsyncRecording, AsyncSession, connect_async
 from svsa.client.connection import Connection
 from svsa.client.door import Acted
 from svsa.client.lab import Lab, connect
@@ -26,13 +27,17 @@ from svsa.client.recording import Recording
 from svsa.client.refusals import AccessError, ControlError, LabError, LostAnswerError
 from svsa.client.runs import RemoteRuns
 from svsa.client.session import RemoteBench, RemoteSession
-from svsa.client.stream import Block
+from svsa.client.stream import Block, BlockStream
 
 __all__ = [
     "AccessError",
     "Acted",
     "AppliedLoad",
+    "AsyncLab",
+    "AsyncRecording",
+    "AsyncSession",
     "Block",
+    "BlockStream",
     "Connection",
     "ControlError",
     "Lab",
@@ -44,4 +49,5 @@ __all__ = [
     "RemoteRuns",
     "RemoteSession",
     "connect",
+    "connect_async",
 ]

@@ -1,6 +1,6 @@
 """A session of a lab: shared or private, simulated or a bench, by the same words."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 from pydantic import TypeAdapter
@@ -11,7 +11,7 @@ from svsa.client.door import SessionDoor
 from svsa.client.loads import Loads
 from svsa.client.recording import Recording
 from svsa.client.runs import RemoteRuns
-from svsa.client.stream import Block, stream_blocks
+from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
 from svsa.errors import Fault, FaultError
 from svsa.observer.disturbance import ObserverBandwidth
@@ -219,7 +219,7 @@ class RemoteSession(ControlledDoor):
         rate_hz: float = 200.0,
         lanes: tuple[int, ...] | None = (1,),
         history_s: float = 0.0,
-    ) -> Iterator[Block]:
+    ) -> BlockStream:
         """Samples as they come; channels: those of the plots if none is named.
 
         duration_s: session time to be told. rate_hz: samples a second at speed 1. lanes: their
@@ -229,7 +229,7 @@ class RemoteSession(ControlledDoor):
         query["lanes"] = "all" if lanes is None else ",".join(map(str, lanes))
         if channels:
             query["channels"] = ",".join(channels)
-        return stream_blocks(self.connection, self.name, query, duration_s)
+        return BlockStream(self.connection, self.name, query, duration_s)
 
     def end(self) -> None:
         """End a private session."""

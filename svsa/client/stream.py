@@ -1,20 +1,24 @@
 """Samples of a session as they come, in blocks."""
 
+import asyncio
 import json
 import time
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import urlencode
 
 import numpy as np
+from websockets.asyncio import client as asynchronous
 from websockets.exceptions import ConnectionClosedError, ConnectionClosedOK, InvalidHandshake
-from websockets.sync.client import connect
+from websockets.sync import client as synchronous
 
 from svsa.client.connection import API, CONNECT_S, PAUSE_S, Connection
 from svsa.client.refusals import LabError
 from svsa.errors import ParameterError, Violation
 from svsa.session.batch import unpack_batch
+
+_BROKEN = (OSError, ConnectionClosedError, InvalidHandshake)
 
 
 @dataclass(frozen=True)
@@ -54,68 +58,113 @@ class Block:
         return self.values[:, self.lanes.index(lane), self.channels.index(channel)]
 
 
-def stream_blocks(
-    connection: Connection, session: str, query: dict[str, str], duration_s: float
-) -> Iterator[Block]:
-    """Blocks until so much session time has been told, or the session has ended.
+class BlockStream:
+    """The blocks of a session until so much session time has been told, or it has ended.
 
-    A connection that breaks is made again for as long as the patience of `connection`; what came
-    meanwhile is missing, which the ticks show. Raises `LabError` where it cannot be made.
+    Iterate over it with `for` or `async for`. A connection that breaks is made again for as long
+    as the patience of `connection`; what came meanwhile is missing, which the ticks show. Raises
+    `LabError` where it cannot be made.
     """
-    until, told_at = None, time.monotonic()
-    while True:
-        try:
-            for block in _read_connection(connection, session, query):
-                told_at = time.monotonic()
-                until = block.time_s[0] + duration_s if until is None else until
-                inside = block.time_s < until - block.period_s / 2
-                if not inside.all():
-                    if inside.any():
-                        yield replace(block, ticks=block.ticks[inside], values=block.values[inside])
-                    return
-                yield block
-            return
-        except (OSError, ConnectionClosedError, InvalidHandshake) as error:
-            if time.monotonic() - told_at > connection.patience_s:
-                text = f"The stream of session {session} at {connection.url} broke off: {error}."
-                raise LabError(text) from None
-            time.sleep(PAUSE_S)
+
+    def __init__(
+        self, connection: Connection, session: str, query: dict[str, str], duration_s: float
+    ) -> None:
+        asked = urlencode(query | {"client": connection.client})
+        base = connection.url.replace("http", "ws", 1)
+        self._address = f"{base}{API}/sessions/{session}/stream?{asked}"
+        kept = {k: v for k, v in connection.headers.items() if k == "Authorization"}
+        self._options: dict[str, Any] = {
+            "additional_headers": kept,
+            "open_timeout": CONNECT_S,
+            "max_size": None,
+            "proxy": None,
+        }
+        self._name = f"The stream of session {session} at {connection.url}"
+        self._duration_s, self._patience_s = duration_s, connection.patience_s
+        self._until: float | None = None
+        self._told_at = time.monotonic()
+
+    def __iter__(self) -> Iterator[Block]:
+        while True:
+            try:
+                with synchronous.connect(self._address, **self._options) as socket:
+                    reader = _Reader()
+                    for message in socket:
+                        block, is_last = self._take(reader, message)
+                        if block is not None:
+                            yield block
+                        if is_last:
+                            return
+                return
+            except ConnectionClosedOK:
+                return
+            except _BROKEN as error:
+                self._check_patience(error)
+                time.sleep(PAUSE_S)
+
+    async def __aiter__(self) -> AsyncIterator[Block]:
+        while True:
+            try:
+                async with asynchronous.connect(self._address, **self._options) as socket:
+                    reader = _Reader()
+                    async for message in socket:
+                        block, is_last = self._take(reader, message)
+                        if block is not None:
+                            yield block
+                        if is_last:
+                            return
+                return
+            except ConnectionClosedOK:
+                return
+            except _BROKEN as error:
+                self._check_patience(error)
+                await asyncio.sleep(PAUSE_S)
+
+    def _take(self, reader: "_Reader", message: str | bytes) -> tuple[Block | None, bool]:
+        """What of a message is within the time that was asked for, and whether that is all."""
+        block = reader.read(message)
+        if block is None:
+            return None, False
+        self._told_at = time.monotonic()
+        if self._until is None:
+            self._until = float(block.time_s[0]) + self._duration_s
+        inside = block.time_s < self._until - block.period_s / 2
+        if inside.all():
+            return block, False
+        if not inside.any():
+            return None, True
+        return replace(block, ticks=block.ticks[inside], values=block.values[inside]), True
+
+    def _check_patience(self, error: Exception) -> None:
+        if time.monotonic() - self._told_at > self._patience_s:
+            raise LabError(f"{self._name} broke off: {error}.") from None
 
 
-def _read_connection(
-    connection: Connection, session: str, query: dict[str, str]
-) -> Iterator[Block]:
-    """The blocks of one connection, until the session ends."""
-    query = query | {"client": connection.client}
-    address = f"{connection.url.replace('http', 'ws', 1)}{API}/sessions/{session}/stream"
-    headers = {k: v for k, v in connection.headers.items() if k == "Authorization"}
-    with connect(
-        f"{address}?{urlencode(query)}",
-        additional_headers=headers,
-        open_timeout=CONNECT_S,
-        max_size=None,
-        proxy=None,
-    ) as socket:
-        hello: dict[str, Any] = {}
-        lane_ids: dict[int, int] = {}
-        try:
-            for message in socket:
-                if isinstance(message, str):
-                    told = json.loads(message)
-                    if told["type"] == "error":
-                        raise LabError(told["message"])
-                    hello = told if told["type"] == "hello" else hello
-                    lane_ids = {lane["id"]: lane["lane"] for lane in told["state"]["lanes"]}
-                    continue
-                batch = unpack_batch(message, len(hello["channels"]))
-                yield Block(
-                    run=batch.run,
-                    ticks=batch.ticks,
-                    period_s=hello["period_s"],
-                    missed=batch.missed,
-                    lanes=tuple(lane_ids[number] for number in batch.lane_ids),
-                    channels=tuple(channel["name"] for channel in hello["channels"]),
-                    values=batch.values,
-                )
-        except ConnectionClosedOK:
-            return
+class _Reader:
+    """What one connection has told: its hello, and the numbers of its lanes."""
+
+    def __init__(self) -> None:
+        self._hello: dict[str, Any] = {}
+        self._lanes: dict[int, int] = {}
+
+    def read(self, message: str | bytes) -> Block | None:
+        """The block in a message; None for one that tells of the session."""
+        if isinstance(message, str):
+            told = json.loads(message)
+            if told["type"] == "error":
+                raise LabError(told["message"])
+            if told["type"] == "hello":
+                self._hello = told
+            self._lanes = {lane["id"]: lane["lane"] for lane in told["state"]["lanes"]}
+            return None
+        channels = self._hello["channels"]
+        batch = unpack_batch(message, len(channels))
+        return Block(
+            run=batch.run,
+            ticks=batch.ticks,
+            period_s=self._hello["period_s"],
+            missed=batch.missed,
+            lanes=tuple(self._lanes[number] for number in batch.lane_ids),
+            channels=tuple(channel["name"] for channel in channels),
+            values=batch.values,
+        )

@@ -20,10 +20,11 @@ from svsa.result.law_style import name_law
 from svsa.run.command import Command, SetLaw, SetLaws
 from svsa.run.configuration import Configuration
 from svsa.run.metrics import Metrics, compute_metrics
-from svsa.signals import CHANNEL_NAMES, CHANNELS
+from svsa.signals import CHANNELS
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
     from matplotlib.figure import Figure as Picture
 
 PICTURE_DPI = 80
@@ -89,10 +90,16 @@ class Result(Channels):
         return [(law, slice(at, end)) for (at, law), end in zip(begins, ends, strict=True)]
 
     def to_dataframe(self) -> "pandas.DataFrame":
-        """All channels as a pandas DataFrame, one row a tick."""
-        import pandas
+        """All channels as a pandas DataFrame, one row a tick; its `attrs` have the units."""
+        from svsa.result.tables import build_dataframe
 
-        return pandas.DataFrame(self.samples, columns=list(CHANNEL_NAMES))
+        return build_dataframe(self)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """All channels along `time_s`, each with its units; needs the extra `xarray`."""
+        from svsa.result.tables import build_dataset
+
+        return build_dataset(self)
 
     def to_csv(self, path: Path | str) -> None:
         """Write all channels as CSV; the first row names each with its unit."""

@@ -127,7 +127,7 @@ def test_a_call_whose_answer_is_lost_is_carried_out_once(server: Server) -> None
 
 def test_a_stream_that_breaks_goes_on_with_a_gap(server: Server) -> None:
     with run_faulty_line(server.url) as line, svsa.connect(line.url) as lab:
-        blocks = lab.session.stream("position_rad", duration_s=60.0)
+        blocks = iter(lab.session.stream("position_rad", duration_s=60.0))
         before = next(blocks)
         line.cut()
         after = next(block for block in blocks if block.ticks[0] > before.ticks[-1] + 200)
@@ -156,4 +156,4 @@ def test_a_secret_opens_the_lab() -> None:
             svsa.connect(guarded.url, secret="of nobody")
         with svsa.connect(guarded.url, secret="of the class") as lab:
             assert "ndobc" in lab.laws
-            assert len(next(lab.session.stream(duration_s=0.1)).ticks)
+            assert len(next(iter(lab.session.stream(duration_s=0.1))).ticks)

@@ -56,6 +56,21 @@ def test_the_dataframe_has_a_column_a_channel(result):
     frame = result.to_dataframe()
     assert list(frame.columns) == list(CHANNEL_NAMES)
     np.testing.assert_array_equal(frame.to_numpy(), result.samples)
+    assert frame.attrs["units"]["torque1_nm"] == "N·m"
+
+
+def test_the_dataset_has_the_units_and_goes_through_a_file(result, tmp_path):
+    data = result.to_xarray()
+    assert data.torque1_nm.attrs["units"] == "N·m"
+    assert data.time_s.attrs["units"] == "s"
+    assert (
+        svsa.run.configuration.Configuration.model_validate_json(data.attrs["configuration"])
+        == result.configuration
+    )
+    for name, values in data.variables.items():
+        np.testing.assert_array_equal(values, getattr(result, name))
+    late = data.sel(time_s=slice(0.01, None))
+    assert late.sizes["time_s"] == len(result.samples) - 10
 
 
 def test_the_csv_names_each_column_with_its_unit_and_reads_back(result, tmp_path):
