@@ -93,13 +93,13 @@ class Result(Channels):
         """All channels as a pandas DataFrame, one row a tick; its `attrs` have the units."""
         from svsa.result.tables import build_dataframe
 
-        return build_dataframe(self)
+        return build_dataframe(self.samples, self._tell())
 
     def to_xarray(self) -> "xarray.Dataset":
         """All channels along `time_s`, each with its units; needs the extra `xarray`."""
         from svsa.result.tables import build_dataset
 
-        return build_dataset(self)
+        return build_dataset(self.samples, self._tell())
 
     def to_csv(self, path: Path | str) -> None:
         """Write all channels as CSV; the first row names each with its unit."""
@@ -139,6 +139,15 @@ class Result(Channels):
             return None
         self.plot().savefig(stream, format="png", dpi=PICTURE_DPI)
         return stream.getvalue()
+
+    def _tell(self) -> dict[str, str]:
+        """What the run was, as attributes that every format of a file can hold."""
+        told = {"law": self.law, "configuration": self.configuration.model_dump_json()}
+        if self.name:
+            told["name"] = self.name
+        if self.fault is not None:
+            told["fault"] = self.fault.message
+        return told
 
     def _describe(self) -> tuple[str, str]:
         """The run in two lines: what it is, and how it went."""
