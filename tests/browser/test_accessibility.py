@@ -10,6 +10,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.bench_fixture import PatchedBench
 from tests.browser.test_page import choose, come_back, open_page, unfold, wait_for_samples
 from tests.browser.test_replay import open_file
+from tests.browser.test_tuning import open_tuning, tune
 from tests.lab import Lab, run_lab
 from tests.scene.replay_page import write_page
 
@@ -143,6 +144,16 @@ def open_arena(page: Page, lab: Lab) -> None:
     expect(page.get_by_role("heading", name="How much they bear")).to_be_visible()
 
 
+def open_pages(page: Page, lab: Lab) -> None:
+    open_button("Pages")(page, lab)
+    expect(page.get_by_role("link", name=re.compile("^Arena"))).to_be_visible()
+
+
+def open_tuned(page: Page, lab: Lab) -> None:
+    open_lab(page, lab)
+    tune(open_tuning(page))
+
+
 def open_private(page: Page, lab: Lab) -> None:
     name = lab.client.post("/api/v1/sessions", json={}).json()["session"]
     come_back(page, lab)
@@ -158,6 +169,7 @@ def open_private(page: Page, lab: Lab) -> None:
         pytest.param(open_page, (WIDE, PHONE), id="tour"),
         pytest.param(open_button("Keyboard shortcuts"), (WIDE, PHONE), id="keys"),
         pytest.param(open_button("Learn"), (WIDE, PHONE), id="learn"),
+        pytest.param(open_pages, (WIDE, PHONE), id="pages"),
         pytest.param(open_equation, (WIDE,), id="equation"),
         pytest.param(open_button("Place poles"), (WIDE, PHONE), id="design"),
         pytest.param(open_button("Plots"), (WIDE,), id="plots"),
@@ -171,6 +183,7 @@ def open_private(page: Page, lab: Lab) -> None:
         pytest.param(open_overlay, (WIDE, PHONE), id="overlay"),
         pytest.param(open_trash, (WIDE,), id="trash"),
         pytest.param(open_arena, (WIDE, PHONE), id="arena"),
+        pytest.param(open_tuned, (HIGH, PHONE), id="tuning"),
         pytest.param(open_private, (WIDE,), id="private"),
     ],
 )

@@ -7,13 +7,15 @@ from playwright.sync_api import Page, expect
 
 from svsa.arena.results import load_published
 from svsa.control.installed import get_title
+from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
 def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, lab: Lab) -> None:
-    page.goto(lab.url + "/?arena=all")
+    open_page(page, lab)
+    go_to_page(page, "Arena")
     table = page.get_by_role("region", name="Errors, faults and score, a law a row")
     first = table.get_by_role("rowheader").first
     best = max(load_published().rows, key=lambda row: row.score)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
-from tests.browser.test_page import open_page
+from tests.browser.test_page import go_to_page, open_page
 from tests.hardware.live_bench import start_live_rig, write_bench
 from tests.lab import Lab, run_lab
 from tests.server.bench_lab import BenchLab
@@ -137,7 +137,7 @@ def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
     page = context.new_page()
     page.goto(bench.lab.url)
     bench.make_ready()
-    page.get_by_role("button", name="Runs", exact=True).click()
+    go_to_page(page, "Runs")
     expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
     return page
 

@@ -84,6 +84,33 @@ def test_nothing_is_covered_cut_or_out_of_its_panel(
     assert not problems, "\n".join(problems)
 
 
+# Rows of buttons, counted by their middles.
+COUNT_ROWS = """() => {
+    const middles = [...document.querySelectorAll(".topbar :is(button, select)")]
+        .map((one) => one.getBoundingClientRect()).filter(({ width }) => width > 1)
+        .map(({ top, bottom }) => Math.round((top + bottom) / 20));
+    return new Set(middles).size;
+}"""
+
+
+def test_the_top_bar_has_few_rows_and_no_more_while_it_records(visited: Page, lab: Lab) -> None:
+    recording = lab.session + "/recording"
+    record = visited.get_by_role("button", name=re.compile("^Record"))
+    expect(record).to_have_text("Record")
+    rows = {}
+    for is_on in (False, True):
+        if is_on:
+            lab.client.post(recording, json={"name": ""}).raise_for_status()
+            expect(record).to_have_text(re.compile("^Recording"))
+        for width, height in SIZES:
+            visited.set_viewport_size({"width": width, "height": height})
+            rows[width, is_on] = visited.evaluate(COUNT_ROWS)
+    lab.client.delete(recording).raise_for_status()
+    expect(record).to_have_text("Record")
+    most = {390: 3, 820: 2, 1280: 1, 1440: 1}
+    assert not {key: count for key, count in rows.items() if count > most[key[0]]}
+
+
 def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visited: Page) -> None:
     visited.set_viewport_size({"width": 1280, "height": 720})
     visited.locator(".plots-scroll").evaluate("list => list.scrollTo(0, 0)")

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.test_page import LAST_TIME, choose, open_page, wait_for_samples
+from tests.browser.test_page import LAST_TIME, choose, go_to_page, open_page, wait_for_samples
 from tests.lab import Lab, run_lab
 
 pytestmark = pytest.mark.browser
@@ -87,7 +87,7 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         expect(lost).to_be_hidden()
         view = page.frame_locator("iframe").locator("canvas").first
         expect(view).to_be_visible(timeout=PATIENCE_MS)
-        page.get_by_role("button", name="Runs", exact=True).click()
+        go_to_page(page, "Runs")
         row = page.get_by_role("table", name="Recorded runs").get_by_role("row").last
         expect(row.get_by_role("link", name="Cut")).to_be_visible()
         expect(row).to_contain_text("cut off")

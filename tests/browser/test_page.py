@@ -34,6 +34,14 @@ def open_page(page: Page, lab: Lab) -> None:
     expect(page.get_by_role("button", name=KNOWN_LAW)).to_be_attached()
 
 
+def go_to_page(page: Page, name: str) -> None:
+    """By the menu of pages; *Tune …* opens a panel."""
+    page.get_by_role("button", name="Pages", exact=True).press("Enter")
+    menu = page.get_by_role("navigation", name="Pages")
+    menu.locator("a, button").filter(has=page.get_by_text(name, exact=True)).press("Enter")
+    expect(menu).to_be_hidden()
+
+
 def choose_law(page: Page, title: str) -> None:
     """Have another law control, as a hand does it."""
     page.get_by_role("button", name=KNOWN_LAW).press("Enter")

@@ -7,6 +7,7 @@ from urllib.parse import parse_qs, urlsplit
 import pytest
 from playwright.sync_api import FrameLocator, Locator, Page, Response, Route, expect
 
+from tests.browser.test_page import go_to_page
 from tests.lab import Lab, run_lab
 from tests.server.routes.test_recording_routes import wait_for_run
 
@@ -104,7 +105,7 @@ def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, own_la
     page.get_by_role("button", name=re.compile("^Recording (?!0:00)")).click()
     note = page.get_by_role("status").filter(has_text="Saved: Fig. 4A · NDOBC · σ 15 · no load")
     expect(note).to_be_visible()
-    page.get_by_role("button", name="Runs", exact=True).click()
+    go_to_page(page, "Runs")
     row = page.get_by_role("table", name="Recorded runs").get_by_role("row").nth(1)
     expect(row.get_by_role("link", name="Fig. 4A · NDOBC · σ 15 · no load")).to_be_visible()
     page.set_viewport_size({"width": 1440, "height": 900})

@@ -1,5 +1,4 @@
 import { useEffect } from "preact/hooks";
-import { goTo, place } from "../runs/place";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
 import { measureAll, measuring, openArena, problem, results, stopMeasuring } from "./arena";
@@ -102,23 +101,5 @@ export function ArenaPage() {
         </>
       )}
     </main>
-  );
-}
-
-export function ArenaButton() {
-  const isOpen = place.value.kind === "arena";
-  return (
-    <button
-      type="button"
-      class="button"
-      aria-pressed={isOpen}
-      title={isOpen ? text.runs.back : words.openHint}
-      onClick={() => goTo({ kind: isOpen ? "lab" : "arena" })}
-    >
-      <svg viewBox="0 0 16 16" aria-hidden="true">
-        <path d="M1 14V8h3.6v6zM6.2 14V2h3.6v12zM11.4 14V5.5H15V14z" />
-      </svg>
-      {words.open}
-    </button>
   );
 }

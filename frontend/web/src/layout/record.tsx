@@ -41,7 +41,8 @@ export function RecordButton({ state }: { state: SessionState }) {
       onClick={() => void toggleRecording(state)}
     >
       <span class="record-dot" aria-hidden="true" />
-      {text.recording.running(formatSeconds(recording.ticks / rateHz))}
+      <span class="record-word">{text.recording.running}</span>{" "}
+      {formatSeconds(recording.ticks / rateHz)}
       <span class="visually-hidden">{text.recording.stop}</span>
     </button>
   );

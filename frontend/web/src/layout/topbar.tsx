@@ -1,13 +1,12 @@
-import { ArenaButton } from "../arena/page";
 import { HelpButton } from "../keys/help";
 import { LearnButton } from "../learning/panel";
 import { place } from "../runs/place";
 import { PlaceLink } from "../runs/placelink";
-import { RunsButton } from "../runs/runs";
 import { CallsButton } from "../script/drawer";
 import { theme, toggleTheme } from "../state/preferences";
 import { isLive, session } from "../state/session";
 import { text } from "../text/en";
+import { PagesMenu } from "./pages";
 import { RecordButton } from "./record";
 import { FigurePicker, Transport } from "./transport";
 
@@ -54,8 +53,7 @@ export function TopBar() {
       )}
       <div class="topbar-end">
         <LearnButton />
-        <ArenaButton />
-        <RunsButton />
+        <PagesMenu />
         <CallsButton />
         <HelpButton />
         <ThemeButton />

@@ -3,7 +3,7 @@ import { text } from "../text/en";
 import { deleted, takeBack } from "./list";
 import { ListPage } from "./listpage";
 import { OverlayPage } from "./overlaypage";
-import { isOfRuns, place, type RunsPlace, toggleRuns } from "./place";
+import type { RunsPlace } from "./place";
 import { runsProblem } from "./problem";
 import { RunPage } from "./runpage";
 
@@ -53,24 +53,5 @@ export function Runs({ at }: { at: RunsPlace }) {
       <Inside at={at} />
       <Undo />
     </main>
-  );
-}
-
-export function RunsButton() {
-  const isOpen = isOfRuns(place.value);
-  return (
-    <button
-      type="button"
-      class="button"
-      aria-pressed={isOpen}
-      aria-keyshortcuts="o"
-      title={isOpen ? text.runs.back : text.runs.openHint}
-      onClick={toggleRuns}
-    >
-      <svg viewBox="0 0 16 16" aria-hidden="true">
-        <path d="M1 2h14v2.5H1zM1 6.8h14v2.5H1zM1 11.5h14V14H1z" />
-      </svg>
-      {text.runs.open}
-    </button>
   );
 }

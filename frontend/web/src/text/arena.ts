@@ -16,8 +16,6 @@ const sweeps: Record<string, string> = {
 
 export const arenaText = {
   arena: {
-    open: "Arena",
-    openHint: "Every law in the same scenarios: errors, faults, robustness",
     title: "Arena",
     lead: "Every law on the same plant, torque limits, noise and loads. Press a number to see its run beside NDOBC in the lab; press a law to lay it into the web.",
     loading: "The table is on its way …",

@@ -5,6 +5,18 @@ export const pageText = {
   subtitle: "variable stiffness, live",
   session: "Session",
   view: "The actuator in 3D",
+  pages: {
+    open: "Pages",
+    openHint: "Runs, arena, tuning, and the documented routes",
+    names: { lab: "Lab", runs: "Runs", arena: "Arena", tune: "Tune …", docs: "REST and stream" },
+    hints: {
+      lab: "The actuator, live",
+      runs: "Recorded: look, compare, replay, export (O)",
+      arena: "Every law in the same scenarios: errors, faults, robustness",
+      tune: "Search a law's parameters on five training runs",
+      docs: "What a script can do here, in a new tab",
+    },
+  },
   figures: {
     heading: "Paper",
     name: { "4a": "Fig. 4A", "4b": "Fig. 4B", "5": "Fig. 5" },
@@ -92,7 +104,7 @@ export const pageText = {
     startHint: "Record every sample and command from now on",
     stop: "Stop recording",
     unknown: "Recording: not known",
-    running: (time: string) => `Recording ${time}`,
+    running: "Recording",
     saving: "Saving the recording…",
     saved: "Saved:",
     savedPartly: "Saved, but it ended early:",

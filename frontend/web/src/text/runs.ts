@@ -3,8 +3,6 @@ import { measuredText } from "./measured";
 
 export const runsText = {
   runs: {
-    open: "Runs",
-    openHint: "Recorded runs: look, compare, replay, export (O)",
     back: "Back to the lab",
     title: "Runs",
     count: (total: number) => (total === 1 ? "1 run" : `${total} runs`),

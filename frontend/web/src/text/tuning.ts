@@ -30,6 +30,8 @@ export const tuningText = {
     each: "each candidate",
     candidates: "candidates",
     costAxis: "cost",
+    values: "Parameters, before and best",
+    runs: "Training runs, before and with the best",
     parameter: "Parameter",
     before: "before",
     tuned: "best",

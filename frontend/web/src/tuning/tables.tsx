@@ -13,7 +13,8 @@ interface FoundProps {
 /** Every number that is searched: as it was, the best, and between which ends. */
 export function ValueTable({ tuning, present, best }: FoundProps) {
   return (
-    <div class="tuning-scroll">
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+    <section class="tuning-scroll" tabIndex={0} aria-label={words.values}>
       <table>
         <thead>
           <tr>
@@ -38,14 +39,15 @@ export function ValueTable({ tuning, present, best }: FoundProps) {
           ))}
         </tbody>
       </table>
-    </div>
+    </section>
   );
 }
 
 /** What each training run cost before, and costs with the best. */
 export function RunTable({ tuning, present, best }: FoundProps) {
   return (
-    <div class="tuning-runs tuning-scroll">
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+    <section class="tuning-runs tuning-scroll" tabIndex={0} aria-label={words.runs}>
       <table>
         <thead>
           <tr title={words.runHint}>
@@ -85,6 +87,6 @@ export function RunTable({ tuning, present, best }: FoundProps) {
           </tr>
         </tbody>
       </table>
-    </div>
+    </section>
   );
 }

@@ -1,0 +1,85 @@
+import type { ComponentChildren } from "preact";
+import { isOfRuns, type Place, place } from "../runs/place";
+import { PlaceLink } from "../runs/placelink";
+import { session } from "../state/session";
+import { text } from "../text/en";
+import { isOpen as isTuning } from "../tuning/tuning";
+import { Popup } from "../widgets/popup";
+
+const words = text.pages;
+type Page = "lab" | "runs" | "arena";
+const PAGES: Readonly<Record<Page, Place>> = {
+  lab: { kind: "lab" },
+  runs: { kind: "list" },
+  arena: { kind: "arena" },
+};
+
+/** A run and an overlay are of the runs. */
+export const pageOf = (at: Place): Page =>
+  isOfRuns(at) ? "runs" : at.kind === "arena" ? "arena" : "lab";
+
+function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren {
+  return (
+    <>
+      <strong>{words.names[name]}</strong>
+      <small>{words.hints[name]}</small>
+    </>
+  );
+}
+
+/** Where one can go from here: every page, the search for parameters, the routes for scripts. */
+export function PagesMenu() {
+  const here = pageOf(place.value);
+  return (
+    <Popup
+      button={
+        <>
+          <svg viewBox="0 0 16 16" aria-hidden="true">
+            <path d="M1 2h14v2.5H1zM1 6.8h14v2.5H1zM1 11.5h14V14H1z" />
+          </svg>
+          {words.open}
+        </>
+      }
+      title={words.openHint}
+      name={words.open}
+      class="button"
+      popupClass="pages"
+    >
+      {(close) => (
+        <nav aria-label={words.open}>
+          <ul>
+            {(Object.keys(PAGES) as Page[]).map((page) => (
+              <li key={page}>
+                <PlaceLink
+                  to={PAGES[page]}
+                  isHere={page === here}
+                  shortcut={page === "runs" ? "o" : undefined}
+                  onGo={close}
+                >
+                  <Entry name={page} />
+                </PlaceLink>
+              </li>
+            ))}
+            <li>
+              <button
+                type="button"
+                disabled={session.value === null}
+                onClick={() => {
+                  close();
+                  isTuning.value = true;
+                }}
+              >
+                <Entry name="tune" />
+              </button>
+            </li>
+            <li>
+              <a href="docs" target="_blank" rel="noopener" onClick={close}>
+                <Entry name="docs" />
+              </a>
+            </li>
+          </ul>
+        </nav>
+      )}
+    </Popup>
+  );
+}

@@ -1,0 +1,66 @@
+"""The panel *Tune*: a search is begun, followed to its end and put to use, by keyboard alone."""
+
+import re
+
+import httpx
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from svsa.run.configuration import parse_design
+from tests.browser.test_page import go_to_page, open_page
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+CANDIDATES = 12
+PATIENCE_MS = 120_000  # it may have to compile the law first
+
+
+def open_tuning(page: Page) -> Locator:
+    go_to_page(page, "Tune …")
+    panel = page.get_by_role("dialog", name="Tune a law")
+    expect(panel).to_be_visible()
+    return panel
+
+
+def tune(panel: Locator) -> None:
+    """Search FL + I from what it is set to, to the end."""
+    panel.get_by_label("Law").select_option("fl_integral")
+    panel.get_by_label("Candidates").fill(str(CANDIDATES))
+    panel.get_by_role("button", name="Start").press("Enter")
+    end = panel.get_by_text(f"FL + I: {CANDIDATES} of {CANDIDATES} candidates. Done.")
+    expect(end).to_be_visible(timeout=PATIENCE_MS)
+
+
+def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: Lab) -> None:
+    lab.load_figure(law="fl_integral")
+    open_page(page, lab)
+    panel = open_tuning(page)
+    panel.get_by_label("Candidates").fill("0")
+    expect(panel.get_by_role("alert")).to_have_text(re.compile("^1 to 2000"))
+    expect(panel.get_by_role("button", name="Start")).to_be_disabled()
+    tune(panel)
+
+    found = lab.client.get("/api/v1/tunings").json()[0]
+    present, best = found["present"], found["best"]
+    assert best["cost"] < present["cost"]
+    curve = panel.get_by_role("img", name=re.compile(f"^Best cost over {CANDIDATES} candidates"))
+    expect(curve).to_be_visible()
+    values = panel.get_by_role("table").first.get_by_role("row")
+    expect(values).to_have_count(1 + len(found["axes"]))
+    for row, tried in zip(values.all()[1:], best["values"], strict=True):
+        assert float(row.get_by_role("cell").nth(1).inner_text()) == pytest.approx(tried, rel=1e-3)
+
+    panel.get_by_role("button", name="Use these").press("Enter")
+    expect(panel.get_by_text("This session is set to them.")).to_be_visible()
+    setting = found["best_setting"]["parameters"]
+    assert lab.read()["configuration"]["parameters"]["fl_integral"] == setting
+    address = panel.get_by_role("link", name="Save as file").get_attribute("href")
+    assert address is not None
+    text = httpx.get(address, trust_env=False).raise_for_status().text
+    saved = parse_design(text).parameters["fl_integral"]
+    assert saved._asdict() == setting
+
+    page.keyboard.press("Escape")
+    expect(panel).to_be_hidden()
+    expect(open_tuning(page).get_by_text(re.compile("Done"))).to_be_visible()
