@@ -32,6 +32,14 @@ class WindowState(Period):
     label: str = Field(description="What began it, in words; empty for the start of the run")
 
 
+class EndedWindowState(WindowState):
+    """A window after which something was changed, and how well the lanes did in it."""
+
+    lanes: list[Metrics | None] = Field(
+        description="Of the present lanes in their order; null for one that was not there"
+    )
+
+
 class LaneMetrics(BaseModel):
     """How well a lane does; null where it was not there at the beginning of what is measured."""
 

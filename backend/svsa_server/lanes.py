@@ -8,7 +8,7 @@ from svsa.records.reader import Record
 from svsa.run.timeline import Stretch, Timeline, Window, name_stretches
 from svsa.session.journal import KEPT_S
 from svsa.session.session import Session
-from svsa_server.lane_schemas import StretchState, WindowState
+from svsa_server.lane_schemas import EndedWindowState, StretchState, WindowState
 
 MAX_STRETCHES = 200
 
@@ -48,6 +48,19 @@ def build_window(window: Window, period_s: float) -> WindowState:
         end_tick=end,
         end_s=None if end is None else end * period_s,
     )
+
+
+def list_ended_windows(session: Session) -> list[EndedWindowState]:
+    """The windows of the last `KEPT_S` that have ended, each with its metrics."""
+    journal, period_s = session.journal, session.run.period_s
+    ended = {one.first_tick: one.lanes for one in journal.metrics.ended}
+    first_tick = max(0, session.run.tick - round(KEPT_S / period_s))
+    windows = journal.timeline.list_windows(first_tick, session.run.tick + 1)
+    return [
+        EndedWindowState(**dict(build_window(window, period_s)), lanes=ended[window.first_tick])
+        for window in windows
+        if window.end_tick is not None and window.first_tick in ended
+    ]
 
 
 def _build(lanes: Sequence[Sequence[Stretch]], period_s: float) -> list[list[StretchState]]:

@@ -14,7 +14,7 @@ from svsa.run.configuration import MAX_LANES, Configuration, Design
 from svsa.run.events import Event
 from svsa_server.bench_schemas import BenchState
 from svsa_server.control_schemas import ControlState, QueueState
-from svsa_server.lane_schemas import LaneMetrics, LaneState, WindowState
+from svsa_server.lane_schemas import EndedWindowState, LaneMetrics, LaneState, WindowState
 from svsa_server.law_schemas import InstalledLane
 from svsa_server.recording_schemas import ExcitationState, RecordingState
 from svsa_server.setting_schemas import ConfigurationState
@@ -125,6 +125,9 @@ class SessionState(SessionProgress):
     configuration: ConfigurationState
     loads: list[LoadState]
     events: list[Event]
+    ended_windows: list[EndedWindowState] = Field(
+        description="Those that reach into the last 60 s, the newest last; not `window`"
+    )
     sample: dict[str, float | None] | None = Field(
         description="The newest sample, by channel; null where a bench does not know it"
     )

@@ -21,7 +21,7 @@ from svsa_server.excitation import build_excitation
 from svsa_server.gain_schemas import GainsState, Root
 from svsa_server.hosted import HostedSession
 from svsa_server.lane_schemas import LaneMetrics, LaneState
-from svsa_server.lanes import build_window, list_session_stretches
+from svsa_server.lanes import build_window, list_ended_windows, list_session_stretches
 from svsa_server.recording_schemas import RecordingState
 from svsa_server.session_schemas import BranchState, LoadState, SessionProgress, SessionState
 from svsa_server.setting_schemas import ConfigurationState
@@ -78,6 +78,7 @@ def build_state(hosted: HostedSession) -> SessionState:
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
         events=list(session.journal.events),
+        ended_windows=list_ended_windows(session),
         sample=None if newest is None else _name_values(newest),
     )
 

@@ -108,7 +108,7 @@ class Journal:
                 if taken.start_tick < self.run.tick <= taken.end_tick:
                     self._end_load(taken.load)
                     self.timeline.take_off(taken.load, self.run.tick)
-                    self.metrics.begin_window()
+                    self.metrics.begin_window(self.run.tick)
                 self.version += 1
             case _:
                 self.log(command.kind, describe_change(command, before.law))
@@ -121,7 +121,7 @@ class Journal:
             self.history.rearrange(origins)
             self.metrics.rearrange(origins, is_fresh=self.run.tick == 0)
         if self.timeline.window is not window:
-            self.metrics.begin_window()
+            self.metrics.begin_window(self.run.tick)
 
     def log(self, kind: str, label: str) -> None:
         """Enter an event at the present tick."""
@@ -166,7 +166,7 @@ class Journal:
     def _begin_load(self, load: Load) -> None:
         self.log("load_on", describe_onset(load))
         self.timeline.begin_load(load, self.run.tick)
-        self.metrics.begin_load()
+        self.metrics.begin_load(self.run.tick)
         self._hang_loads()
 
     def _end_load(self, load: Load) -> None:

@@ -229,6 +229,31 @@ def test_no_control_of_the_live_session_stands_above_a_replay(
     expect(top.get_by_role("button", name="Record", exact=True)).to_be_visible()
 
 
+def test_a_run_that_is_not_there_says_so_and_leads_back(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    page.goto(f"{own_lab.url}/?run=20200101-000000-deadbeef")
+    expect(page.get_by_role("heading", name="This run cannot be shown")).to_be_visible()
+    expect(page.get_by_role("alert")).to_contain_text("20200101-000000-deadbeef")
+    page.get_by_role("link", name="All runs").press("Enter")
+    expect(find_names(page)).to_have_count(len(runs))
+
+
+NAMES_CUT = """() => [...document.querySelectorAll(".run-title > :first-child")]
+    .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText)"""
+
+
+def test_a_run_is_named_whole_beside_its_tags(
+    page: Page, own_lab: Lab, runs: tuple[str, str]
+) -> None:
+    tags = {"name": "", "tags": ["stiff", "before the holidays", "group 3"]}
+    own_lab.client.patch(f"/api/v1/runs/{runs[0]}", json=tags).raise_for_status()
+    open_list(page, own_lab)
+    name = find_names(page).filter(has_text="Fig. 4A · NDOBC vs FL · σ 15 · 3 kg")
+    expect(name).to_be_visible()
+    assert page.evaluate(NAMES_CUT) == []
+
+
 def test_a_link_opens_the_same_run_at_the_same_moment(
     page: Page, own_lab: Lab, runs: tuple[str, str]
 ) -> None:
@@ -242,6 +267,14 @@ def test_a_link_opens_the_same_run_at_the_same_moment(
     find_replay(page).get_by_role("slider", name="Time").fill("2.5")
     expect(page.get_by_role("button", name="Branch at 2.5 s")).to_be_visible()
     page.wait_for_url(re.compile(r"t=2\.5\b"))
+
+    root = find_replay(page).locator(":root")
+    root.evaluate("one => { one.dataset.kept = 'yes' }")
+    page.get_by_role("button", name="Dark theme").click()
+    expect(root).to_have_attribute("data-theme", "dark")
+    expect(root, "the same page as before").to_have_attribute("data-kept", "yes")
+    expect(time).to_have_text("2.50 s")
+    page.get_by_role("button", name="Light theme").click()
 
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     page.get_by_role("button", name="Copy link").press("Enter")

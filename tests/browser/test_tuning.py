@@ -59,7 +59,7 @@ def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: La
     assert address is not None
     text = httpx.get(address, trust_env=False).raise_for_status().text
     saved = parse_design(text).parameters["fl_integral"]
-    assert saved._asdict() == setting
+    assert saved.model_dump(mode="json") == setting
 
     page.keyboard.press("Escape")
     expect(panel).to_be_hidden()

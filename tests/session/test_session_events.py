@@ -76,6 +76,26 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     assert rival is None, "the load was on before this lane began"
 
 
+def test_a_window_that_has_ended_keeps_its_numbers_of_the_lanes_that_are_left():
+    """What a mark tells of an event is what the table told of it when it was the newest."""
+    session = build_session()
+    session.step(10)
+    session.change(SetRivals(argument=(svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
+    session.step(30)
+    loaded = [metrics.summarize() for metrics in session.journal.metrics.in_window]
+    session.change(SetStiffness(argument=svsa.ConstantStiffness(stiffness_nm_per_rad=20.0)))
+    session.change(SetLaw(argument="fl"))
+    session.step(5)
+    session.change(SetRivals(argument=(svsa.Lane(law="fl_integral"),)))
+    ended = {one.first_tick: one.lanes for one in session.journal.metrics.ended}
+    assert list(ended) == [0, 10]
+    assert ended[10] == [loaded[0], loaded[2]]
+    assert (ended[0][0].duration_s, ended[0][1]) == (pytest.approx(0.01), None)
+    session.change(SetLaw(argument="ndobc"))
+    assert [one.first_tick for one in session.journal.metrics.ended] == [0, 10, 40]
+
+
 def test_taking_a_load_off_is_logged_and_ends_it():
     session = build_session()
     session.change(ApplyLoad(argument=svsa.PaperLoad()))

@@ -2292,6 +2292,39 @@ export interface components {
             deflection_counts_per_rev: number;
         };
         /**
+         * EndedWindowState
+         * @description A window after which something was changed, and how well the lanes did in it.
+         */
+        EndedWindowState: {
+            /** Start Tick */
+            start_tick: number;
+            /** Start S */
+            start_s: number;
+            /**
+             * End Tick
+             * @description Null: until now
+             */
+            end_tick: number | null;
+            /** End S */
+            end_s: number | null;
+            /**
+             * Kind
+             * @description What began it
+             * @enum {string}
+             */
+            kind: "start" | "load" | "unload" | "change";
+            /**
+             * Label
+             * @description What began it, in words; empty for the start of the run
+             */
+            label: string;
+            /**
+             * Lanes
+             * @description Of the present lanes in their order; null for one that was not there
+             */
+            lanes: (components["schemas"]["Metrics"] | null)[];
+        };
+        /**
          * Event
          * @description Something that changed the run: when, of what kind, and in words.
          */
@@ -4720,6 +4753,11 @@ export interface components {
             loads: components["schemas"]["LoadState"][];
             /** Events */
             events: components["schemas"]["Event"][];
+            /**
+             * Ended Windows
+             * @description Those that reach into the last 60 s, the newest last; not `window`
+             */
+            ended_windows: components["schemas"]["EndedWindowState"][];
             /**
              * Sample
              * @description The newest sample, by channel; null where a bench does not know it

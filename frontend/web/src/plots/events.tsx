@@ -12,12 +12,12 @@ const LABEL_GAP_PX = 6;
 
 interface MarkProps {
   event: SessionEvent;
-  /** When its step ends: at the next event. */
-  untilS: number;
+  /** When the next event comes, s. */
+  nextS: number;
 }
 
 /** One event: its name where there is room, and what it did, on hover or focus. */
-function Mark({ event, untilS }: MarkProps) {
+function Mark({ event, nextS }: MarkProps) {
   const [isOpen, setOpen] = useState(false);
   useEffect(() => (isOpen ? closeOnEscape(() => setOpen(false)) : undefined), [isOpen]);
   return (
@@ -40,7 +40,7 @@ function Mark({ event, untilS }: MarkProps) {
         </svg>
         <span class="mark-label">{event.label}</span>
       </button>
-      {isOpen && <StepNumbers event={event} untilS={untilS} />}
+      {isOpen && <StepNumbers event={event} nextS={nextS} />}
     </li>
   );
 }
@@ -115,7 +115,7 @@ export function EventMarks() {
         <Mark
           key={keys[index]}
           event={event}
-          untilS={
+          nextS={
             events.slice(index + 1).find(({ time_s }) => time_s > event.time_s)?.time_s ?? Infinity
           }
         />

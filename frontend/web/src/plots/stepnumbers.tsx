@@ -1,25 +1,26 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
-import { controllerAt } from "../state/lanes";
+import { cast, controllerAt } from "../state/lanes";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { inkOf } from "./inks";
 import { Swatch } from "./legend";
 import { shownCast, shownRing } from "./span";
-import { measureStep } from "./statistics";
+import { findStep } from "./stepmetrics";
 
 const AGAIN_MS = 500;
-const ERROR = "position_error_rad";
 
 const degrees = (rad: number) => formatNumber(toDegrees(rad), 3, 3);
 
 interface StepNumbersProps {
   event: SessionEvent;
-  untilS: number;
+  /** When the next event comes, s. */
+  nextS: number;
 }
 
 /** What an event did to the position, lane by lane, while nothing else happened. */
-export function StepNumbers({ event, untilS }: StepNumbersProps) {
+export function StepNumbers({ event, nextS }: StepNumbersProps) {
   const [, setCount] = useState(0);
   const panel = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -36,10 +37,14 @@ export function StepNumbers({ event, untilS }: StepNumbersProps) {
     const shift = Math.min(0, room.right - right) + Math.max(0, room.left - left);
     element.style.marginLeft = `${shift}px`;
   });
-  const ring = shownRing();
-  const rows = shownCast.value.flatMap((stretches, index) => {
+  const state = session.value;
+  if (state === null) return null;
+  const shown = shownCast.value;
+  const of = { ring: shownRing(), shown, present: cast.value };
+  const { untilS, read } = findStep(state, event, nextS, of);
+  const rows = shown.flatMap((stretches, index) => {
     const controller = controllerAt(stretches, event.time_s);
-    const metrics = measureStep(ring, ERROR, index + 1, event.time_s, untilS);
+    const metrics = read(index);
     return controller === undefined ? [] : [{ ...controller, lane: index + 1, metrics }];
   });
   const isHeld = rows.some(({ metrics }) => metrics !== null);

@@ -1,4 +1,5 @@
-/** The page of an exported run; `window.svsaReplay` lets a console or a test move it. */
+/** The page of an exported run; `window.svsaReplay` lets a console, a test or the page
+ * around it move it. */
 import "uplot/dist/uPlot.min.css";
 import "../theme.css";
 import "../widgets/plantmark.css";
@@ -11,6 +12,7 @@ import "./numbers.css";
 import "./plots.css";
 import "./playback.css";
 import { render } from "preact";
+import { type Theme, theme } from "../state/preferences";
 import { text } from "../text/replay";
 import { App } from "./app";
 import { seek, setUpClock, timeS } from "./clock";
@@ -19,7 +21,7 @@ import { answerKey } from "./keys";
 
 declare global {
   interface Window {
-    svsaReplay: { time(): number; seek(timeS: number): void };
+    svsaReplay: { time(): number; seek(timeS: number): void; setTheme(chosen: Theme): void };
   }
 }
 
@@ -43,7 +45,10 @@ try {
   document.documentElement.classList.toggle("is-embedded", window.parent !== window);
   render(<App recording={recording} />, host);
   window.addEventListener("keydown", answerKey);
-  window.svsaReplay = { time: () => timeS.peek(), seek };
+  const setTheme = (chosen: Theme) => {
+    theme.value = chosen;
+  };
+  window.svsaReplay = { time: () => timeS.peek(), seek, setTheme };
 } catch (error) {
   console.error(error);
   host.textContent = text.broken;

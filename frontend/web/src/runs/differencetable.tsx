@@ -1,9 +1,6 @@
-import { useEffect, useState } from "preact/hooks";
-import { readDifference } from "../api/runs";
 import type { RunDifference } from "../api/types";
 import { text } from "../text/en";
 import { formatSetting } from "./difference";
-import { attempt } from "./problem";
 
 const words = text.difference;
 type Row = RunDifference["differences"][number];
@@ -34,21 +31,7 @@ function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
 }
 
 /** What was set otherwise in one of these runs than in another, and nothing else. */
-export function DifferenceTable({ runs }: { runs: readonly string[] }) {
-  const [difference, setDifference] = useState<RunDifference | null>(null);
-  const key = runs.join();
-  useEffect(() => {
-    let isGone = false;
-    const [run, ...others] = key.split(",") as [string, ...string[]];
-    if (others.length === 0) return;
-    void attempt(() => readDifference(run, others)).then((answer) => {
-      if (!isGone) setDifference(answer);
-    });
-    return () => {
-      isGone = true;
-    };
-  }, [key]);
-  if (difference === null) return null;
+export function DifferenceTable({ difference }: { difference: RunDifference }) {
   const { differences, titles } = difference;
   if (differences.length === 0) return <p class="difference-none">{words.none}</p>;
   const groups = [...new Set(differences.map(({ group }) => group))];

@@ -30,6 +30,8 @@ export interface Overlaid {
   hasOnset: boolean;
   /** In which the numbers were measured; null where that is not known. */
   window: MeasuredWindow | null;
+  /** Its loads and when they came; the same for runs that had the same. */
+  loads: string;
   /** When something was changed after that window's beginning, s after it; null: never. */
   changedS: number | null;
   ink: Ink;
@@ -54,6 +56,17 @@ function readLane(samples: RunSamples, lane: string): Overlaid["values"] {
   };
 }
 
+/** Every load of a run up to the end of its measured window, in session time, and when that began. */
+function keyOfLoads(run: RunDetails): string {
+  const { configuration, commands, command_count: count, window } = run;
+  if (window === null || count > commands.length) return run.id;
+  const given = commands.filter(
+    ({ tick, command }) =>
+      ["load", "unload"].includes(String(command.kind)) && tick < window.end_tick,
+  );
+  return JSON.stringify([configuration.loads, given, window.first_tick]);
+}
+
 async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
   const [run, samples] = await Promise.all([readRun(id), readSamples(id, CHANNELS, POINTS)]);
   return overlay(run, samples);
@@ -73,6 +86,7 @@ export function overlay(run: RunDetails, samples: RunSamples): Omit<Overlaid, "i
     isAlone: run.lanes.length === 1,
     hasOnset: window?.kind === "load",
     window: window && shiftToRecord(window, run),
+    loads: keyOfLoads(run),
     changedS: isCut ? window.end_s - zero : null,
     time,
     values: readLane(samples, lane),

@@ -1,5 +1,7 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import uPlot from "uplot";
+import { readDifference } from "../api/runs";
+import type { RunDifference } from "../api/types";
 import { Legend, useHidden } from "../plots/legend";
 import { type StaticContent, spanWithin, wholeOf } from "../plots/staticchart";
 import { useStaticChart } from "../plots/usestaticchart";
@@ -102,12 +104,20 @@ function OverlayCurves({ curves }: { curves: readonly Overlaid[] }) {
 /** Runs over one another, from where the window of the numbers of each begins: its last load. */
 export function OverlayPage({ runs }: { runs: readonly string[] }) {
   const [curves, setCurves] = useState<readonly Overlaid[] | null>(null);
+  const [difference, setDifference] = useState<RunDifference | null>(null);
   const key = runs.join();
   useEffect(() => {
     let isGone = false;
-    void attempt(() => readOverlaid(key.split(","))).then((read) => {
+    const [run, ...others] = key.split(",") as [string, ...string[]];
+    void attempt(() => readOverlaid([run, ...others])).then((read) => {
       if (!isGone) setCurves(read ?? []);
     });
+    setDifference(null);
+    if (others.length > 0) {
+      void attempt(() => readDifference(run, others)).then((answer) => {
+        if (!isGone) setDifference(answer);
+      });
+    }
     return () => {
       isGone = true;
     };
@@ -127,8 +137,8 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
       {curves && curves.length > 0 && (
         <div class="overlay">
           <OverlayCurves curves={curves} />
-          <OverlayTable curves={curves} />
-          <DifferenceTable runs={key.split(",")} />
+          <OverlayTable curves={curves} difference={difference} />
+          {difference && <DifferenceTable difference={difference} />}
         </div>
       )}
     </>

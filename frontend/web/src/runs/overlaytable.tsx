@@ -1,8 +1,9 @@
-import type { Metrics } from "../api/types";
+import type { Metrics, RunDifference } from "../api/types";
 import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { bestOf } from "../widgets/best";
+import { areOfOneLength, whyUnlike } from "./alike";
 import { describeMeasured } from "./measured";
 import { nameCurve, type Overlaid } from "./overlaid";
 
@@ -12,47 +13,63 @@ interface Column {
   name: string;
   unit: string;
   read: (metrics: Metrics) => number | null;
+  /** What the smallest value needs to be the best, beside runs that are alike; null: it is not. */
+  isBest: "always" | "in one length" | null;
 }
 
-const COLUMNS: readonly Column[] = [
+export const COLUMNS: readonly Column[] = [
   {
     name: words.rmsError,
     unit: words.degrees,
     read: (metrics) => toDegrees(metrics.rms_position_error_rad),
+    isBest: "in one length",
   },
   {
     name: words.peakError,
     unit: words.degrees,
     read: (metrics) => toDegrees(metrics.peak_position_error_rad),
+    isBest: "always",
   },
   {
     name: words.settledError,
     unit: words.degrees,
     read: ({ settled_position_error_rad: rad }) => (rad === null ? null : toDegrees(rad)),
+    isBest: "always",
   },
-  { name: words.recovery, unit: words.secondsUnit, read: (metrics) => metrics.recovery_time_s },
+  {
+    name: words.recovery,
+    unit: words.secondsUnit,
+    read: (metrics) => metrics.recovery_time_s,
+    isBest: "always",
+  },
   {
     name: words.rmsStiffness,
     unit: words.stiffnessUnit,
     read: (metrics) => metrics.rms_stiffness_error_nm_per_rad,
+    isBest: "in one length",
   },
-  { name: words.peakTorque, unit: words.torqueUnit, read: (metrics) => metrics.peak_torque1_nm },
+  {
+    name: words.peakTorque,
+    unit: words.torqueUnit,
+    read: (metrics) => metrics.peak_torque1_nm,
+    isBest: null,
+  },
 ];
 
-/** Whether the numbers are of windows that began in the same way. */
-export function areAlike(curves: readonly Overlaid[]): boolean {
-  const begins = curves.map(({ window }) => window && `${window.kind} ${window.label}`);
-  return !begins.includes(null) && new Set(begins).size === 1;
-}
-
 /**
- * Whose value is clearly the smallest is marked, where the windows are alike; a run that never came
- * back is no winner.
+ * Whose value is clearly the smallest is marked, where like is compared; a run that never came back
+ * is no winner.
  */
-function readColumn(curves: readonly Overlaid[], { read }: Column) {
-  const values = curves.map(({ metrics }) => (metrics === null ? null : read(metrics)));
-  const best = bestOf(values.map((value) => value ?? Number.POSITIVE_INFINITY));
-  return { values, best: areAlike(curves) ? best : -1 };
+export function findBest(
+  curves: readonly Overlaid[],
+  { read, isBest }: Column,
+  isAlike: boolean,
+): number {
+  const mayBe = isAlike && (isBest === "always" || (isBest !== null && areOfOneLength(curves)));
+  if (!mayBe) return -1;
+  return bestOf(
+    curves.map(({ metrics }) => (metrics && read(metrics)) ?? Number.POSITIVE_INFINITY),
+  );
 }
 
 /** Named by who controlled in it, where the curve is of several. */
@@ -62,21 +79,28 @@ function windowOf({ window, lane, measuredLane }: Overlaid): string {
     : describeMeasured({ ...window, lanes: [measuredLane] }, lane !== measuredLane);
 }
 
+interface OverlayTableProps {
+  curves: readonly Overlaid[];
+  /** Of the settings of the runs; null where it is not known. */
+  difference: RunDifference | null;
+}
+
 /** The curves of an overlay in numbers. */
-export function OverlayTable({ curves }: { curves: readonly Overlaid[] }) {
-  const columns: MetricsColumn[] = COLUMNS.map((column) => {
-    const { values, best } = readColumn(curves, column);
-    return {
-      key: column.name,
-      title: (
-        <>
-          {column.name} <span class="unit">{column.unit}</span>
-        </>
-      ),
-      cell: (row) => formatNumber(values[row], 3, 4),
-      best,
-    };
-  });
+export function OverlayTable({ curves, difference }: OverlayTableProps) {
+  const why = whyUnlike(curves, difference);
+  const columns: MetricsColumn[] = COLUMNS.map((column) => ({
+    key: column.name,
+    title: (
+      <>
+        {column.name} <span class="unit">{column.unit}</span>
+      </>
+    ),
+    cell: (row) => {
+      const metrics = curves[row]?.metrics;
+      return formatNumber(metrics && column.read(metrics), 3, 4);
+    },
+    best: findBest(curves, column, why === ""),
+  }));
   const window: MetricsColumn = {
     key: words.window,
     title: words.window,
@@ -91,7 +115,10 @@ export function OverlayTable({ curves }: { curves: readonly Overlaid[] }) {
         caption={
           <span>
             {words.table}
-            {!areAlike(curves) && <small class="unit"> {words.unequal}</small>}
+            {why !== "" && <small class="unit"> {words.noBest(why)}</small>}
+            {why === "" && !areOfOneLength(curves) && (
+              <small class="unit"> {words.noBestRms}</small>
+            )}
           </span>
         }
         corner={words.run}

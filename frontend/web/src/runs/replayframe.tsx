@@ -1,3 +1,4 @@
+import { useSignalEffect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { replayAddress } from "../api/runs";
 import { pressStop } from "../safety/stop";
@@ -33,23 +34,26 @@ function readRefusal(shown: Document | null): string | null {
   }
 }
 
-/** The replay page of a run; made anew where the theme changes, at the moment that was shown. */
+/** The replay page of a run; it takes the theme of this page as it stands. */
 export function ReplayFrame({ run, name, startS, onMoment }: ReplayFrameProps) {
   const frame = useRef<HTMLIFrameElement>(null);
   const moment = useRef(startS);
   const [tries, setTries] = useState(0);
-  const address = `${theme.value} ${run} ${tries}`;
+  const address = `${run} ${tries}`;
   const [came, setCame] = useState<{ address: string; refusal: string | null } | null>(null);
+  const replayOf = () => (frame.current?.contentWindow as Partial<Window> | null)?.svsaReplay;
   const answer = came?.address === address ? came : null;
   useEffect(() => {
     const timer = setInterval(() => {
-      const replay = (frame.current?.contentWindow as Partial<Window> | null)?.svsaReplay;
+      const replay = replayOf();
       if (replay === undefined) return;
+      replay.setTheme(theme.peek());
       moment.current = replay.time();
       onMoment(moment.current);
     }, ASK_MS);
     return () => clearInterval(timer);
   }, [onMoment]);
+  useSignalEffect(() => replayOf()?.setTheme(theme.value));
   return (
     <div class="replay-place">
       {answer === null && (

@@ -99,11 +99,15 @@ function Name({ run }: { run: RunSummary }) {
         )}
         <State run={run} />
         <PlantMark kind={markOf(run.plant)} />
-        {run.tags.map((tag) => (
-          <span key={tag} class="run-tag">
-            <Marked>{tag}</Marked>
+        {run.tags.length > 0 && (
+          <span class="run-tags" title={run.tags.join(", ")}>
+            {run.tags.map((tag) => (
+              <span key={tag} class="run-tag">
+                <Marked>{tag}</Marked>
+              </span>
+            ))}
           </span>
-        ))}
+        )}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {notes !== "" && (
           <span class="run-notes" title={notes}>

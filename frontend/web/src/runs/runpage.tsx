@@ -91,6 +91,19 @@ function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummar
   );
 }
 
+/** In place of a run that cannot be read; why, says the line above. */
+function Missing() {
+  return (
+    <div class="runs-empty">
+      <h2>{words.missing}</h2>
+      <p>{words.missingText}</p>
+      <PlaceLink to={{ kind: "list" }} class="button is-primary">
+        {words.toList}
+      </PlaceLink>
+    </div>
+  );
+}
+
 const SETTLED = 2;
 
 /** The moment of the replay; the address follows it once it rests. */
@@ -113,16 +126,20 @@ function useMoment(run: string, startS: number) {
 /** One run: replayed, named, branched, exported. */
 export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
   const [run, setRun] = useState<RunDetails | null>(null);
+  const [isMissing, setMissing] = useState(false);
   const { moment, follow } = useMoment(id, timeS);
   useEffect(() => {
     let isGone = false;
     void attempt(() => readRun(id)).then((answer) => {
-      if (!isGone) setRun(answer);
+      if (isGone) return;
+      setRun(answer);
+      setMissing(answer === null);
     });
     return () => {
       isGone = true;
     };
   }, [id]);
+  if (isMissing) return <Missing />;
   if (run === null) {
     return (
       <div class="run-head">

@@ -109,6 +109,9 @@ export const runsText = {
   },
   run: {
     toList: "All runs",
+    missing: "This run cannot be shown",
+    missingText:
+      "It may have been removed for good, or its address may be that of another lab or have lost a part.",
     name: "Name",
     notes: "Notes",
     notesHint: "What was tried, what came out",
@@ -147,7 +150,15 @@ export const runsText = {
     toggle: (name: string) => `Show or hide ${name}`,
     hint: "Drag: zoom in. Double click: everything.",
     table: "Each in the window named, from every sample",
-    unequal: "The windows are not alike: no value is marked as the best.",
+    noBest: (why: string) => `No value is marked as the best: ${why}.`,
+    noBestRms: "rms is not marked as the best: the windows are of different length.",
+    unlike: {
+      windows: "the windows did not begin in the same way",
+      unknown: "what else differs is not known",
+      settings: (groups: readonly string[]) =>
+        `more than the controllers differs: ${groups.join(", ")}`,
+      loads: "the loads differ, or came at different times of the run",
+    },
     run: "Run",
     window: "Window",
     windowHint: "In the time of the replay; on the axis it begins at 0",

@@ -20,7 +20,7 @@ let tellDegrees: typeof import("../../src/runs/columns").tellDegrees;
 let describeMeasured: typeof import("../../src/runs/measured").describeMeasured;
 let explainSettled: typeof import("../../src/runs/measured").explainSettled;
 let overlay: typeof import("../../src/runs/overlaid").overlay;
-let areAlike: typeof import("../../src/runs/overlaytable").areAlike;
+let whyUnlike: typeof import("../../src/runs/alike").whyUnlike;
 let drawSpark: typeof import("../../src/runs/spark").drawSpark;
 let findWords: typeof import("../../src/runs/found").findWords;
 let excerpt: typeof import("../../src/runs/found").excerpt;
@@ -45,7 +45,7 @@ beforeAll(async () => {
   ({ describeMeasured, explainSettled } = await import("../../src/runs/measured"));
   ({ tellDegrees } = await import("../../src/runs/columns"));
   ({ overlay } = await import("../../src/runs/overlaid"));
-  ({ areAlike } = await import("../../src/runs/overlaytable"));
+  ({ whyUnlike } = await import("../../src/runs/alike"));
   ({ drawSpark } = await import("../../src/runs/spark"));
   ({ findWords, excerpt } = await import("../../src/runs/found"));
   ({ formatSetting } = await import("../../src/runs/difference"));
@@ -114,8 +114,8 @@ describe("the window of a run's numbers", () => {
     expect(later[0]?.window).toMatchObject({ start_s: 0.5, end_s: 3.5 });
     const [other] = overlay(details({ ...run, window: whole }), samples);
     expect(other).toMatchObject({ hasOnset: false, changedS: null });
-    expect(areAlike([curve, other] as never)).toBe(false);
-    expect(areAlike([curve, curve] as never)).toBe(true);
+    expect(whyUnlike([curve, other] as never, null)).toMatch(/did not begin in the same way/);
+    expect(whyUnlike([curve, curve] as never, null)).toBe("");
   });
 });
 
