@@ -30,12 +30,22 @@ class Exchange:
             server.send(greeting, self._stamp(self._rig.now_us), to=client)
         for client, frame in heard:
             self._take(server, client, frame)
+        self._flush()
 
     def advance_to(self, time_us: int) -> None:
         """Let the rig go on to this time, and say what it says meanwhile."""
+        self._advance_to(time_us)
+        self._flush()
+
+    def _advance_to(self, time_us: int) -> None:
         for said_us, frame, sender in self._rig.advance_to(time_us):
             for server in self._servers:
                 server.send(frame, self._stamp(said_us), but=sender)
+
+    def _flush(self) -> None:
+        """All that a client is said for one reason goes in one write: it wakes up once."""
+        for server in self._servers:
+            server.flush()
 
     def _stamp(self, time_us: int) -> float:
         return self._origin_s + time_us * 1e-6
@@ -46,7 +56,7 @@ class Exchange:
             self._rig.receive(frame, client)
             return
         if self._lockstep:
-            self.advance_to(min(decode_time(frame.data), self._rig.now_us + LONGEST_STEP_US))
+            self._advance_to(min(decode_time(frame.data), self._rig.now_us + LONGEST_STEP_US))
         now_us = self._rig.now_us
         echo = Frame(ADVANCE_ID, encode_time(now_us), extended=True)
         server.send(echo, self._stamp(now_us), to=client)

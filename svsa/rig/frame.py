@@ -18,7 +18,7 @@ class Frame(NamedTuple):
 
 
 class FrameServer(Protocol):
-    """Single-threaded, never blocking: `select` on `sources`, then `poll`, then `send`."""
+    """Single-threaded, never blocking: `select` on `sources`, `poll`, `send`, then `flush`."""
 
     def sources(self) -> list[Any]:
         """What to select on for reading, now; it changes as clients come and go."""
@@ -43,6 +43,10 @@ class FrameServer(Protocol):
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
         """Say a frame at the rig's time: to all who listen, to one of them, or to all but one."""
+        ...
+
+    def flush(self) -> None:
+        """Have what was said go, as far as it goes: until then it may be kept."""
         ...
 
     def close(self) -> None:

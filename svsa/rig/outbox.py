@@ -3,11 +3,12 @@
 from collections.abc import Callable
 
 MAX_BYTES = 8 * 2**20
+FULL_BYTES = 16_384
 RETRY_S = 0.002
 
 
 class Outbox:
-    """Writes at once what goes, and keeps the rest in order for `flush`.
+    """Keeps what is said, in order, for `flush`: many short texts go in one write.
 
     write: a non-blocking write of some of the bytes, as `os.write`; how many went.
     """
@@ -25,14 +26,9 @@ class Outbox:
         """Say this. Raises `OSError` for a client that has left, or has long read nothing."""
         if len(self._kept) + len(text) > MAX_BYTES:
             raise ConnectionError("the client does not read")
-        if self._kept:
-            self._kept += text
-            return
-        try:
-            written = self._write(text)
-        except BlockingIOError:
-            written = 0
-        self._kept += text[written:]
+        self._kept += text
+        if len(self._kept) >= FULL_BYTES:
+            self.flush()
 
     def flush(self) -> None:
         """Say what was kept, as far as it goes. Raises `OSError` for a client that has left."""

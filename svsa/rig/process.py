@@ -10,6 +10,8 @@ from svsa.rig.frame import FrameServer
 from svsa.rig.rig import Rig
 
 LONGEST_SLEEP_S = 0.5
+GRAIN_S = 0.00025
+"""Against the clock frames come so late at most, and then together, as from an adapter on USB."""
 
 
 class RigProcess:
@@ -56,7 +58,7 @@ class RigProcess:
         waits = [LONGEST_SLEEP_S]
         waits += [wait for server in self._servers if (wait := server.wait_s()) is not None]
         if not self._lockstep:
-            waits.append((self._rig.next_event_us - self._read_clock()) * 1e-6)
+            waits.append(max(GRAIN_S, (self._rig.next_event_us - self._read_clock()) * 1e-6))
         return max(0.0, min(waits))
 
     def _read_clock(self) -> int:

@@ -56,7 +56,7 @@ class SlcanServer:
 
     def poll(self) -> list[tuple[Any, Frame]]:
         """Frames that the client has sent; everything else is answered."""
-        self._outbox.flush()
+        self.flush()
         try:
             self._unread += os.read(self._ours, 65536)
         except OSError:
@@ -69,7 +69,12 @@ class SlcanServer:
             self._write(answer)
             if frame is not None:
                 frames.append((self, frame))
+        self.flush()
         return frames
+
+    def flush(self) -> None:
+        """Have the client be said what it has still to be said, as far as it reads."""
+        self._outbox.flush()
 
     def _answer(self, line: str) -> tuple[bytes, Frame | None]:
         """What a line is answered with, and the frame in it."""

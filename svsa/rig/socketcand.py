@@ -79,7 +79,6 @@ class SocketcandServer:
         frames: list[tuple[Any, Frame]] = []
         for client in list(self._clients):
             try:
-                client.outbox.flush()
                 if client.connection in ready:
                     frames += [(client, frame) for frame in self._read(client)]
             except (OSError, ValueError):
@@ -88,7 +87,16 @@ class SocketcandServer:
         for client in self._clients:
             if client.raw_since is not None and now - client.raw_since > QUIET_S:
                 self._admit(client)
+        self.flush()
         return frames
+
+    def flush(self) -> None:
+        """A client that does not read is let go: the bus does not wait for it."""
+        for client in list(self._clients):
+            try:
+                client.outbox.flush()
+            except OSError:
+                self._drop(client)
 
     def _greet(self) -> None:
         try:
@@ -172,7 +180,7 @@ class SocketcandServer:
                 self._write(client, text.encode())
 
     def _write(self, client: _Client, text: bytes) -> None:
-        """A client that does not read is let go: the bus does not wait for it."""
+        """As `flush`, of a client that has long read nothing."""
         try:
             client.outbox.push(text)
         except OSError:

@@ -12,7 +12,6 @@ from svsa.rig.frame import Frame
 from svsa.rig.rig import Rig
 
 RIG_BENCH = Path(__file__).parents[2] / "svsa" / "rig" / "bench.toml"
-STEP_US = 50
 
 
 def copy_bench(folder: Path, change: Callable[[str], str] = str) -> Path:
@@ -49,11 +48,11 @@ class RigBus:
     def recv(self, timeout: float) -> can.Message | None:
         end_us = self.rig.now_us + math.ceil(timeout * 1e6)
         while not self._heard and self.rig.now_us < end_us:
-            self._advance(min(STEP_US, end_us - self.rig.now_us))
+            self._advance_to(min(self.rig.next_event_us, end_us))
         return self._heard.popleft() if self._heard else None
 
-    def _advance(self, step_us: int) -> None:
-        for time_us, frame, sender in self.rig.advance_to(self.rig.now_us + step_us):
+    def _advance_to(self, end_us: int) -> None:
+        for time_us, frame, sender in self.rig.advance_to(end_us):
             if sender is not self:
                 self._heard.append(
                     can.Message(

@@ -100,6 +100,9 @@ class InProcessRig:
             if bus is not but:
                 bus.heard.append(message)
 
+    def flush(self) -> None:
+        pass
+
     def close(self) -> None:
         self.buses.clear()
 

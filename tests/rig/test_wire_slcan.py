@@ -34,6 +34,7 @@ class Terminal:
             self.frames += [frame for _, frame in self.server.poll()]
 
     def read(self):
+        self.server.flush()
         text = b""
         while select.select([self._fd], [], [], 0.005)[0]:
             text += os.read(self._fd, 65536)

@@ -35,6 +35,7 @@ class Peer:
 
     def read(self):
         """What has come."""
+        self.server.flush()
         text = b""
         while select.select([self.socket], [], [], 0.01)[0]:
             try:
