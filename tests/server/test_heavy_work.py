@@ -106,8 +106,9 @@ def test_a_full_queue_is_a_503_that_says_when_to_come_again(busy_lab: Lab) -> No
         assert answer.json()["type"] == TYPE_PREFIX + "busy"
 
 
+@pytest.mark.wall_clock
 def test_live_sessions_are_not_late_while_a_replay_is_built(shared_lab: Lab) -> None:
-    run_id = record(shared_lab, 40)
+    run_id = record(shared_lab, 20)
     shared_lab.load_figure()
     before = shared_lab.read()
     began = time.monotonic()

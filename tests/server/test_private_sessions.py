@@ -79,6 +79,7 @@ def test_ending_a_session_ends_its_streams(lab: Lab) -> None:
     assert "ended" in end.value.rcvd.reason
 
 
+@pytest.mark.wall_clock
 def test_as_fast_as_it_goes_is_faster_than_the_clock(lab: Lab) -> None:
     name = create(lab)["session"]
     path = f"{SESSIONS}/{name}"

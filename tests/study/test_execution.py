@@ -20,6 +20,7 @@ from svsa.study.store import StudyError, claim_study, find_missing, keep_study, 
 from tests.study.studies import SHORT_S, build_study
 
 SCRIPT = """
+import signal
 import sys
 import time
 from pathlib import Path
@@ -33,6 +34,7 @@ def tell(done, total):
         time.sleep(300)  # to be ended here
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background ignores it
     stored = keep_study("one", build_study(runs=400), Path(sys.argv[1]))
     run_study(stored, int(sys.argv[2]), 16, tell)
 """

@@ -23,9 +23,11 @@ def test_the_lab_starts_running_on_figure_4a(lab: Lab) -> None:
 def test_session_time_follows_wall_time_and_speed(lab: Lab) -> None:
     lab.client.put(lab.session + "/speed", json={"factor": 4})
     begin, wall = lab.read()["time_s"], time.monotonic()
-    time.sleep(0.5)
-    end, elapsed = lab.read()["time_s"], time.monotonic() - wall
-    assert 0.2 * elapsed < end - begin < 4 * elapsed + 0.3
+    end = begin
+    while end < begin + 1.0:  # on a busy machine later; it never ends where it stands still
+        time.sleep(0.02)
+        end = lab.read()["time_s"]
+    assert end - begin < 4 * (time.monotonic() - wall) + 0.3
 
 
 def test_pause_step_and_start(lab: Lab) -> None:
