@@ -44,6 +44,7 @@ from svsa_server.routes import (
     sessions,
     settings,
     stability,
+    studies,
     tunings,
 )
 from svsa_server.scenes import Scenes
@@ -100,6 +101,7 @@ def build_app(
         runs,
         jobs,
         tunings,
+        studies,
         arena,
         outcomes,
     ):

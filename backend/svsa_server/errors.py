@@ -14,6 +14,7 @@ from svsa.errors import ParameterError, StateError, SvsaError
 from svsa.explanation import explain_problems
 from svsa.records.catalogue.entry import CatalogueError, UnknownRunError
 from svsa.records.header import RecordError
+from svsa.study.store import StudyError
 from svsa_server.control import HeldError
 from svsa_server.heavy_work import RETRY_AFTER_S, BusyError
 from svsa_server.problems import LONGEST_ECHO, answer_problem, answer_violations
@@ -36,7 +37,7 @@ def install_error_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(ParameterError)
     def refuse_parameters(_: Request, error: ParameterError) -> JSONResponse:
-        return answer_violations(error.violations)
+        return answer_violations(error.violations, error.file)
 
     @app.exception_handler(StateError)
     def refuse_state(_: Request, error: StateError) -> JSONResponse:
@@ -49,6 +50,10 @@ def install_error_handlers(app: FastAPI) -> None:
     @app.exception_handler(RecordError)
     def refuse_record(_: Request, error: RecordError) -> JSONResponse:
         return answer_problem(409, "record", str(error))
+
+    @app.exception_handler(StudyError)
+    def refuse_study(_: Request, error: StudyError) -> JSONResponse:
+        return answer_problem(409, "study", str(error))
 
     @app.exception_handler(CatalogueError)
     def refuse_storage(_: Request, error: CatalogueError) -> JSONResponse:

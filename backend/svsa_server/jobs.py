@@ -106,21 +106,24 @@ class Jobs:
 
     def start(self, kind: Kind, title: str, work: Work, asked: Any) -> Job:
         """Begin a job, or queue it; raises `BusyError`."""
-        queue = self._queues[kind]
-        under_way = sum(job.is_under_way for job in self.list_all(kind))
-        if under_way >= queue.most:
-            raise BusyError(
-                f"{under_way} {PLURALS[kind]} are worked at or wait, which is all this lab takes"
-                " at once: stop one, or try again later."
-            )
+        self.check_room(kind)
         folder = Path(self._place.name) / uuid4().hex[:12]
         folder.mkdir()
         job = self._kept[folder.name] = Job(kind, title, asked, folder)
-        job.begin(queue, work)
+        job.begin(self._queues[kind], work)
         ended = [one for one in self._kept.values() if not one.is_under_way]
         for old in ended[: max(0, len(self._kept) - MAX_KEPT)]:
             shutil.rmtree(self._kept.pop(old.id).folder, ignore_errors=True)
         return job
+
+    def check_room(self, kind: Kind) -> None:
+        """Raise `BusyError` where one more of a kind would be refused."""
+        under_way = sum(job.is_under_way for job in self.list_all(kind))
+        if under_way >= self._queues[kind].most:
+            raise BusyError(
+                f"{under_way} {PLURALS[kind]} are worked at or wait, which is all this lab takes"
+                " at once: stop one, or try again later."
+            )
 
     def get(self, name: str, kind: Kind | None = None) -> Job:
         """The job of this id, and of this kind if one is given; raises `UnknownError`."""

@@ -22,6 +22,7 @@ TITLES = {
     "not_now": "It does not fit what the session is doing",
     "held": "Somebody else is in control",
     "record": "The record cannot be read",
+    "study": "It does not fit the study as it is",
     "storage": "It cannot be stored",
     "busy": "Too much is being made already",
     "websocket": "This is a WebSocket",
@@ -103,9 +104,10 @@ def answer_problem(
     return JSONResponse(body, status, headers, MEDIA_TYPE)
 
 
-def answer_violations(violations: Sequence[Violation]) -> JSONResponse:
-    """The answer that names every refused value."""
+def answer_violations(violations: Sequence[Violation], place: str = "") -> JSONResponse:
+    """The answer that names every refused value. place: file and lines where they stand, or ""."""
     detail = " ".join(violation.message for violation in violations)
+    detail = f"{place}: {detail}" if place else detail
     return answer_problem(422, "out_of_range", detail, violations=violations)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from svsa.errors import ParameterError, Violation
 from svsa.study.study import Study
-from svsa.toml_file import find_lines, read_toml
+from svsa.toml_file import find_lines, parse_toml, read_toml
 
 STUDY_FILE = "study file"
 OBJECT = "STUDY"
@@ -45,17 +45,29 @@ def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]
     if path.suffix == ".py":
         study = _run_python(path)
         return path.stem, study if runs is None else study.changed(runs=runs)
+    changes: dict[str, Any] = {} if runs is None else {"runs": runs}
     sections = read_toml(path, STUDY_FILE)
-    changed: dict[str, Any] = {} if runs is None else {"runs": runs}
+    return path.stem, _build(sections, path.read_text(encoding="utf-8"), str(path), changes)
+
+
+def parse_study(text: str, place: str = "", **changes: Any) -> Study:
+    """The study in a TOML text, with changes in place of what it says.
+
+    Raises `ParameterError` as `read_study`, with `place` as the file's name.
+    """
+    return _build(parse_toml(text, STUDY_FILE, place), text, place, changes)
+
+
+def _build(sections: dict[str, Any], text: str, place: str, changes: dict[str, Any]) -> Study:
     try:
-        return path.stem, Study(**sections | changed)
+        return Study(**sections | changes)
     except ParameterError as error:
-        names = [violation.name for violation in error.violations if violation.name not in changed]
-        lines = find_lines(path.read_text(encoding="utf-8"), names)
+        names = [violation.name for violation in error.violations if violation.name not in changes]
+        lines = find_lines(text, names)
         told = " and ".join(map(str, sorted(set(lines))))
         word = "lines" if len(set(lines)) > 1 else "line"
-        place = f"{path}, {word} {told}" if lines else str(path)
-        raise ParameterError(*error.violations, file=place) from None
+        where = ", ".join(filter(None, (place, f"{word} {told}" if lines else "")))
+        raise ParameterError(*error.violations, file=where) from None
 
 
 def _run_python(path: Path) -> Study:

@@ -88,7 +88,8 @@ def keep_study(name: str, study: Study, root: Path | None = None) -> StoredStudy
 
 def is_kept(name: str, root: Path | None = None) -> bool:
     """Whether there is a study of this name."""
-    return ((root or find_studies_folder()) / name / STUDY_FILE).exists()
+    is_name = _NAME.fullmatch(name) is not None
+    return is_name and ((root or find_studies_folder()) / name / STUDY_FILE).exists()
 
 
 def open_study(name: str, root: Path | None = None) -> StoredStudy:

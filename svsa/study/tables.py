@@ -99,16 +99,17 @@ def tell_share(share: Interval) -> str:
 
 def write_json(value: Any) -> None:
     """Print as JSON; of a number that is not finite null, as JSON knows no such number."""
-    print(json.dumps(_plain(value), indent=2))
+    print(json.dumps(make_plain(value), indent=2))
 
 
-def _plain(value: Any) -> Any:
+def make_plain(value: Any) -> Any:
+    """What JSON can say: of tuples with names objects, of a number that is not finite null."""
     if isinstance(value, tuple) and hasattr(value, "_asdict"):
-        return _plain(value._asdict())  # pyright: ignore[reportAttributeAccessIssue]
+        return make_plain(value._asdict())  # pyright: ignore[reportAttributeAccessIssue]
     if isinstance(value, dict):
-        return {key: _plain(inner) for key, inner in value.items()}
+        return {key: make_plain(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(inner) for inner in value]
+        return [make_plain(inner) for inner in value]
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value

@@ -47,6 +47,7 @@ CLIENT = {"SVSA-Client": "fuzz"}
 """Known to the server, which asks of the text what percent-encoding hides from a schema."""
 
 HURWITZ = "gains must be Hurwitz: every root of their polynomial left of the imaginary axis"
+STUDY = "a source must be a built-in or a kept study, a text the TOML of one, one of both given"
 INSTALLED = "laws and parameters are those of GET /laws here"
 RANGE = "the whole course must stay in the stiffness range of the lab's own parameter file"
 PAIRS = "complex poles must come in conjugate pairs, none faster than 1000 rad/s"
@@ -72,6 +73,8 @@ MAY_BE_REFUSED = {
     "POST /api/v1/references/csv": "the text must be a CSV of numbers with known columns",
     "PUT /api/v1/sessions/{session}/nominal": "the text must be a TOML parameter file",
     "POST /api/v1/tunings": INSTALLED,
+    "POST /api/v1/studies": STUDY,
+    "POST /api/v1/studies/check": STUDY,
     "POST /api/v1/arena/laws/{law}/measurement": INSTALLED,
     "POST /api/v1/arena/sessions": f"{INSTALLED}; the scenario is one of GET /arena",
     "PUT /api/v1/sessions/{session}/control": "a name must be printable characters of Unicode",

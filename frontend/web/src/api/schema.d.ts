@@ -1504,6 +1504,193 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/studies": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List All
+         * @description The studies that come with the lab, and those that were begun here, the last one first.
+         */
+        get: operations["list_all_api_v1_studies_get"];
+        put?: never;
+        /**
+         * Start Study
+         * @description Begin a study, or go on with one of this name: a job, that makes no live session late.
+         */
+        post: operations["start_study_api_v1_studies_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check Study
+         * @description What a study would be; nothing is begun. A wrong text is refused with lines and bounds.
+         */
+        post: operations["check_study_api_v1_studies_check_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{study}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Study
+         * @description A study, how much of it is done, and the job that works at it.
+         */
+        get: operations["read_study_api_v1_studies__study__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{study}/summary": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Summarize Study
+         * @description Success, faults and quantiles of each law so far, and the first law less each other one.
+         */
+        get: operations["summarize_study_api_v1_studies__study__summary_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{study}/sensitivity": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Sensitivity
+         * @description Sobol indices of an outcome under each law; of a study that was drawn for it.
+         */
+        get: operations["read_sensitivity_api_v1_studies__study__sensitivity_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{study}/rows": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Rows
+         * @description Columns of the rows that are done; of more than `most` so many draws by lot.
+         *
+         *     uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with `name`
+         *     and `labels`), then each column as float64, little-endian, `row` first.
+         */
+        get: operations["read_rows_api_v1_studies__study__rows_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{study}/rows/{row}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Row
+         * @description One row with every column; null where it has no value.
+         */
+        get: operations["read_row_api_v1_studies__study__rows__row__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{study}/rows.parquet": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Rows
+         * @description The whole table as Parquet, once the study was ended or cancelled.
+         */
+        get: operations["download_rows_api_v1_studies__study__rows_parquet_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{study}/rows/{row}/replay": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Replay Row
+         * @description Run a row again as a recorded run, with every sample, to be seen in 3D.
+         */
+        post: operations["replay_row_api_v1_studies__study__rows__row__replay_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/arena": {
         parameters: {
             query?: never;
@@ -1940,6 +2127,21 @@ export interface components {
             tick: number;
         };
         /**
+         * BuiltInStudy
+         * @description A study that comes with the lab.
+         */
+        BuiltInStudy: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /**
+             * Text
+             * @description As TOML, to begin one's own from
+             */
+            text: string;
+        };
+        /**
          * Channel
          * @description One column of the samples: its name (ends in the unit), unit and a label to read.
          */
@@ -2323,6 +2525,18 @@ export interface components {
              * @description Of the present lanes in their order; null for one that was not there
              */
             lanes: (components["schemas"]["Metrics"] | null)[];
+        };
+        /**
+         * Estimate
+         * @description An estimate, and between which ends the truth lies with 95 %; null where there is none.
+         */
+        Estimate: {
+            /** Value */
+            value: number | null;
+            /** Low */
+            low: number | null;
+            /** High */
+            high: number | null;
         };
         /**
          * Event
@@ -2873,6 +3087,73 @@ export interface components {
              * @description Up to three
              */
             rivals: components["schemas"]["Lane"][];
+        };
+        /**
+         * LawOutcome
+         * @description How a law did.
+         */
+        LawOutcome: {
+            /** Law */
+            law: string;
+            /**
+             * Runs
+             * @description Without those that were refused
+             */
+            runs: number;
+            /**
+             * Refused
+             * @description Draws whose settings do not go together: nothing was run
+             */
+            refused: number;
+            /** @description Share of the runs, with Wilson's interval */
+            success: components["schemas"]["Estimate"];
+            /**
+             * Faults
+             * @description How many runs ended in a fault, by code
+             */
+            faults: {
+                [key: string]: number;
+            };
+            /**
+             * Quantiles
+             * @description 5, 50 and 95 % of each metric; null where so many ended in a fault
+             */
+            quantiles: {
+                [key: string]: (number | null)[];
+            };
+        };
+        /**
+         * LawPair
+         * @description One law less another on the same draws.
+         */
+        LawPair: {
+            /** One */
+            one: string;
+            /** Other */
+            other: string;
+            /** Pairs */
+            pairs: number;
+            /**
+             * Whole
+             * @description Pairs of which neither ended in a fault
+             */
+            whole: number;
+            /** @description Difference of the shares, of all pairs */
+            success: components["schemas"]["Estimate"];
+            /**
+             * Only One
+             * @description Draws on which only the one succeeded
+             */
+            only_one: number;
+            /** Only Other */
+            only_other: number;
+            /**
+             * Differences
+             * @description Mean difference of each metric over the whole pairs, bootstrap interval
+             */
+            differences: {
+                [key: string]: components["schemas"]["Estimate"];
+            };
         };
         /**
          * LawRequest
@@ -4035,6 +4316,21 @@ export interface components {
             corners_fails_of_8: number;
         };
         /**
+         * RowReplay
+         * @description A row as a recorded run.
+         */
+        RowReplay: {
+            /** Run Id */
+            run_id: string;
+            /** Row */
+            row: number;
+            /**
+             * Differing
+             * @description Metrics that are not to the bit those of the table; empty: all are the same
+             */
+            differing: string[];
+        };
+        /**
          * RunCommand
          * @description A command that was given while the run went on.
          */
@@ -5126,6 +5422,35 @@ export interface components {
             transition_s: number;
         };
         /**
+         * SobolIndices
+         * @description What decides an outcome under a law, by what varies.
+         */
+        SobolIndices: {
+            /** Law */
+            law: string;
+            /** Outcome */
+            outcome: string;
+            /**
+             * Samples
+             * @description Base samples that were done
+             */
+            samples: number;
+            /**
+             * First Order
+             * @description Its own share of the variance
+             */
+            first_order: {
+                [key: string]: components["schemas"]["Estimate"];
+            };
+            /**
+             * Total Order
+             * @description With all its interactions
+             */
+            total_order: {
+                [key: string]: components["schemas"]["Estimate"];
+            };
+        };
+        /**
          * SpeedRequest
          * @description How fast session time goes.
          */
@@ -5418,6 +5743,210 @@ export interface components {
              * @description Which look its curves have, from 0; shared by no other on screen
              */
             ink: number;
+        };
+        /**
+         * StudyColumn
+         * @description A column of a study's table.
+         */
+        StudyColumn: {
+            /** Name */
+            name: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "row" | "varied" | "outcome" | "metric";
+            /**
+             * Unit
+             * @description Empty of what is varied: the unit is that of its setting
+             */
+            unit: string;
+            /** Is Text */
+            is_text: boolean;
+            /**
+             * Is Log
+             * @description Whether it was drawn by equal ratios
+             */
+            is_log: boolean;
+        };
+        /**
+         * StudyList
+         * @description All that can be looked at or run.
+         */
+        StudyList: {
+            /** Built In */
+            built_in: components["schemas"]["BuiltInStudy"][];
+            /**
+             * Kept
+             * @description The last begun first
+             */
+            kept: components["schemas"]["StudyState"][];
+        };
+        /**
+         * StudyPlan
+         * @description What a study would be.
+         */
+        StudyPlan: {
+            /**
+             * Name
+             * @description What it is kept by
+             */
+            name: string;
+            /** Title */
+            title: string;
+            /** Laws */
+            laws: string[];
+            /** Draws */
+            draws: number;
+            /**
+             * Rows
+             * @description Runs: each draw under each law
+             */
+            rows: number;
+            /**
+             * Study
+             * @description All of it, as it would stand in its file
+             */
+            study: {
+                [key: string]: unknown;
+            };
+            /** Columns */
+            columns: components["schemas"]["StudyColumn"][];
+        };
+        /**
+         * StudyRequest
+         * @description A study to be run: a built-in or a kept one, or a text; and what is otherwise than there.
+         */
+        StudyRequest: {
+            /**
+             * Source
+             * @description Name of a built-in or a kept study
+             */
+            source?: string | null;
+            /**
+             * Text
+             * @description A study as TOML, in place of a source
+             */
+            text?: string | null;
+            /**
+             * Name
+             * @description What it is kept by; else its source
+             */
+            name?: string | null;
+            /**
+             * Runs
+             * @description How many draws
+             */
+            runs?: number | null;
+            /**
+             * Laws
+             * @description Laws, each on the same draws
+             */
+            laws?: string[] | null;
+            /** @description What counts as success */
+            success?: components["schemas"]["Success"] | null;
+        };
+        /**
+         * StudyState
+         * @description A kept study.
+         */
+        StudyState: {
+            /**
+             * Name
+             * @description What it is kept by
+             */
+            name: string;
+            /** Title */
+            title: string;
+            /** Laws */
+            laws: string[];
+            /** Draws */
+            draws: number;
+            /**
+             * Rows
+             * @description Runs: each draw under each law
+             */
+            rows: number;
+            /**
+             * Study
+             * @description All of it, as it would stand in its file
+             */
+            study: {
+                [key: string]: unknown;
+            };
+            /** Columns */
+            columns: components["schemas"]["StudyColumn"][];
+            /**
+             * Created
+             * @description When it was begun, ISO 8601 in UTC
+             */
+            created: string;
+            /**
+             * Version
+             * @description Of SVSA Lab, that began it
+             */
+            version: string;
+            /**
+             * Done
+             * @description Rows that are done
+             */
+            done: number;
+            /** @description The last of this server that works or worked at it */
+            job: components["schemas"]["JobState"] | null;
+        };
+        /**
+         * StudySummary
+         * @description What came of a study so far.
+         */
+        StudySummary: {
+            /** Laws */
+            laws: components["schemas"]["LawOutcome"][];
+            /**
+             * Pairings
+             * @description The first law less each other one
+             */
+            pairings: components["schemas"]["LawPair"][];
+        };
+        /**
+         * Success
+         * @description What a run must keep besides its domain, each at most; what is left out is not asked.
+         */
+        Success: {
+            /**
+             * Rms Position Error Rad
+             * @description rms of q_d − q, rad
+             */
+            rms_position_error_rad?: number | null;
+            /**
+             * Peak Position Error Rad
+             * @description Largest |q_d − q|, rad
+             */
+            peak_position_error_rad?: number | null;
+            /**
+             * Rms Stiffness Error Nm Per Rad
+             * @description rms of σ_d − σ, N·m/rad
+             */
+            rms_stiffness_error_nm_per_rad?: number | null;
+            /**
+             * Peak Stiffness Error Nm Per Rad
+             * @description Largest |σ_d − σ|, N·m/rad
+             */
+            peak_stiffness_error_nm_per_rad?: number | null;
+            /**
+             * Settled Position Error Rad
+             * @description rms of q_d − q over the last 0.5 s, rad
+             */
+            settled_position_error_rad?: number | null;
+            /**
+             * Recovery Time S
+             * @description Until |q_d − q| stays within 2 % of its peak for 0.5 s, s
+             */
+            recovery_time_s?: number | null;
+            /**
+             * Last Position Error Rad
+             * @description |q_d − q| in the last sample, rad
+             */
+            last_position_error_rad?: number | null;
         };
         /**
          * SweepOutcome
@@ -11279,6 +11808,681 @@ export interface operations {
             };
             /** @description Refused values; nothing was changed */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_all_api_v1_studies_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyList"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    start_study_api_v1_studies_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    check_study_api_v1_studies_check_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["StudyRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyPlan"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_study_api_v1_studies__study__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudyState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    summarize_study_api_v1_studies__study__summary_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudySummary"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_sensitivity_api_v1_studies__study__sensitivity_get: {
+        parameters: {
+            query?: {
+                /** @description succeeded, or a metric */
+                outcome?: string;
+            };
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SobolIndices"][];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_rows_api_v1_studies__study__rows_get: {
+        parameters: {
+            query: {
+                /** @description Names of columns */
+                column: string[];
+                /** @description Rows at most */
+                most?: number;
+            };
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Columns, see the description */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_row_api_v1_studies__study__rows__row__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+                /** @description Number of the row */
+                row: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": {
+                        [key: string]: string | boolean | number | null;
+                    };
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    download_rows_api_v1_studies__study__rows_parquet_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The table */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.parquet": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    replay_row_api_v1_studies__study__rows__row__replay_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+                /** @description Number of the row */
+                row: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RowReplay"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,0 +1,163 @@
+"""Studies: check one, run it as a job, look at its rows, and see any of them as a run."""
+
+import asyncio
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Path, Query, Request
+from fastapi.responses import FileResponse, Response
+
+from svsa.errors import ParameterError, StateError, Violation
+from svsa.study.file import find_study_file, list_built_in
+from svsa.study.store import TABLE_FILE, StoredStudy, is_kept, keep_study, list_studies, open_study
+from svsa.study.summary import SUCCEEDED
+from svsa.study.work import build_schema
+from svsa_server.errors import UnknownError
+from svsa_server.jobs import Job
+from svsa_server.routes.depends import BUSY, REFUSALS, Work
+from svsa_server.routes.jobs import find_jobs
+from svsa_server.studies import decide, replay, run, summarize
+from svsa_server.study_rows import MEDIA_TYPE, MOST_ROWS, pack_rows
+from svsa_server.study_rows import read_row as find_row
+from svsa_server.study_schemas import (
+    BuiltInStudy,
+    RowReplay,
+    SobolIndices,
+    StudyList,
+    StudyPlan,
+    StudyRequest,
+    StudyState,
+    StudySummary,
+    describe_plan,
+    describe_study,
+)
+
+router = APIRouter(prefix="/studies", tags=["studies"], responses=REFUSALS)
+Study = Annotated[str, Path(description="Name of a kept study", examples=["perturbation"])]
+Row = Annotated[int, Path(ge=0, description="Number of the row")]
+Wanted = Annotated[StudyRequest, Body(examples=[{"source": "load", "runs": 256}])]
+_BINARY = {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}}
+_PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "format": "binary"}}}
+
+
+@router.get("")
+def list_all(request: Request) -> StudyList:
+    """The studies that come with the lab, and those that were begun here, the last one first."""
+    kept = sorted(list_studies(), key=lambda stored: stored.created, reverse=True)
+    built_in = [
+        BuiltInStudy(name=name, title=title, text=_read_text(name))
+        for name, title in list_built_in().items()
+    ]
+    return StudyList(
+        built_in=built_in,
+        kept=[describe_study(one, _find_job(request, one.name)) for one in kept],
+    )
+
+
+@router.post("/check")
+def check_study(wanted: Wanted) -> StudyPlan:
+    """What a study would be; nothing is begun. A wrong text is refused with lines and bounds."""
+    return describe_plan(*wanted.build())
+
+
+@router.post("", status_code=201, responses=BUSY)
+async def start_study(request: Request, wanted: Wanted) -> StudyState:
+    """Begin a study, or go on with one of this name: a job, that makes no live session late."""
+    name, study = await asyncio.to_thread(wanted.build)
+    jobs = find_jobs(request)
+    jobs.check_room("study")
+    job = _find_job(request, name)
+    if job is not None and job.is_under_way:
+        raise StateError(f"Study {name} is {job.status} already: cancel it first.")
+    stored = await asyncio.to_thread(keep_study, name, study)
+    return describe_study(stored, jobs.start("study", study.title, run, stored))
+
+
+@router.get("/{study}")
+def read_study(request: Request, study: Study) -> StudyState:
+    """A study, how much of it is done, and the job that works at it."""
+    return describe_study(_open(study), _find_job(request, study))
+
+
+@router.get("/{study}/summary", responses=BUSY)
+async def summarize_study(work: Work, study: Study) -> StudySummary:
+    """Success, faults and quantiles of each law so far, and the first law less each other one."""
+    return StudySummary(**await work.run(summarize, await asyncio.to_thread(_open, study)))
+
+
+@router.get("/{study}/sensitivity", responses=BUSY)
+async def read_sensitivity(
+    work: Work,
+    study: Study,
+    outcome: Annotated[str, Query(description="succeeded, or a metric")] = SUCCEEDED,
+) -> list[SobolIndices]:
+    """Sobol indices of an outcome under each law; of a study that was drawn for it."""
+    stored = await asyncio.to_thread(_open, study)
+    return [SobolIndices(**one) for one in await work.run(decide, stored, outcome)]
+
+
+@router.get(
+    "/{study}/rows",
+    response_class=Response,
+    responses={200: {"content": _BINARY, "description": "Columns, see the description"}},
+)
+def read_rows(
+    study: Study,
+    column: Annotated[list[str], Query(max_length=40, description="Names of columns")],
+    most: Annotated[int, Query(ge=1, le=MOST_ROWS, description="Rows at most")] = MOST_ROWS,
+) -> Response:
+    """Columns of the rows that are done; of more than `most` so many draws by lot.
+
+    uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with `name`
+    and `labels`), then each column as float64, little-endian, `row` first.
+    """
+    stored = _open(study)
+    known = build_schema(stored.study).names
+    for name in column:
+        if name not in known:
+            raise ParameterError(Violation("column", name, "", "one of " + ", ".join(known)))
+    return Response(pack_rows(stored, column, most), media_type=MEDIA_TYPE)
+
+
+@router.get("/{study}/rows/{row}")
+def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | None]:
+    """One row with every column; null where it has no value."""
+    return find_row(_open(study), row)
+
+
+@router.get(
+    "/{study}/rows.parquet",
+    response_class=FileResponse,
+    responses={200: {"content": _PARQUET, "description": "The table"}},
+)
+def download_rows(study: Study) -> FileResponse:
+    """The whole table as Parquet, once the study was ended or cancelled."""
+    stored = _open(study)
+    table = stored.folder / TABLE_FILE
+    if not table.exists():
+        raise StateError(f"Study {study} has no table yet: it is made when a job of it ends.")
+    return FileResponse(table, media_type=next(iter(_PARQUET)), filename=f"{study}.parquet")
+
+
+@router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY)
+async def replay_row(work: Work, study: Study, row: Row) -> RowReplay:
+    """Run a row again as a recorded run, with every sample, to be seen in 3D."""
+    stored = await asyncio.to_thread(_open, study)
+    return RowReplay(**await work.run(replay, stored, row))
+
+
+def _open(name: str) -> StoredStudy:
+    if "/" in name or "\\" in name or not is_kept(name):
+        raise UnknownError(
+            f"There is no study {name[:80]!r} here; GET /studies has those there are."
+        )
+    return open_study(name)
+
+
+def _find_job(request: Request, name: str) -> Job | None:
+    jobs = find_jobs(request).list_all("study")
+    return next((job for job in jobs if job.asked.name == name), None)
+
+
+def _read_text(name: str) -> str:
+    path = find_study_file(name)
+    return path.read_text(encoding="utf-8") if path else ""

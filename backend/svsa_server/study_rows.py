@@ -1,0 +1,86 @@
+"""Rows of a study for the page: a header, then each column as numbers, one after another."""
+
+import json
+import struct
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+
+from svsa.checked import check_number
+from svsa.study.store import StoredStudy, StudyError, list_parts, read_rows
+from svsa.study.tables import make_plain
+from svsa.study.work import DRAW, ROW, build_schema
+
+MEDIA_TYPE = "application/octet-stream"
+MOST_ROWS = 100_000
+_TRIES = 3
+
+
+def read_columns(stored: StoredStudy, columns: Sequence[str]) -> pa.Table:
+    """Some columns of all rows that are done; of a study that has none yet an empty table.
+
+    A study that ends meanwhile joins its parts into one table: then they are read again.
+    """
+    for left in reversed(range(_TRIES)):
+        if not list_parts(stored):
+            break
+        try:
+            return read_rows(stored, [*columns])
+        except FileNotFoundError:
+            if not left:
+                raise
+    return pa.table({name: [] for name in columns})
+
+
+def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
+    """All columns of one row; raises `ParameterError`, and `StudyError` where it is not done."""
+    check_number("row", row, "", 0, stored.study.row_count - 1)
+    table = read_columns(stored, build_schema(stored.study).names)
+    found = table.filter(pa.array(table[ROW].to_numpy() == row)).to_pylist()
+    if not found:
+        raise StudyError(f"Row {row} of study {stored.name} is not done yet.")
+    return make_plain(found[0])
+
+
+def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
+    """At most so many rows: draws by lot, the same whoever asks, each under every law."""
+    numbers = rows[DRAW].to_numpy()
+    draws = np.unique(numbers)
+    wanted = max(1, most // laws)
+    if len(draws) <= wanted:
+        return rows
+    lot = np.random.Generator(np.random.Philox(len(draws)))
+    kept = lot.choice(draws, wanted, replace=False)
+    return rows.filter(pa.array(np.isin(numbers, kept)))
+
+
+def pack_rows(stored: StoredStudy, columns: Sequence[str], most: int) -> bytes:
+    """uint32 length of the header; the header, JSON, filled up with spaces to 8 bytes; columns.
+
+    header: `rows`, how many there are here; `total`, how many are done; `columns`, of each `name`
+    and, of one of texts, its `labels`. A column is float64, little-endian: a number, the index of
+    a label, 1 or 0 for yes or no, NaN where there is none. `row` comes first.
+    """
+    names = [ROW, *(name for name in columns if name != ROW)]
+    whole = read_columns(stored, [*dict.fromkeys([*names, DRAW])])
+    rows = thin_out(whole, len(stored.study.laws), most)
+    packed, told = [], []
+    for name in names:
+        values, labels = _pack_column(rows[name].combine_chunks())
+        packed.append(values.astype("<f8").tobytes())
+        told.append({"name": name} | ({} if labels is None else {"labels": labels}))
+    header = {"rows": rows.num_rows, "total": whole.num_rows, "columns": told}
+    text = json.dumps(header).encode()
+    text += b" " * (-(len(text) + 4) % 8)
+    return b"".join([struct.pack("<I", len(text)), text, *packed])
+
+
+def _pack_column(values: pa.Array) -> tuple[np.ndarray, list[str] | None]:
+    if pa.types.is_string(values.type):
+        coded = values.dictionary_encode()
+        numbers = pc.fill_null(pc.cast(coded.indices, pa.float64()), np.nan)
+        return numbers.to_numpy(zero_copy_only=False), coded.dictionary.to_pylist()
+    return pc.fill_null(pc.cast(values, pa.float64()), np.nan).to_numpy(zero_copy_only=False), None

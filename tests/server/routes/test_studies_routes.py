@@ -1,0 +1,203 @@
+"""Studies over REST: checked, run, cancelled and gone on with, looked at, seen as runs."""
+
+import json
+import struct
+import time
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from svsa.study.store import find_missing, open_study, read_rows
+from svsa.study.summary import summarize_laws
+from svsa_server.study_rows import thin_out
+from tests.lab_in_process import run_lab_in_process
+
+STUDIES = "/api/v1/studies"
+LONGEST_S = 240.0
+TEXT = """title = "Short runs"
+laws = ["ndobc", "fl"]
+runs = 24
+seed = 5
+duration_s = 1.2
+measure_from_s = 0.05
+
+[base]
+figure = "4a"
+loads = [{ kind = "constant", torque_nm = [0, 0, 0], start_s = 0.1 }]
+
+[[vary]]
+path = "loads[0].torque_nm[0]"
+kind = "uniform"
+low = 0.0
+high = 40.0
+
+[[vary]]
+path = "effects"
+kind = "choice"
+values = ["ideal", "rig"]
+"""
+
+
+@pytest.fixture(scope="module")
+def lab():
+    with run_lab_in_process() as lab:
+        yield lab.client
+
+
+def run_study(lab, **asked):
+    begun = lab.post(STUDIES, json={"text": TEXT, **asked})
+    assert begun.status_code == 201, begun.text
+    return wait_until(lab, begun.json()["name"], lambda state: not is_under_way(state))
+
+
+def is_under_way(state):
+    return state["job"]["status"] in ("waiting", "running")
+
+
+def wait_until(lab, name, is_there):
+    end = time.monotonic() + LONGEST_S
+    while not is_there(state := lab.get(f"{STUDIES}/{name}").json()):
+        assert time.monotonic() < end, state
+        time.sleep(0.1)
+    return state
+
+
+@pytest.fixture(scope="module")
+def whole(lab):
+    """The study of `TEXT`, run to its end."""
+    return run_study(lab, name="whole")
+
+
+def unpack(content):
+    (length,) = struct.unpack_from("<I", content)
+    header = json.loads(content[4 : 4 + length])
+    assert (4 + length) % 8 == 0
+    values = np.frombuffer(content, "<f8", offset=4 + length).reshape(-1, header["rows"])
+    return header, {
+        one["name"]: column if "labels" not in one else np.array(one["labels"])[column.astype(int)]
+        for one, column in zip(header["columns"], values, strict=True)
+    }
+
+
+def test_a_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, whole):
+    assert (whole["job"]["status"], whole["job"]["problem"]) == ("done", None)
+    assert whole["done"] == whole["rows"] == whole["job"]["done"] == whole["job"]["total"] == 48
+    listed = lab.get(STUDIES).json()
+    assert listed["kept"][0]["name"] == "whole"
+    assert {"perturbation", "load"} <= {one["name"] for one in listed["built_in"]}
+
+    wanted = ["law", "loads[0].torque_nm[0]", "effects", "peak_position_error_rad", "succeeded"]
+    answer = lab.get(f"{STUDIES}/whole/rows", params={"column": [*wanted, "fault_tick"]})
+    header, columns = unpack(answer.content)
+    assert (header["rows"], header["total"]) == (48, 48)
+    table = read_rows(open_study("whole"))
+    assert columns["row"].tolist() == [*range(48)]
+    for name in wanted:
+        assert columns[name].tolist() == table[name].to_pylist(), name
+    ended = [tick is not None for tick in table["fault_tick"].to_pylist()]
+    assert np.isfinite(columns["fault_tick"]).tolist() == ended
+    assert 0 < sum(ended) < 48
+    file = lab.get(f"{STUDIES}/whole/rows.parquet")
+    assert file.content == (open_study("whole").folder / "rows.parquet").read_bytes()
+
+
+def test_of_many_rows_some_draws_come_each_under_every_law(lab, whole):
+    answer = lab.get(f"{STUDIES}/whole/rows", params={"column": ["draw", "law"], "most": 11})
+    header, columns = unpack(answer.content)
+    assert (header["rows"], header["total"]) == (10, 48)
+    assert columns["draw"][::2].tolist() == columns["draw"][1::2].tolist()
+    assert columns["law"].tolist() == ["ndobc", "fl"] * 5
+    rows = read_rows(open_study("whole"))
+    assert thin_out(rows, 2, 48) is rows
+    assert thin_out(rows, 2, 47).num_rows == 46
+
+
+def test_what_came_of_it_is_summed_up_as_by_the_command(lab, whole):
+    summary = lab.get(f"{STUDIES}/whole/summary").json()
+    stored = open_study("whole")
+    for told, law in zip(
+        summary["laws"], summarize_laws(stored.study, read_rows(stored)), strict=True
+    ):
+        assert (told["law"], told["runs"], told["faults"]) == (law.law, law.runs, law.faults)
+        assert told["success"] == law.success._asdict()
+        shown = told["quantiles"]["peak_position_error_rad"]
+        expected = law.quantiles["peak_position_error_rad"]
+        assert shown == [value if np.isfinite(value) else None for value in expected]
+    (pair,) = summary["pairings"]
+    assert (pair["one"], pair["other"], pair["pairs"]) == ("ndobc", "fl", 24)
+    refused = lab.get(f"{STUDIES}/whole/sensitivity")
+    assert refused.status_code == 409
+    assert "sampling is sensitivity" in refused.json()["detail"]
+
+
+def test_a_row_becomes_a_recorded_run_with_the_metrics_of_the_table(lab, whole):
+    made = lab.post(f"{STUDIES}/whole/rows/7/replay")
+    assert made.status_code == 201
+    assert made.json()["differing"] == []
+    run = lab.get(f"/api/v1/runs/{made.json()['run_id']}").json()
+    assert run["name"] == "Study whole, row 7"
+    row = read_rows(open_study("whole")).to_pylist()[7]
+    assert (run["fault"]["code"] if run["fault"] else None) == row["fault"]
+    told = lab.get(f"{STUDIES}/whole/rows/7").json()
+    assert told == {name: None if one != one else one for name, one in row.items()}
+    for wrong in (48, -1):
+        assert lab.post(f"{STUDIES}/whole/rows/{wrong}/replay").status_code == 422
+        assert lab.get(f"{STUDIES}/whole/rows/{wrong}").status_code == 422
+
+
+def test_a_cancelled_study_keeps_its_rows_and_goes_on_to_the_same_table(lab, whole):
+    begun = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000}).json()
+    again = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000})
+    assert (again.status_code, "cancel it first" in again.json()["detail"]) == (409, True)
+    wait_until(lab, "left", lambda state: state["done"] >= 256)
+    lab.delete(f"/api/v1/jobs/{begun['job']['id']}")
+    left = wait_until(lab, "left", lambda state: not is_under_way(state))
+    assert left["job"]["status"] == "cancelled"
+    assert 256 <= left["done"] < left["rows"] == 40_000
+    stored = open_study("left")
+    assert find_missing(stored)[0][0] == left["done"] // 2
+    first = pq.read_table(stored.folder / "rows.parquet").slice(0, 48)
+    assert first.to_pandas().equals(read_rows(open_study("whole")).to_pandas())
+    on = lab.post(STUDIES, json={"source": "left"}).json()
+    assert on["job"]["id"] != begun["job"]["id"]
+    wait_until(lab, "left", lambda state: state["done"] > left["done"] or state["job"]["done"])
+    lab.delete(f"/api/v1/jobs/{on['job']['id']}")
+    wait_until(lab, "left", lambda state: not is_under_way(state))
+
+
+def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
+    wrong = TEXT.replace("high = 40.0", "high = -1.0")
+    for path in ("/check", ""):
+        refused = lab.post(STUDIES + path, json={"text": wrong, "name": "wrong"})
+        assert refused.status_code == 422
+        (violation,) = refused.json()["violations"]
+        assert (violation["name"], violation["value"]) == ("vary[0].low", 0.0)
+        assert "less than high, -1" in violation["bound"]
+        assert refused.json()["detail"].startswith("line 15: vary[0].low is 0.0")
+    assert lab.get(f"{STUDIES}/wrong").status_code == 404
+    for asked, told in (
+        ({}, "source is missing"),
+        ({"source": "load", "text": TEXT}, "not both"),
+        ({"source": "no_such"}, "a kept study, or one of bandwidth"),
+        ({"source": "../whole"}, "a kept study, or one of"),
+        ({"text": "title ="}, "a readable TOML file"),
+        ({"source": "load", "runs": 10**8}, "at most 10000000 rows"),
+        ({"source": "load", "laws": ["no_law"]}, "installed"),
+        ({"text": TEXT, "name": "a/b"}, "1 to 64 letters"),
+    ):
+        refused = lab.post(STUDIES, json=asked)
+        assert refused.status_code == 422, asked
+        assert told in refused.json()["detail"]
+    assert lab.get(f"{STUDIES}/whole/rows", params={"column": "no_such"}).status_code == 422
+
+
+def test_what_is_asked_otherwise_than_in_the_file_is_so(lab):
+    asked = {"source": "load", "runs": 8, "laws": ["pd"], "success": {"recovery_time_s": 0.5}}
+    plan = lab.post(f"{STUDIES}/check", json=asked).json()
+    assert (plan["name"], plan["laws"], plan["rows"], plan["draws"]) == ("load", ["pd"], 8, 8)
+    assert plan["study"]["success"]["recovery_time_s"] == 0.5
+    roles = {column["name"]: column["role"] for column in plan["columns"]}
+    assert roles["loads[0].torque_nm[0]"] == "varied"
+    assert roles["peak_position_error_rad"] == "metric"
+    assert not lab.get(f"{STUDIES}/load").is_success
