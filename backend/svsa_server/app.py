@@ -10,10 +10,12 @@ import svsa
 from svsa.records.catalogue.runs import find_data_folder
 from svsa.run.configuration import load_prototype, read_design
 from svsa.session.session import Session
+from svsa_server.access.audit import AuditLog, Auditor
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.doors import ClassDoor, Door, OpenDoor, SecretDoor
 from svsa_server.access.guard import AccessGuard
 from svsa_server.access.people import People
+from svsa_server.access.rates import Rates
 from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.bench_start import open_bench
 from svsa_server.config import Settings
@@ -26,6 +28,7 @@ from svsa_server.openapi import install_openapi
 from svsa_server.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.ownership import is_visible
 from svsa_server.page import build_page_routes
+from svsa_server.quota import DiskQuota
 from svsa_server.recording import Recordings, open_catalogue
 from svsa_server.routes import (
     access,
@@ -82,7 +85,16 @@ def build_app(
     app.state.design = read_design(config.parameters) if config.parameters else load_prototype()
     app.state.outcomes = Outcomes()
     app.add_middleware(OutcomeKeeper, outcomes=app.state.outcomes)
-    app.add_middleware(AccessGuard, door=door, hosts=config.host_names, is_visible=is_visible)
+    app.add_middleware(
+        AccessGuard,
+        door=door,
+        hosts=config.host_names,
+        is_visible=is_visible,
+        rates=build_rates(config) if config.classroom else None,
+    )
+    if config.classroom:
+        app.state.audit = AuditLog(find_data_folder())
+        app.add_middleware(Auditor, log=app.state.audit)
     install_error_handlers(app)
     api = APIRouter(prefix="/api/v1")
     for part in (
@@ -119,6 +131,18 @@ def build_door(config: Settings, keys: ClassKeys | None = None) -> Door:
     return SecretDoor(config.secret_text) if config.secret_text else OpenDoor()
 
 
+def build_rates(config: Settings) -> Rates:
+    """How often people of a class may."""
+    return Rates(
+        {
+            "joins": config.joins,
+            "commands": config.commands,
+            "sessions": config.sessions,
+            "runs": config.runs,
+        }
+    )
+
+
 def build_queue(config: Settings) -> ControlQueue:
     """The control of a class's shared session."""
     return ControlQueue(
@@ -141,6 +165,8 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)
+    quota = DiskQuota(app.state.catalogue, laboratory, config.quota_mb * 1e6)
+    app.state.quota = quota
     app.state.heavy_work = HeavyWork(config.most_exports)
     app.state.jobs = Jobs({"tuning": config.most_tunings, "study": config.most_studies})
     scenes = Scenes(laboratory)
@@ -151,6 +177,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         asyncio.create_task(laboratory.run()),
         asyncio.create_task(scenes.run()),
         asyncio.create_task(open_bench(shared)),
+        asyncio.create_task(quota.run()),
     ]
     try:
         yield
@@ -165,3 +192,5 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         await app.state.recordings.close()
         await proxy.close()
         await scenes.close()
+        if config.classroom:
+            app.state.audit.close()

@@ -2,13 +2,23 @@
 
 import ipaddress
 from pathlib import Path
+from typing import Annotated
 
-from pydantic import Field, SecretStr
+from limits import parse
+from pydantic import AfterValidator, Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from svsa.errors import SecurityError
 
 SHORTEST_SECRET = 8
+
+
+def _check_rate(rate: str) -> str:
+    parse(rate)
+    return rate
+
+
+Rate = Annotated[str, AfterValidator(_check_rate)]
 
 
 class Settings(BaseSettings):
@@ -26,6 +36,9 @@ class Settings(BaseSettings):
     SVSA_CLASSROOM: whether people join with a name and a class code, and have roles.
     SVSA_IDLE_OPERATOR_S: how long whoever is in control in a class may give no command before it
     goes on to who waits, s.
+    SVSA_QUOTA_MB: disk that the runs of one person of a class may take, MB.
+    SVSA_JOINS, SVSA_COMMANDS, SVSA_SESSIONS, SVSA_RUNS: how often in a class, as "50/second": joins
+    and logins of an address, and of a person commands, new sessions, new recordings.
     SVSA_HOSTS: names with commas between, under which others reach the lab, besides addresses and
     the names of this machine.
     """
@@ -44,6 +57,11 @@ class Settings(BaseSettings):
     classroom: bool = False
     idle_operator_s: float = Field(default=90.0, ge=1)
     hosts: str = ""
+    quota_mb: float = Field(default=500.0, ge=0)
+    joins: Rate = "60/minute"
+    commands: Rate = "50/second"
+    sessions: Rate = "20/minute"
+    runs: Rate = "30/minute"
 
     @property
     def secret_text(self) -> str | None:

@@ -30,6 +30,7 @@ TITLES = {
     "secret_needed": "The secret is needed",
     "wrong_code": "The class code is wrong",
     "join_needed": "The class has to be joined",
+    "too_many": "Too much at once",
     "not_allowed": "The role does not suffice",
     "not_yours": "It belongs to somebody else",
     "other_origin": "From another site",

@@ -12,6 +12,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from svsa_server.access.doors import Door, read_bearer
 from svsa_server.access.origin import is_own_name, is_same_origin, read_host
 from svsa_server.access.permissions import WEBSOCKET, Permission, find_permission
+from svsa_server.access.rates import Rates, find_kind
 from svsa_server.access.roles import EVERYBODY, Person
 from svsa_server.config import is_loopback
 from svsa_server.problems import answer_problem
@@ -25,22 +26,30 @@ Visibility = Callable[[Scope, Permission, dict[str, str], Person], Awaitable[boo
 class Refusal(Exception):  # noqa: N818
     """Answered at once: status, kind of problem, and what is told."""
 
-    def __init__(self, status: int, kind: str, detail: str) -> None:
+    def __init__(
+        self, status: int, kind: str, detail: str, headers: dict[str, str] | None = None
+    ) -> None:
         super().__init__(detail)
-        self.status, self.kind = status, kind
+        self.status, self.kind, self.headers = status, kind, headers
 
 
 class AccessGuard:
     """Refuses what may not come in, and says in `scope[PERSON]` who calls.
 
     hosts: names that it answers to besides its own. is_visible: whether what a path names may be
-    seen by who calls.
+    seen by who calls. rates: how often people may, in a class.
     """
 
     def __init__(
-        self, app: ASGIApp, door: Door, hosts: frozenset[str], is_visible: Visibility
+        self,
+        app: ASGIApp,
+        door: Door,
+        hosts: frozenset[str],
+        is_visible: Visibility,
+        rates: Rates | None = None,
     ) -> None:
         self._app, self._door, self._hosts, self._is_visible = app, door, hosts, is_visible
+        self._rates = rates
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a refusal, or hand the request on."""
@@ -78,6 +87,7 @@ class AccessGuard:
         permission, named = find_permission(method, find_path(scope))
         headers = Headers(scope=scope)
         person = self._door.admit(headers)
+        self._count(scope, person)
         if permission.role is None or person is EVERYBODY:
             return person
         if person is None:
@@ -92,6 +102,19 @@ class AccessGuard:
             message = f"This {kind} belongs to who made it; only they and the instructor may."
             raise Refusal(403, "not_yours", message)
         return person
+
+    def _count(self, scope: Scope, person: Person | None) -> None:
+        kind = find_kind(scope.get("method", ""), find_path(scope)) if self._rates else None
+        if self._rates is None or kind is None:
+            return
+        address = scope["client"][0] if scope.get("client") else ""
+        wait_s = self._rates.count(kind, address if kind == "joins" or not person else person.id)
+        if wait_s is not None:
+            message = (
+                f"That is too much at once, {self._rates.describe(kind)} are allowed: try again in"
+                f" {wait_s} s."
+            )
+            raise Refusal(429, "too_many", message, {"Retry-After": str(wait_s)})
 
 
 def find_path(scope: Scope) -> str:
@@ -120,6 +143,6 @@ async def _refuse(scope: Scope, receive: Receive, send: Send, refusal: Refusal) 
     ):
         await send({"type": "websocket.close", "code": 1008, "reason": refusal.kind})
         return
-    headers = {"WWW-Authenticate": "Bearer"} if refusal.status == 401 else None
+    headers = {"WWW-Authenticate": "Bearer"} if refusal.status == 401 else refusal.headers
     answer = answer_problem(refusal.status, refusal.kind, str(refusal), headers)
     await answer(scope, receive, send)

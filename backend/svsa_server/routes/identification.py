@@ -8,7 +8,7 @@ from svsa.run.command import SetNominal, SetParameters
 from svsa.run.configuration import parse_design
 from svsa_server.excitation import TAG
 from svsa_server.recording_schemas import ExcitationRequest
-from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
 from svsa_server.session_schemas import SessionState
 from svsa_server.setting_schemas import ParameterFileRequest
 from svsa_server.state import build_state
@@ -23,6 +23,7 @@ router = APIRouter(
 async def excite(
     request: Request,
     hosted: NamedSession,
+    person: NamedPerson,
     wanted: Annotated[ExcitationRequest, Body(examples=[{"name": "Identification"}])],
 ) -> SessionState:
     """Play the identification excitation from now on and record it, 32 s; starts what is paused.
@@ -31,9 +32,12 @@ async def excite(
     itself, and with it the recording; a reference of your own breaks it off.
     """
     hosted.check_excitable()
+    await request.app.state.quota.check(person.id)
     if hosted.session.status != "running":
         await take_turn(hosted.session.start)
-    await request.app.state.recordings.start(hosted.session, wanted.name, (TAG,), "")
+    await request.app.state.recordings.start(
+        hosted.session, wanted.name, (TAG,), "", owner=person.id
+    )
     hosted.begin_excitation()
     return build_state(hosted)
 

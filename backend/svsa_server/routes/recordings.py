@@ -22,6 +22,7 @@ async def start_recording(
     wanted: Annotated[RecordingRequest, Body(examples=[{"name": "3 kg at 15 N·m/rad"}])],
 ) -> SessionState:
     """Record every sample and command from now on, at full rate."""
+    await request.app.state.quota.check(person.id)
     await request.app.state.recordings.start(
         hosted.session, wanted.name, wanted.tags, wanted.notes, owner=person.id
     )

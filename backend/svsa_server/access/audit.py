@@ -1,0 +1,90 @@
+"""The audit log of a class: who did what, where, at which tick, as lines of JSON.
+
+What was sent is not in it, so that no secret is; the commands of a run stand in its record.
+"""
+
+import json
+import logging
+from datetime import UTC, datetime
+from logging.handlers import QueueHandler, QueueListener, RotatingFileHandler
+from pathlib import Path
+from queue import SimpleQueue
+from typing import Any
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from svsa_server.access.guard import PERSON, find_path
+from svsa_server.access.permissions import find_permission
+from svsa_server.control import CHANGING
+
+FILE = "audit.jsonl"
+_MAX_BYTES, _FILES = 10 * 1024 * 1024, 5
+_PLAIN = "%(message)s"
+
+
+class AuditLog:
+    """Written beside the event loop, which waits for no disk; a full file is set aside."""
+
+    def __init__(self, folder: Path) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        file = RotatingFileHandler(
+            folder / FILE, maxBytes=_MAX_BYTES, backupCount=_FILES, encoding="utf-8", delay=True
+        )
+        file.setFormatter(logging.Formatter(_PLAIN))
+        queue: SimpleQueue[Any] = SimpleQueue()
+        self._logger = logging.Logger("svsa.audit")
+        self._logger.addHandler(QueueHandler(queue))
+        self._listener = QueueListener(queue, file)
+        self._file = file
+        self._listener.start()
+
+    def write(self, **line: Any) -> None:
+        """Add a line; what may change between versions is only added."""
+        now = datetime.now(UTC).isoformat(timespec="milliseconds")
+        self._logger.info("%s", json.dumps({"time": now} | line, ensure_ascii=False))
+
+    def close(self) -> None:
+        """Write what is left."""
+        self._listener.stop()
+        self._file.close()
+
+
+class Auditor:
+    """ASGI middleware that notes what changes something, done or refused."""
+
+    def __init__(self, app: ASGIApp, log: AuditLog) -> None:
+        self._app, self._log = app, log
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Hand the request on, and note what came of it."""
+        if scope["type"] != "http" or scope["method"] not in CHANGING:
+            await self._app(scope, receive, send)
+            return
+        status = 500
+
+        async def send_noted(message: Message) -> None:
+            nonlocal status
+            status = message.get("status", status)
+            await send(message)
+
+        try:
+            await self._app(scope, receive, send_noted)
+        finally:
+            self._note(scope, status)
+
+    def _note(self, scope: Scope, status: int) -> None:
+        method, path, person = scope["method"], find_path(scope), scope.get(PERSON)
+        session = find_permission(method, path).named.get("session")
+        hosted = scope["app"].state.laboratory.sessions.get(session)
+        self._log.write(
+            person=person.id if person else None,
+            name=person.name if person else None,
+            role=person.role.word if person else None,
+            address=scope["client"][0] if scope.get("client") else None,
+            method=method,
+            path=path,
+            status=status,
+            session=session,
+            run=hosted.session.journal.run_number if hosted else None,
+            tick=hosted.session.run.tick if hosted else None,
+        )

@@ -1,0 +1,73 @@
+"""How often one may: counted by address or person, told when again, and never a stop."""
+
+import time
+from pathlib import Path
+
+import pytest
+from pydantic import ValidationError
+
+from svsa_server.access.rates import Rates, find_kind
+from svsa_server.config import Settings
+from tests.server.access.classroom import SHARED, read_kind, run_class
+
+SESSION = "/api/v1/sessions/private-1"
+
+
+def test_one_too_many_is_told_when_it_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [1000.0]
+    monkeypatch.setattr(time, "time", lambda: now[0])
+    rates = Rates(
+        {"joins": "2/minute", "commands": "1/second", "sessions": "1/day", "runs": "1/day"}
+    )
+    assert [rates.count("joins", "a") for _ in range(2)] == [None, None]
+    now[0] += 45.0
+    assert rates.count("joins", "a") == 15
+    assert rates.count("joins", "b") is None, "each is counted by themselves"
+    assert rates.count("commands", "a") is None, "and each kind"
+    now[0] += 15.1
+    assert rates.count("joins", "a") is None
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "kind"),
+    [
+        ("POST", "/api/v1/join", "joins"),
+        ("POST", "/api/v1/login", "joins"),
+        ("POST", "/api/v1/sessions", "sessions"),
+        ("POST", "/api/v1/runs/1/branch", "sessions"),
+        ("POST", SESSION + "/recording", "runs"),
+        ("DELETE", SESSION + "/recording", "commands"),
+        ("PUT", SESSION + "/law", "commands"),
+        ("POST", SESSION + "/start", "commands"),
+        ("POST", SESSION + "/pause", None),
+        ("POST", SESSION + "/quick-stop", None),
+        ("POST", "/api/v1/quick-stop", None),
+        ("POST", "/api/v1/emergency-stop", None),
+        ("GET", SESSION, None),
+    ],
+)
+def test_what_a_request_counts_as(method: str, path: str, kind: str | None) -> None:
+    assert find_kind(method, path) == kind
+
+
+def test_a_rate_that_is_none_is_refused() -> None:
+    with pytest.raises(ValidationError):
+        Settings(commands="often")
+
+
+def test_over_rest_it_is_429_with_retry_after_and_everybody_still_stops(tmp_path: Path) -> None:
+    with run_class(tmp_path, commands="3/hour", sessions="1/hour", joins="5/hour") as room:
+        ada, bob = room.join("Ada"), room.join("Bob")
+        ada.put(SHARED + "/control", json={"by": "Ada"}).raise_for_status()
+        answers = [ada.post(SHARED + "/start") for _ in range(3)]
+        assert [one.status_code for one in answers] == [200, 200, 429]
+        assert read_kind(answers[-1]) == "too_many"
+        assert "3 commands per 1 hour" in answers[-1].json()["detail"]
+        assert 0 < int(answers[-1].headers["Retry-After"]) <= 3600
+        assert bob.put(SHARED + "/control", json={"by": "Bob"}).status_code == 200
+        assert [ada.post(SHARED + "/pause").status_code for _ in range(9)] == [200] * 9
+        path = "/api/v1/sessions"
+        assert [bob.post(path, json={}).status_code for _ in range(2)] == [201, 429]
+        wrong = {"name": "Eve", "code": "no"}
+        tried = [room.lab.client.post("/api/v1/join", json=wrong).status_code for _ in range(5)]
+        assert tried == [401, 401, 401, 429, 429]
