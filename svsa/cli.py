@@ -108,25 +108,34 @@ app.command("bench-home")(bench_home)
 def measure_costs(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     repeats: Annotated[int, typer.Option(min=1, help="How often each is measured.")] = 15,
+    laws: Annotated[
+        bool, typer.Option("--laws", help="A tick under each law, and nothing else.")
+    ] = False,
     start: Annotated[
         bool, typer.Option(help="Compile everything anew too, to measure it (a minute).")
     ] = True,
 ) -> None:
     """Measure what the loop costs, beside a C loop of the same work (CPU time)."""
+    from svsa.benchmark.bench_tick import TickCost, measure_laws
     from svsa.benchmark.benchmark import measure, measure_start
 
-    prepare(PAPERS_LAWS)
+    prepare(None if laws else PAPERS_LAWS)
     with _messages.status("Measuring …"):
-        costs = measure(repeats) | (measure_start() if start else {})
-    if costs["ratio_to_c"] is None:
+        ticks = measure_laws(repeats) if laws else {}
+        costs = {} if laws else measure(repeats) | (measure_start() if start else {})
+    if not laws and costs["ratio_to_c"] is None:
         _messages.print(
             "No C loop to compare with: it needs a C compiler (cc) and tests/bench/loop.c of the"
             " source tree, which an installed package has not. Ratios are null."
         )
     if as_json:
-        print(json.dumps(costs, indent=2))
+        each = {law: cost._asdict() for law, cost in ticks.items()}
+        print(json.dumps(each or costs, indent=2))
         return
-    table = Table("what", "cost", title="CPU time, the least of many")
+    heads = ("law", *TickCost._fields) if laws else ("what", "cost")
+    table = Table(*heads, title="Time of a tick" if laws else "CPU time, the least of many")
+    for law, cost in ticks.items():
+        table.add_row(law, *(f"{value:.4g}" for value in cost))
     for name, value in costs.items():
         table.add_row(name, f"{value:.4g}" if isinstance(value, float) else str(value))
     Console().print(table)

@@ -11,27 +11,19 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from svsa.control.call import build_call
+from svsa.benchmark.bench_tick import measure_bench_tick
+from svsa.benchmark.turns import measure_in_turns
 from svsa.control.feedback_linearization import build_gains
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.loop.batch import run_batch
 from svsa.loop.loop import advance
-from svsa.loop.measured import (
-    Actuation,
-    BenchConstants,
-    Carried,
-    follow_and_decide,
-    publish_and_predict,
-)
 from svsa.model.lever import compute_lever_ratio_slope
-from svsa.packed import pack
 from svsa.plant.disturbances import PAPER_TORQUE_NM
 from svsa.result.simulate import simulate
 from svsa.run.batch import build_run_batch
@@ -43,7 +35,6 @@ C_LOOP = Path(__file__).parents[2] / "tests" / "bench" / "loop.c"
 FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC")
 LANES = 32
 REPEATS = 15
-BENCH_TICKS = 1000
 FIGURE, LAW = "4a", "ndobc"
 COMPILE = (f"from svsa.cli import prepare; prepare({(PAPERS_LAW, BASELINE)!r})",)
 """What `make run` waits for at its first start."""
@@ -132,7 +123,7 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
         if loop is not None:
             works["c"] = lambda: run_c(loop, run, samples)
             works["c_lanes"] = lambda: run_c_lanes(loop, run, ticks)
-        cost = _measure_in_turns(works, repeats)
+        cost = measure_in_turns(works, repeats)
     c, c_lane = cost.get("c"), cost.get("c_lanes", 0.0) / LANES
     return {
         "figure": FIGURE,
@@ -146,20 +137,6 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
         "batch_ratio_to_c": c_lane * LANES / cost["batch"] if c else None,
         "bench_tick_cpu_us": 1e6 * measure_bench_tick(run, repeats),
     }
-
-
-def measure_bench_tick(run: Run, repeats: int = REPEATS) -> float:
-    """CPU time of a bench's tick as it is called from Python, without its I/O, s."""
-    call = build_call(run.laws[0], run.lanes[0].memory)
-    constants = pack(BenchConstants(run.blocks[0], Actuation(0.0005, 0.0), call))
-    carried, row = pack(Carried()), np.empty(len(CHANNELS))
-
-    def work() -> None:
-        for tick in range(BENCH_TICKS):
-            follow_and_decide(constants, run.inputs, carried, tick)
-            publish_and_predict(constants, carried, 0.0, 0.0, tick, row)
-
-    return _measure_in_turns({"tick": work}, repeats)["tick"] / BENCH_TICKS
 
 
 def measure_start() -> dict[str, float]:
@@ -177,18 +154,6 @@ def measure_start() -> dict[str, float]:
             end = resource.getrusage(resource.RUSAGE_CHILDREN)
             costs.append(end.ru_utime + end.ru_stime - begin.ru_utime - begin.ru_stime)
     return {"compile_cpu_s": costs[0], "warm_start_cpu_s": costs[1]}
-
-
-def _measure_in_turns(works: dict[str, Callable[[], object]], repeats: int) -> dict[str, float]:
-    """The least CPU time of each, s; every one once before, which does not count."""
-    least = dict.fromkeys(works, np.inf)
-    for turn in range(repeats + 1):
-        for name, work in works.items():
-            begin = time.process_time()
-            work()
-            if turn:
-                least[name] = min(least[name], time.process_time() - begin)
-    return least
 
 
 def _point(array: np.ndarray) -> ctypes.c_void_p:

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
 import svsa
-from svsa.benchmark import benchmark
+from svsa.benchmark import bench_tick, benchmark
 from svsa.cli import app
 from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX
@@ -76,3 +76,31 @@ def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
     assert costs["batch_ratio_to_c"] is None
     assert costs["batch_runs_per_second_1_core"] > 0.0
     assert "tests/bench/loop.c" in answer.stderr
+
+
+@pytest.mark.parametrize("law", ["ndobc", "nmpc"])
+def test_the_ticks_that_are_timed_decide_what_the_run_did(law: str) -> None:
+    """So that they are ticks of that law at work, and not of one that is lost."""
+    samples = svsa.simulate("4a", law, duration_s=6.0).samples
+    run = Run(benchmark.get_figure("4a").build_configuration(law))
+    ticks, limits = bench_tick.BenchTicks(run, samples), [15.0, 5.0]
+    assert limits == [run.blocks[0].torque1_max, run.blocks[0].torque2_max]
+    asked = np.empty((len(samples), 2))
+    for tick in range(len(samples)):
+        assert ticks.run_tick(tick) > 0.0
+        asked[tick] = ticks.asked
+    assert_allclose(
+        np.clip(asked, np.negative(limits), limits), samples[:, bench_tick.TORQUES], atol=1e-9
+    )
+
+
+def test_the_command_tells_the_ticks_of_every_law(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bench_tick, "list_law_names", lambda: ("ndobc", "ilc"))
+    answer = RUNNER.invoke(app, ["bench", "--laws", "--json", "--repeats", "1"])
+    assert answer.exit_code == 0, answer.output
+    costs = json.loads(answer.stdout)
+    assert list(costs) == ["ndobc", "ilc"]
+    for cost in costs.values():
+        assert 0.0 < cost["loop_us"] < cost["worst_us"]
+        assert cost["median_us"] <= cost["worst_us"]
+    assert "ilc" in RUNNER.invoke(app, ["bench", "--laws", "--repeats", "1"]).stdout
