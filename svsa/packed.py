@@ -6,9 +6,12 @@ names.
 """
 
 from collections.abc import Sequence
-from typing import Any, cast
+from functools import cache
+from typing import Any, TypeAlias, cast
 
 import numpy as np
+
+Kind: TypeAlias = "type[np.int64 | np.float64] | int | tuple[tuple[str, Kind], ...]"
 
 
 def pack(values: tuple[Any, ...]) -> np.ndarray:
@@ -21,7 +24,7 @@ def pack(values: tuple[Any, ...]) -> np.ndarray:
 
 def pack_all(rows: Sequence[tuple[Any, ...]]) -> np.ndarray:
     """`pack` of many tuples of one kind: a record each, shape (rows,)."""
-    return np.array(list(rows), dtype=_build_dtype(rows[0]))
+    return np.array(list(rows), dtype=_build_dtype(_find_kind(rows[0])))
 
 
 def view_field(record: np.ndarray, name: str) -> np.ndarray:
@@ -32,12 +35,19 @@ def view_field(record: np.ndarray, name: str) -> np.ndarray:
     return record.view(np.float64)[first : first + dtype.itemsize // size]
 
 
-def _build_dtype(values: Any) -> np.dtype:
+def _find_kind(values: Any) -> Kind:
+    """What a tuple is made of: names with their kinds, a count of numbers, or a number's type."""
     if not isinstance(values, tuple):
-        return np.dtype(np.int64 if isinstance(values, int) else np.float64)
+        return np.int64 if isinstance(values, int) else np.float64
     names = getattr(values, "_fields", None)
     if names is None:
-        return np.dtype((np.float64, (len(values),)))
-    return np.dtype(
-        [(name, _build_dtype(value)) for name, value in zip(names, values, strict=True)]
-    )
+        return len(values)
+    return tuple(zip(names, map(_find_kind, values), strict=True))
+
+
+@cache
+def _build_dtype(kind: Kind) -> np.dtype:
+    """One object a kind: numba compares two that are only equal field by field, at every call."""
+    if isinstance(kind, tuple):
+        return np.dtype([(name, _build_dtype(inner)) for name, inner in kind])
+    return np.dtype((np.float64, (kind,)) if isinstance(kind, int) else kind)
