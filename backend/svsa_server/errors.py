@@ -12,7 +12,7 @@ from starlette.routing import compile_path
 
 from svsa.errors import ParameterError, StateError, SvsaError
 from svsa.explanation import explain_problems
-from svsa.records.catalogue.entry import CatalogueError, UnknownRunError
+from svsa.records.catalogue.entry import CatalogueError, ChangedRunError, UnknownRunError
 from svsa.records.header import RecordError
 from svsa.study.store import StudyError
 from svsa_server.control import HeldError
@@ -62,6 +62,10 @@ def install_error_handlers(app: FastAPI) -> None:
     @app.exception_handler(BusyError)
     def refuse_work(_: Request, error: BusyError) -> JSONResponse:
         return answer_problem(503, "busy", str(error), {"Retry-After": str(RETRY_AFTER_S)})
+
+    @app.exception_handler(ChangedRunError)
+    def refuse_change(_: Request, error: ChangedRunError) -> JSONResponse:
+        return answer_problem(412, "changed", str(error))
 
     @app.exception_handler(UnknownRunError)
     @app.exception_handler(UnknownError)

@@ -20,6 +20,7 @@ TITLES = {
     "not_found": "It does not exist",
     "method_not_allowed": "The method is not possible there",
     "not_now": "It does not fit what the session is doing",
+    "changed": "Somebody else has changed it meanwhile",
     "held": "Somebody else is in control",
     "record": "The record cannot be read",
     "study": "It does not fit the study as it is",

@@ -78,6 +78,7 @@ class RunSummary(BaseModel):
     branch_of: BranchOrigin | None = Field(description="The run that it goes on from")
     tags: list[str]
     notes: str
+    revision: str = Field(description="Of name, tags and notes: for If-Match of a change")
     session: str
     created: str = Field(description="UTC, ISO 8601")
     version: str = Field(description="Version of svsa that recorded")

@@ -3,7 +3,7 @@
 import dataclasses
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Query
+from fastapi import APIRouter, Body, Header, Query
 
 from svsa.errors import Fault
 from svsa.fault_labels import label_fault
@@ -21,6 +21,7 @@ from svsa.records.measured_window import trace_record
 from svsa_server.access.roles import Role
 from svsa_server.laboratory import SHARED_SESSION
 from svsa_server.lanes import build_window, list_record_stretches, name_lanes
+from svsa_server.problems import Problem
 from svsa_server.routes import run_difference, run_files, run_origins, run_samples
 from svsa_server.routes.depends import REFUSALS, NamedPerson, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
@@ -35,6 +36,7 @@ from svsa_server.run_schemas import (
 
 MAX_COMMANDS = 1000
 LONGEST_FACET = 60
+CHANGED: dict[str, Any] = {"model": Problem, "description": "It was changed meanwhile"}
 router = APIRouter(tags=["runs"], responses=REFUSALS)
 router.include_router(run_samples.router)
 router.include_router(run_files.router)
@@ -119,14 +121,21 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     )
 
 
-@router.patch("/runs/{run_id}")
+@router.patch("/runs/{run_id}", responses={412: CHANGED})
 def change_run(
     runs: Runs,
     run_id: RunId,
     patch: Annotated[RunPatch, Body(examples=[{"name": "Group 3", "tags": ["class"]}])],
+    if_match: Annotated[
+        str | None,
+        Header(description="The run's `revision`: refused where it was changed meanwhile"),
+    ] = None,
 ) -> RunSummary:
     """Rename a run, tag it, write notes."""
-    entry = runs.update(run_id, name=patch.name, tags=patch.tags, notes=patch.notes)
+    expected = if_match and if_match.strip('"')
+    entry = runs.update(
+        run_id, name=patch.name, tags=patch.tags, notes=patch.notes, expected=expected
+    )
     return RunSummary(**_tell(runs, entry))
 
 
@@ -160,6 +169,7 @@ def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
         {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}
         | {
             "title": entry.title,
+            "revision": entry.revision,
             "branch_of": name_origin(entry.branch_of, origins),
             "fault": entry.fault and _tell_fault(entry.fault),
         }

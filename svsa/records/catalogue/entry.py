@@ -1,5 +1,6 @@
 """A run as the catalogue knows it, and what may be asked of the list."""
 
+import hashlib
 import json
 import unicodedata
 from dataclasses import dataclass, replace
@@ -44,6 +45,10 @@ class UnknownRunError(SvsaError):
     """A run was named that the catalogue does not have."""
 
 
+class ChangedRunError(SvsaError):
+    """A run's name, tags or notes are no longer those that were to be changed."""
+
+
 @dataclass(frozen=True)
 class RunEntry:
     """A run in the list. created, deleted: UTC, ISO 8601; deleted is None outside the trash.
@@ -84,6 +89,12 @@ class RunEntry:
     def title(self) -> str:
         """What it is called: by people, or by its settings, or by its id."""
         return self.name or (self.settings.name if self.settings else "") or self.id
+
+    @property
+    def revision(self) -> str:
+        """Another one for every other name, tags and notes."""
+        written = json.dumps([self.name, self.tags, self.notes])
+        return hashlib.sha256(written.encode()).hexdigest()[:16]
 
     @property
     def figure(self) -> str:

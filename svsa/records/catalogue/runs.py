@@ -17,6 +17,7 @@ from svsa.errors import StateError
 from svsa.records.catalogue.database import Database
 from svsa.records.catalogue.entry import (
     CatalogueError,
+    ChangedRunError,
     Query,
     Reader,
     RunEntry,
@@ -107,8 +108,13 @@ class Catalogue:
         name: str | None = None,
         tags: tuple[str, ...] | None = None,
         notes: str | None = None,
+        expected: str | None = None,
     ) -> RunEntry:
-        """Change what is given; raises `ParameterError` for a wrong value."""
+        """Change what is given; raises `ParameterError` for a wrong value.
+
+        expected: the revision that is to be changed; raises `ChangedRunError` where it has
+        changed meanwhile.
+        """
         self.get(run_id)
         given = {"name": name, "tags": tags, "notes": notes}
         changes: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
@@ -116,6 +122,10 @@ class Catalogue:
             changes["tags"] = tuple(tags)
 
         def write(entry: RunEntry) -> dict[str, Any]:
+            if expected is not None and expected != entry.revision:
+                raise ChangedRunError(
+                    f"Run {run_id} was changed meanwhile: its name, tags or notes are others now."
+                )
             changed = dataclasses.replace(entry, **changes)
             check_texts(changed.name, changed.tags, changed.notes)
             if entry.state in ("damaged", "missing"):

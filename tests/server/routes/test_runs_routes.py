@@ -20,6 +20,7 @@ from svsa.records.writer import write_record
 from svsa.signals import CHANNEL_INDEX
 from svsa_server.errors import install_error_handlers
 from svsa_server.heavy_work import HeavyWork
+from svsa_server.problems import TYPE_PREFIX
 from svsa_server.recording import NoCatalogue
 from svsa_server.routes import runs
 from tests.records.catalogue.test_catalogue import HOSTILE_IDS
@@ -113,6 +114,19 @@ def test_a_run_is_renamed_tagged_and_noted(client: httpx.Client) -> None:
     assert (run["name"], run["tags"], run["notes"]) == (change["name"], ["a", "b"], "with 3 kg")
     assert client.get("runs/run-0").json()["name"] == change["name"]
     client.patch("runs/run-0", json={"name": "Run 0", "tags": ["tag-0", "all"]}).raise_for_status()
+
+
+def test_who_changes_a_run_that_somebody_else_has_changed_is_told(client: httpx.Client) -> None:
+    read = client.get("runs/run-0").json()
+    seen = {"If-Match": f'"{read["revision"]}"'}
+    changed = client.patch("runs/run-0", json={"notes": "mine"}, headers=seen).json()
+    assert changed["revision"] != read["revision"]
+    late = client.patch("runs/run-0", json={"notes": "hers"}, headers=seen)
+    assert (late.status_code, late.json()["type"]) == (412, TYPE_PREFIX + "changed")
+    assert client.get("runs/run-0").json()["notes"] == "mine"
+    now = {"If-Match": f'"{changed["revision"]}"'}
+    back = client.patch("runs/run-0", json={"notes": read["notes"]}, headers=now).json()
+    assert back["revision"] == read["revision"]
 
 
 def test_delete_and_restore(client: httpx.Client) -> None:

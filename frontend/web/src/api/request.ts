@@ -19,9 +19,10 @@ export async function request(
   path: string,
   body?: unknown,
   waitMs = LONGEST_WAIT_MS,
+  more: Readonly<Record<string, string>> = {},
 ): Promise<unknown> {
   const name = method === "get" ? null : drawText();
-  const headers: Record<string, string> = { [CLIENT_HEADER]: client };
+  const headers: Record<string, string> = { ...more, [CLIENT_HEADER]: client };
   if (name !== null) headers[REQUEST_HEADER] = name;
   if (body !== undefined) headers["Content-Type"] = "application/json";
   const sentMs = performance.now();

@@ -36,8 +36,11 @@ export function listRuns(wanted: RunsWanted): Promise<RunList> {
 }
 
 export const readRun = (run: string) => request("get", pathOf(run)) as Promise<RunDetails>;
-export const changeRun = (run: string, patch: RunPatch) =>
-  request("patch", pathOf(run), patch) as Promise<RunSummary>;
+/** Refused with 412 where somebody else has changed the run since this was read of it. */
+export const changeRun = (run: Pick<RunSummary, "id" | "revision">, patch: RunPatch) =>
+  request("patch", pathOf(run.id), patch, undefined, {
+    "If-Match": `"${run.revision}"`,
+  }) as Promise<RunSummary>;
 export const deleteRun = (run: string) => request("delete", pathOf(run)) as Promise<RunSummary>;
 export const restoreRun = (run: string) =>
   request("post", pathOf(run, "/restore")) as Promise<RunSummary>;

@@ -4386,6 +4386,11 @@ export interface components {
             tags: string[];
             /** Notes */
             notes: string;
+            /**
+             * Revision
+             * @description Of name, tags and notes: for If-Match of a change
+             */
+            revision: string;
             /** Session */
             session: string;
             /**
@@ -4710,6 +4715,11 @@ export interface components {
             tags: string[];
             /** Notes */
             notes: string;
+            /**
+             * Revision
+             * @description Of name, tags and notes: for If-Match of a change
+             */
+            revision: string;
             /** Session */
             session: string;
             /**
@@ -11183,7 +11193,10 @@ export interface operations {
     change_run_api_v1_runs__run_id__patch: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description The run's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
+            };
             path: {
                 /** @description Id of a run */
                 run_id: string;
@@ -11234,6 +11247,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It was changed meanwhile */
+            412: {
                 headers: {
                     [name: string]: unknown;
                 };

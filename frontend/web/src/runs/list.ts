@@ -95,12 +95,11 @@ function accept(run: RunSummary): void {
   found.value = { ...list, runs: list.runs.map((row) => (row.id === run.id ? run : row)) };
 }
 
-export async function patchRun(run: string, patch: RunPatch): Promise<RunSummary | null> {
+/** Null where it was refused; the list has then what the run says now. */
+export async function patchRun(run: RunSummary, patch: RunPatch): Promise<RunSummary | null> {
   const answer = await attempt(() => changeRun(run, patch));
-  if (answer) {
-    accept(answer);
-    if (patch.tags) void refresh();
-  }
+  if (answer) accept(answer);
+  if (answer === null || patch.tags) void refresh();
   return answer;
 }
 

@@ -20,7 +20,8 @@ interface WrittenProps {
   class: string;
   value: string;
   longest: number;
-  onWrite: (value: string) => unknown;
+  /** Whether it was kept; what was not stands there still. */
+  onWrite: (value: string) => Promise<boolean>;
 }
 
 /** A line of text, wrapped where it is long, that is kept when it is left, or with Enter; Escape takes the draft back. */
@@ -43,17 +44,25 @@ function Written({ label, hint, value, longest, onWrite, ...rest }: WrittenProps
         if (event.key === "Escape") setDraft(null);
       }}
       onBlur={() => {
-        if (draft !== null && draft !== value) onWrite(draft);
-        setDraft(null);
+        if (draft === null || draft === value) setDraft(null);
+        else void onWrite(draft).then((isKept) => isKept && setDraft(null));
       }}
     />
   );
 }
 
-function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummary) => void }) {
+interface AboutProps {
+  run: RunDetails;
+  onChanged: (run: RunSummary) => void;
+}
+
+function About({ run, onChanged }: AboutProps) {
+  const readAgain = () => void readRun(run.id).then(onChanged, () => {}); // why, stands there already
   const write = async (patch: { name: string } | { notes: string }) => {
-    const answer = await patchRun(run.id, patch);
+    const answer = await patchRun(run, patch);
     if (answer) onChanged(answer);
+    else readAgain();
+    return answer !== null;
   };
   return (
     <div class="run-about">
@@ -65,7 +74,7 @@ function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummar
           class="run-name"
           longest={200}
           value={run.name}
-          onWrite={(name) => void write({ name })}
+          onWrite={(name) => write({ name })}
         />
         <span class="run-when">
           {formatMoment(run.created)} · {formatDuration(run.duration_s)}
@@ -77,7 +86,7 @@ function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummar
             ▲ {text.runs.fault(run.fault.label)}
           </strong>
         )}
-        <Tags run={run} onChanged={onChanged} />
+        <Tags run={run} onChanged={onChanged} onRefused={readAgain} />
       </div>
       <Written
         label={words.notes}
@@ -85,7 +94,7 @@ function About({ run, onChanged }: { run: RunDetails; onChanged: (run: RunSummar
         class="run-note"
         longest={10_000}
         value={run.notes}
-        onWrite={(notes) => void write({ notes })}
+        onWrite={(notes) => write({ notes })}
       />
     </div>
   );

@@ -6,15 +6,17 @@ import { patchRun } from "./list";
 interface TagsProps {
   run: RunSummary;
   onChanged?: (run: RunSummary) => void;
+  onRefused?: () => void;
 }
 
 /** The words by which a run is found, with a place for one more. */
-export function Tags({ run, onChanged }: TagsProps) {
+export function Tags({ run, onChanged, onRefused }: TagsProps) {
   const id = useId();
   const [draft, setDraft] = useState<string | null>(null);
   const put = async (tags: string[]) => {
-    const answer = await patchRun(run.id, { tags });
+    const answer = await patchRun(run, { tags });
     if (answer) onChanged?.(answer);
+    else onRefused?.();
   };
   const add = (event: Event) => {
     event.preventDefault();

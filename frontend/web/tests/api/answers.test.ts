@@ -120,7 +120,7 @@ describe("a change of a run whose answer was lost", () => {
     );
     const { changeRun } = await import("../../src/api/runs");
     const { attempt, runsProblem } = await import("../../src/runs/problem");
-    expect(await attempt(() => changeRun("a", { name: "A" }))).toBeNull();
+    expect(await attempt(() => changeRun({ id: "a", revision: "1" }, { name: "A" }))).toBeNull();
     expect(runsProblem.value).toBe(page.words.doneUnseen);
     expect(asked.filter((each) => each.startsWith("PATCH"))).toHaveLength(1);
   });
@@ -143,7 +143,7 @@ describe("an answer that came", () => {
     vi.resetModules();
     const refusing = await load(() => ({
       status: 409,
-      body: { error: "not_now", message: "Arm it first.", violations: [] },
+      body: { type: "urn:svsa:problem:not_now", detail: "Arm it first.", violations: [] },
     }));
     expect(await refusing.press()).toBe(false);
     expect(refusing.problem.value?.message).toBe("Arm it first.");

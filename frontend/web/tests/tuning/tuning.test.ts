@@ -96,7 +96,7 @@ describe("a tuning that is followed", () => {
   it("is not begun where the server refuses it, and the last one stays", async () => {
     tuning.value = state("done", []);
     vi.stubGlobal("fetch", async () =>
-      Response.json({ error: "busy", message: "too much" }, { status: 503 }),
+      Response.json({ type: "urn:svsa:problem:busy", detail: "too much" }, { status: 503 }),
     );
     await start("fl_integral", 3);
     expect(String(problem.value)).toContain("too much");
