@@ -79,6 +79,8 @@ class BenchState(BaseModel):
         description="As the drives say; null where no loop ticks that would hear them"
     )
     ages_s: tuple[float, float, float] = Field(description="Of motor 1, motor 2, deflection")
+    stale_zero_s: float = Field(description="An age above it: zero torque")
+    stale_fault_s: float = Field(description="An age above it: a fault")
     supervised: bool = Field(description="The supervisor's heartbeat is fresh")
     operator_required: bool = Field(description="Somebody must watch while it runs")
     dead_man: bool = Field(

@@ -26,6 +26,8 @@ def build_bench_state(session: BenchSession) -> BenchState:
         homing=_build_homing(session.homing_step),
         current_a=tuple(fields["current_a"].tolist()) if _is_ticking(session) else None,
         ages_s=tuple(np.minimum(fields["ages_s"] + _find_silence_s(session), 1e3).tolist()),
+        stale_zero_s=bench.safety.stale_zero_s,
+        stale_fault_s=bench.safety.stale_fault_s,
         supervised=session.loop.supervised,
         operator_required=bench.safety.needs_watcher,
         dead_man=bench.safety.dead_man,

@@ -5,6 +5,7 @@ import math
 
 import can
 
+from svsa.bench.axes import AXIS_WORDS
 from svsa.bench.calibration import Calibration, list_problems
 from svsa.bench.clock import BenchClock
 from svsa.bench.drives.bus import BUS_TROUBLE, DELIVERY_S, open_bus
@@ -125,9 +126,10 @@ class CanPlant:
         """
         angle = self._sensing.find_angle(step)
         if self.status is BenchStatus.READY and abs(angle) > HOME_TOLERANCE_RAD:
+            name = AXIS_WORDS[step]
             raise StateError(
-                f"{step} is {angle:.3f} rad from zero: set the mechanism to its marks, let go of"
-                " it, and arm again."
+                f"{name.capitalize()} is {angle:.3f} rad from zero: set the mechanism to its marks,"
+                " let go of it, and arm again."
             )
         self._machine.confirm_home(step, by)
 

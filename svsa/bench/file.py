@@ -7,6 +7,7 @@ gearbox, efficiency, sign or counts are not given can be checked, but does not a
 from pathlib import Path
 from typing import Any, Literal
 
+from svsa.bench.axes import AXIS_WORDS
 from svsa.checked import Checked, Flag, Number, Whole, quantity
 from svsa.errors import ParameterError, Violation
 from svsa.toml_file import read_toml
@@ -166,11 +167,20 @@ class BenchFile(Checked):
             "deflection": ("counts_per_rev",),
         }
         return [
-            f"{section}.{name} is not given"
+            f"{AXIS_WORDS[section]} has no {_WORDS[name]}: {section}.{name} is not given"
             for section, names in wanted.items()
             for name in (*names, "sign")
             if getattr(getattr(self, section), name) is None
         ]
+
+
+_WORDS = {
+    "counts_per_rev": "counts a turn",
+    "gear_ratio": "gear ratio",
+    "torque_constant_nm_per_a": "torque constant",
+    "efficiency": "efficiency",
+    "sign": "sign",
+}
 
 
 def read_bench(path: Path | str) -> BenchFile:

@@ -7,6 +7,7 @@ the deflection encoder's zero, in the calibration record.
 
 from typing import Literal, NamedTuple
 
+from svsa.bench.axes import AXIS_WORDS
 from svsa.errors import ParameterError, StateError, Violation
 
 Axis = Literal["link", "motor1", "motor2"]
@@ -46,9 +47,8 @@ class Homing:
         if not by.strip():
             raise ParameterError(Violation("by", by, "", "the name of who looked at the mark"))
         if step != self.next_step:
-            raise StateError(
-                f"{step} is not what is confirmed next: {self.next_step or 'nothing is left'}."
-            )
+            told = AXIS_WORDS[self.next_step] if self.next_step else "nothing is left"
+            raise StateError(f"The next mark to confirm is not that of {AXIS_WORDS[step]}: {told}.")
         self.confirmed[step] = by
 
     def reset(self) -> None:

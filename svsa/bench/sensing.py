@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import can
 
+from svsa.bench.axes import AXIS_WORDS
 from svsa.bench.clock import BenchClock
 from svsa.bench.drives.bus import BUS_TROUBLE, take_waiting
 from svsa.bench.drives.conversion import MotorScale, Unwrapped, build_deflection_scale
@@ -16,7 +17,7 @@ from svsa.bench.emulation import EMULATED_ID
 from svsa.bench.encoders import read_source
 from svsa.bench.encoders.source import EncoderError
 from svsa.bench.file import BenchFile
-from svsa.bench.safety.faults import AXIS_WORDS, Alarm
+from svsa.bench.safety.faults import Alarm
 from svsa.bench.safety.standstill import NewCounts
 from svsa.signals import Measurement, State
 

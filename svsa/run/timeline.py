@@ -42,7 +42,7 @@ MAX_STRETCHES = 1000
 INK_COLORS = 5
 INK_DASHES = 4
 
-WindowKind = Literal["start", "load", "unload", "change"]
+WindowKind = Literal["start", "load", "unload", "change", "stop"]
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,8 @@ class Window:
     """A part of a run in which nothing was changed; ticks first … end − 1, end None: until now.
 
     kind: what began it: the run, a load that came on, one that was taken off, or a change of
-    reference, law, gains, observer, effects, plant, model or lanes. label: that in words.
+    reference, law, gains, observer, effects, plant, model or lanes, or a bench's ramp to zero
+    torque, which no law asked for. label: that in words.
     """
 
     kind: WindowKind
@@ -131,6 +132,10 @@ class Timeline:
         """A load that acted was taken off by hand."""
         self._begin("unload", describe_end(load), tick)
 
+    def begin_stop(self, tick: int) -> None:
+        """A bench's torque goes to zero on a ramp, while its twin goes on."""
+        self._begin("stop", "Stop", tick)
+
     def list_stretches(
         self, first_tick: float = 0, most: int = MAX_STRETCHES
     ) -> list[list[Stretch]]:
@@ -149,7 +154,7 @@ class Timeline:
             and (window.end_tick is None or window.end_tick > first_tick)
         ]
 
-    def _begin(self, kind: Literal["load", "unload", "change"], label: str, tick: int) -> None:
+    def _begin(self, kind: WindowKind, label: str, tick: int) -> None:
         last = self.window
         if last.kind == "start" and tick == 0 and kind == "change":
             return

@@ -252,9 +252,11 @@ class BenchSession:
         if self.loop.starting:
             return
         self.loop.processes.beats.beat("server")
+        told = self.loop.take_states()
+        self._look_for_stop(told)
         if not self._commands.is_pending:
             self.journal.advance(self._run.count_ready())
-        self._take_states()
+        self._take_states(told)
         self._look_for_loss()
         if self.watched or self.bench_status is not BenchStatus.RUN:
             self._unwatched_since = now
@@ -262,8 +264,14 @@ class BenchSession:
             self._unwatched_since = now
             self.loop.processes.tell("stop", "nobody watches")
 
-    def _take_states(self) -> None:
-        for told in self.loop.take_states():
+    def _look_for_stop(self, states: list[dict[str, Any]]) -> None:
+        """A ramp begins a window before its first sample is taken in."""
+        ramps = any(told["status"] == BenchStatus.RAMP for told in states)
+        if ramps and self._told_status is BenchStatus.RUN:
+            self.journal.begin_stop()
+
+    def _take_states(self, states: list[dict[str, Any]]) -> None:
+        for told in states:
             self.problems, self.homing_step = told["problems"], told["homing_step"]
             if self._latch.take_own(Fault(**told["fault"]) if told["fault"] else None):
                 self._log_fault()
@@ -288,7 +296,9 @@ class BenchSession:
     def _ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
         """Have the loop do it; what it says of its state is known when this returns."""
         answer = self.loop.ask(wanted, argument)
-        self._take_states()
+        told = self.loop.take_states()
+        self._look_for_stop(told)
+        self._take_states(told)
         return answer
 
     def change(self, command: Command) -> None:

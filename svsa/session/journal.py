@@ -128,6 +128,14 @@ class Journal:
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
         self.version += 1
 
+    def begin_stop(self) -> None:
+        """A bench ramps to zero torque: its error from now on is none of the window before."""
+        if self.timeline.window.kind == "stop":
+            return
+        self.log("stop", "Stop")
+        self.timeline.begin_stop(self.run.tick)
+        self.metrics.begin_window(self.run.tick)
+
     def log_fault(self, fault: Fault, ends_run: bool = True) -> None:
         """A fault is an event, and the end of the recording of a run that it ends."""
         if ends_run and self.recorder is not None:

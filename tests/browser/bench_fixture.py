@@ -21,6 +21,8 @@ BENCH: dict[str, Any] = {
     },
     "current_a": [0.42, -0.07],
     "ages_s": [0.0012, 0.0011, 0.0009],
+    "stale_zero_s": 0.005,
+    "stale_fault_s": 0.02,
     "supervised": True,
     "operator_required": False,
     "dead_man": False,

@@ -236,7 +236,7 @@ def test_it_neither_starts_before_home_nor_arms_uncalibrated(
                 bench.start()
             assert bench.plant.homing_step is not None, step
             bench.plant.confirm_home(bench.plant.homing_step, "a test")
-        with pytest.raises(StateError, match="motor2"):
+        with pytest.raises(StateError, match="zero mark of motor 2 is"):
             bench.start()
     finally:
         bench.close()

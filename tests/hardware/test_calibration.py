@@ -98,7 +98,8 @@ def test_unconfirmed_signs_and_missing_values_keep_it_from_arming(tmp_path, benc
     (problem,) = list_problems(bench, build(bench, signs_confirmed=False))
     assert "bench-check --move" in problem
     unknown = read_bench(copy_bench(tmp_path, lambda text: text.replace("efficiency = 0.9", "", 1)))
-    assert "motor1.efficiency is not given" in list_problems(unknown, build(unknown))[0]
+    words = "uncalibrated: motor 1 has no efficiency: motor1.efficiency is not given"
+    assert list_problems(unknown, build(unknown))[0] == words
 
 
 @pytest.mark.parametrize(

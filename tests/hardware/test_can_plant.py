@@ -51,7 +51,7 @@ def test_start_needs_ready_and_every_mark() -> None:
         b.plant.arm(b.now)
         b.tick_until(BenchStatus.READY)
         b.plant.confirm_home("link", "a test")
-        with pytest.raises(StateError, match="motor1"):
+        with pytest.raises(StateError, match="motor 1"):
             b.plant.start(b.now)
 
 

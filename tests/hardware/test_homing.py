@@ -29,7 +29,7 @@ def test_no_mark_is_confirmed_out_of_turn(step):
 def test_a_mark_is_not_confirmed_twice_nor_after_the_last():
     homing = Homing()
     homing.confirm("link", "Ada")
-    with pytest.raises(StateError, match="motor1"):
+    with pytest.raises(StateError, match="motor 1"):
         homing.confirm("link", "Bob")
     homing.confirm("motor1", "Ada")
     homing.confirm("motor2", "Ada")

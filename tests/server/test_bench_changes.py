@@ -10,14 +10,18 @@ from svsa.bench.realtime.loss import Loss
 from svsa.bench.safety.machine import BenchStatus
 from svsa.control.gains import Gains
 from svsa.errors import Fault, StateError
+from svsa.loop.lane import AT_REST
 from svsa.run.command import SetLane, SetLaw, SetRivals
 from svsa.run.configuration import Lane
+from svsa.run.run import Start
 from svsa.session.bench import BenchSession
+from svsa.session.bench_run import BenchRun
 from svsa_server.gain_schemas import GainsRequest
 from svsa_server.hosted import HostedSession
 from svsa_server.routes import settings
 from svsa_server.turn import take_turn
 from tests.server.scripted_bench import Processes, build_bench_session
+from tests.session.test_bench_run import write
 
 
 @pytest.fixture
@@ -87,3 +91,34 @@ def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
     session.wake(0.0)
     assert [fault.message for fault in written] == words[:2]
     monkeypatch.undo()
+
+
+def test_what_a_stop_does_on_its_ramp_is_not_in_the_numbers_of_the_run(
+    session: BenchSession,
+) -> None:
+    """The twin goes on without a ramp: in one window they would not be of the same."""
+    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
+    memory.begin_run(1)
+    session._begin(BenchRun(session.run.configuration, start, memory))
+    tell(session, BenchStatus.RUN)
+    write(memory, 0, 100)
+    session.wake(0.0)
+    write(memory, 100, 50)
+    tell(session, BenchStatus.RAMP)
+    session.wake(0.0)
+    journal = session.journal
+    assert (journal.timeline.window.kind, journal.timeline.window.first_tick) == ("stop", 100)
+    (before,) = journal.metrics.ended
+    assert [one and one.duration_s for one in before.lanes] == pytest.approx([0.1, 0.1])
+    since = [one and one.summarize() for one in journal.metrics.in_window]
+    assert [one and one.duration_s for one in since] == pytest.approx([0.05, 0.05])
+    assert [event.label for event in journal.events] == ["Stop"]
+
+
+def tell(session: BenchSession, status: BenchStatus) -> None:
+    """What the loop says of itself with the next wake."""
+    event = {"event": "state", "status": status, "problems": [], "homing_step": None, "fault": None}
+    told = [event]
+    session.loop.processes.take_events = lambda: [told.pop()] if told else []  # pyright: ignore
+    if status is BenchStatus.RUN:
+        session.wake(0.0)

@@ -39,7 +39,7 @@ def tell(session: BenchSession, status: BenchStatus, code: str | None = None) ->
         fault = {"code": code, "lane": 0, "tick": 70, "time_s": 0.07, "message": "It stopped."}
     event = {"event": "state", "status": status, "problems": [], "homing_step": None}
     session.loop.processes.take_events = lambda: [event | {"fault": fault}]  # pyright: ignore
-    session._take_states()
+    session._take_states(session.loop.take_states())
 
 
 def test_a_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession) -> None:

@@ -28,7 +28,7 @@ def test_it_is_armed_and_homed_step_by_step_and_nothing_out_of_turn(bench: Bench
     assert "READY" in bench.refuse("/bench/home", {"step": "link", "by": "Ada"})
     bench.wait_for("ready")
     assert bench.read()["bench"]["emulated"] is True
-    assert "zero mark of link" in refuse_watched(bench)
+    assert "zero mark of the link" in refuse_watched(bench)
     wrong = bench.lab.client.post(
         bench.lab.session + "/bench/home", json={"step": "motor2", "by": "Ada"}
     )

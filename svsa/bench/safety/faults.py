@@ -61,15 +61,6 @@ FAULTS: dict[str, FaultKind] = {
 }
 
 
-AXIS_WORDS = {
-    "link": "the link",
-    "motor1": "motor 1",
-    "motor2": "motor 2",
-    "deflection": "the deflection",
-}
-"""What an axis is called in a message."""
-
-
 class Alarm(NamedTuple):
     """A fault that was found: its code of `FAULTS`, in words, and the values in it."""
 

@@ -2,9 +2,10 @@
 
 import math
 
+from svsa.bench.axes import AXIS_WORDS
 from svsa.bench.drives.conversion import build_motor_scale
 from svsa.bench.file import BenchFile, MotorSettings
-from svsa.bench.safety.faults import AXIS_WORDS, Alarm
+from svsa.bench.safety.faults import Alarm
 from svsa.bench.safety.standstill import NewCounts, Standstill
 from svsa.bench.safety.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.fault_labels import label_fault

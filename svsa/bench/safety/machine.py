@@ -10,10 +10,11 @@ import math
 from enum import StrEnum
 from typing import NamedTuple
 
+from svsa.bench.axes import AXIS_WORDS
 from svsa.bench.drives.phase import Phase
 from svsa.bench.file import BenchFile
 from svsa.bench.homing import Homing
-from svsa.bench.safety.faults import AXIS_WORDS, Alarm
+from svsa.bench.safety.faults import Alarm
 from svsa.bench.safety.guard import Guard
 from svsa.errors import Fault, StateError
 from svsa.signals import Disturbance, State, Torque
@@ -100,7 +101,8 @@ class Machine:
         if self.status is not BenchStatus.READY:
             raise StateError(f"The bench is {self.status}: it starts from READY; arm it first.")
         if self.homing.next_step is not None:
-            raise StateError(f"The zero mark of {self.homing.next_step} is not confirmed yet.")
+            axis = AXIS_WORDS[self.homing.next_step]
+            raise StateError(f"The zero mark of {axis} is not confirmed yet.")
         if self._safety.dead_man and operator_age_s > self._safety.operator_s:
             raise StateError("The dead-man's switch is not held: hold it, then start.")
         self.status, self._share, self._tick = BenchStatus.RUN, 1.0, 0

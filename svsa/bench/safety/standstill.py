@@ -5,7 +5,8 @@ than friction can take up. With counts that have stopped, ŵ goes on growing aga
 controller asks for, long before it is greater than any load.
 """
 
-from svsa.bench.safety.faults import AXIS_WORDS, Alarm
+from svsa.bench.axes import AXIS_WORDS
+from svsa.bench.safety.faults import Alarm
 from svsa.signals import Disturbance
 
 NewCounts = tuple[int | None, int | None, int | None]

@@ -2063,6 +2063,16 @@ export interface components {
                 number
             ];
             /**
+             * Stale Zero S
+             * @description An age above it: zero torque
+             */
+            stale_zero_s: number;
+            /**
+             * Stale Fault S
+             * @description An age above it: a fault
+             */
+            stale_fault_s: number;
+            /**
              * Supervised
              * @description The supervisor's heartbeat is fresh
              */
@@ -2514,7 +2524,7 @@ export interface components {
              * @description What began it
              * @enum {string}
              */
-            kind: "start" | "load" | "unload" | "change";
+            kind: "start" | "load" | "unload" | "change" | "stop";
             /**
              * Label
              * @description What began it, in words; empty for the start of the run
@@ -3480,7 +3490,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "start" | "load" | "unload" | "change";
+            kind: "start" | "load" | "unload" | "change" | "stop";
             /** Label */
             label: string;
             /** First Tick */
@@ -6259,7 +6269,7 @@ export interface components {
              * @description What began it
              * @enum {string}
              */
-            kind: "start" | "load" | "unload" | "change";
+            kind: "start" | "load" | "unload" | "change" | "stop";
             /**
              * Label
              * @description What began it, in words; empty for the start of the run

@@ -30,9 +30,8 @@ function Problems({ problems }: { problems: readonly string[] }) {
   );
 }
 
-function Age({ seconds, speaks }: { seconds: number; speaks: boolean }) {
+function Age({ seconds, level }: { seconds: number; level: Freshness }) {
   const { drives } = text.bench;
-  const level = freshnessOf(seconds, speaks);
   if (!isLive.value) return <td class="is-words">{drives.notKnown}</td>;
   if (level === "silent" || level === "unheard") return <td class="is-words">{drives[level]}</td>;
   return (
@@ -64,7 +63,8 @@ function Drives({ bench }: { bench: BenchState }) {
         <tbody>
           {ages.map((age, index) => {
             const speaks = index >= DRIVES || !QUIET.includes(bench.status);
-            const isHeard = HEARD.includes(freshnessOf(age, speaks));
+            const level = freshnessOf(age, bench, speaks);
+            const isHeard = HEARD.includes(level);
             const current = isHeard ? currents?.[index] : undefined;
             return (
               <tr key={drives.names[index]}>
@@ -74,7 +74,7 @@ function Drives({ bench }: { bench: BenchState }) {
                     ? drives.none
                     : drives.amperes(formatNumber(current, 3, 2))}
                 </td>
-                <Age seconds={age} speaks={speaks} />
+                <Age seconds={age} level={level} />
               </tr>
             );
           })}

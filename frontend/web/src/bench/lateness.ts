@@ -1,4 +1,5 @@
 /** The histogram of a loop's lateness as bars, and how old a reading may be. */
+import type { BenchState } from "../api/types";
 
 export interface Bar {
   /** Upper edge, s; null for the last bin, which has none. */
@@ -26,18 +27,23 @@ const FOOT = 0.3;
 const decadesOf = (count: number): number => (count <= 0 ? 0 : FOOT + Math.log10(count));
 
 export type Freshness = "fresh" | "stale" | "lost" | "silent" | "unheard";
-const STALE_S = 0.005;
-const LOST_S = 0.02;
 /** What the server says where there was nothing to be heard yet. */
 const UNHEARD_S = 1000;
 
 /**
- * The bounds of the safety rules: above 5 ms the torque goes to zero, above 20 ms it is a fault.
- * speaks: whether it should be heard at all; a drive that is not armed says nothing.
+ * By the bounds of the bench file, above which the torque goes to zero, and above which it is a
+ * fault. speaks: whether it should be heard at all; a drive that is not armed says nothing.
  */
-export function freshnessOf(ageS: number, speaks = true): Freshness {
-  if (!(ageS <= LOST_S) && !speaks) return "silent";
+export function freshnessOf(
+  ageS: number,
+  {
+    stale_zero_s: staleS,
+    stale_fault_s: lostS,
+  }: Pick<BenchState, "stale_zero_s" | "stale_fault_s">,
+  speaks = true,
+): Freshness {
+  if (!(ageS <= lostS) && !speaks) return "silent";
   if (ageS >= UNHEARD_S) return "unheard";
-  if (!(ageS <= LOST_S)) return "lost";
-  return ageS > STALE_S ? "stale" : "fresh";
+  if (!(ageS <= lostS)) return "lost";
+  return ageS > staleS ? "stale" : "fresh";
 }

@@ -64,10 +64,11 @@ export type Advice =
   | "clear";
 
 /** The encoder may be heard before the drives are armed; they speak only then. */
-function adviceBeforeArming({ problems, supervised, ages_s: ages }: BenchState): Advice {
+function adviceBeforeArming(bench: BenchState): Advice {
+  const { problems, supervised, ages_s: ages } = bench;
   if (problems.length > 0) return "problems";
   if (!supervised) return "unsupervised";
-  return ["lost", "unheard"].includes(freshnessOf(ages[2])) ? "unheard" : "arm";
+  return ["lost", "unheard"].includes(freshnessOf(ages[2], bench)) ? "unheard" : "arm";
 }
 
 /** The next thing to do. held: the dead-man's switch. */

@@ -7,7 +7,7 @@ import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { bestOf } from "../widgets/best";
 import { useLiveText } from "../widgets/live";
-import { recoveryOf, sinceOf } from "./window";
+import { bestIn, recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;
 
@@ -45,13 +45,19 @@ export function Comparison({ state }: { state: SessionState }) {
       key: "rms",
       title: inUnit(compare.rms, compare.degrees),
       cell: (row) => degrees(metrics[row]?.rms_position_error_rad),
-      best: bestOf(metrics.map((row) => row?.rms_position_error_rad)),
+      best: bestIn(
+        window,
+        metrics.map((row) => row?.rms_position_error_rad),
+      ),
     },
     {
       key: "peak",
       title: inUnit(compare.peak, compare.degrees),
       cell: (row) => degrees(metrics[row]?.peak_position_error_rad),
-      best: bestOf(metrics.map((row) => row?.peak_position_error_rad)),
+      best: bestIn(
+        window,
+        metrics.map((row) => row?.peak_position_error_rad),
+      ),
     },
     {
       key: "recovery",

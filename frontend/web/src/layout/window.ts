@@ -3,6 +3,7 @@ import type { Metrics, WindowState } from "../api/types";
 import { text } from "../text/en";
 import { measuredText } from "../text/measured";
 import { formatNumber } from "../units";
+import { bestOf } from "../widgets/best";
 
 const { windows } = text;
 
@@ -16,6 +17,10 @@ const at = ({ label, start_s: startS }: WindowState): string =>
 /** What began the window, and when; in the words in which a record tells of it. */
 export const sinceOf = ({ kind, label, start_s: startS }: WindowState): string =>
   kind === "start" ? measuredText.start : measuredText.since(label, startS.toFixed(2));
+
+/** Whose number is clearly the smallest; none while a bench ramps to zero and its twin does not. */
+export const bestIn = ({ kind }: WindowState, values: Parameters<typeof bestOf>[0]): number =>
+  kind === "stop" ? -1 : bestOf(values);
 
 /** How soon the error was small again after the load; what is no time is said in words. */
 export interface Recovery {

@@ -23,6 +23,8 @@ export function backoffMs(attempt: number, random: number = Math.random()): numb
 export class StreamConnection {
   #socket: WebSocket | null = null;
   #attempt = 0;
+  /** What never came cannot have been lost. */
+  #wasLive = false;
   #retryTimer: ReturnType<typeof setTimeout> | undefined;
   #silenceTimer: ReturnType<typeof setTimeout> | undefined;
 
@@ -60,6 +62,7 @@ export class StreamConnection {
 
   #receive(data: string | ArrayBuffer): void {
     this.#attempt = 0;
+    this.#wasLive = true;
     this.#listenForSilence();
     this.handlers.onPhase("live");
     if (typeof data === "string") this.handlers.onText(data);
@@ -73,7 +76,7 @@ export class StreamConnection {
 
   async #recover(): Promise<void> {
     this.#drop();
-    this.handlers.onPhase("lost");
+    if (this.#wasLive) this.handlers.onPhase("lost");
     const finding = await this.probe();
     const isOpenAgain = this.#socket !== null;
     if (isOpenAgain) return;

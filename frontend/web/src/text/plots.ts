@@ -196,6 +196,7 @@ export const plotsText = {
       load: "since load",
       unload: "since load off",
       change: "since change",
+      stop: "since stop",
     },
     recovery: "Recovered in",
   },

@@ -15,6 +15,8 @@ import { markOfBench } from "../../src/state/plant";
 const HOMED = { done: ["link", "motor1", "motor2"], next_step: null, instruction: "" };
 const UNHOMED = { done: [], next_step: "link", instruction: "Turn the link to its mark." };
 
+/** As a bench file has them that sets none of its own. */
+const BOUNDS = { stale_zero_s: 0.005, stale_fault_s: 0.02 };
 const TICKING = { state: "ticking" };
 const bench = (change: object) =>
   ({
@@ -22,6 +24,7 @@ const bench = (change: object) =>
     problems: [],
     homing: HOMED,
     loop: TICKING,
+    ...BOUNDS,
     ...change,
   }) as unknown as BenchState;
 const allowed = (change: object) =>
@@ -127,19 +130,17 @@ describe("lateness", () => {
   });
 
   it("calls a reading stale above 5 ms and lost above 20 ms", () => {
-    expect([0.001, 0.005, 0.006, 0.02, 0.021, Number.NaN].map((age) => freshnessOf(age))).toEqual([
-      "fresh",
-      "fresh",
-      "stale",
-      "stale",
-      "lost",
-      "lost",
-    ]);
+    expect(
+      [0.001, 0.005, 0.006, 0.02, 0.021, Number.NaN].map((age) => freshnessOf(age, BOUNDS)),
+    ).toEqual(["fresh", "fresh", "stale", "stale", "lost", "lost"]);
   });
 
   it("calls what need not speak yet silent, never lost", () => {
-    expect(freshnessOf(1000, false)).toBe("silent");
-    expect(freshnessOf(1000), "nobody knows since when").toBe("unheard");
-    expect(freshnessOf(0.001, false)).toBe("fresh");
+    expect(freshnessOf(1000, BOUNDS, false)).toBe("silent");
+    expect(freshnessOf(1000, BOUNDS), "nobody knows since when").toBe("unheard");
+    expect(freshnessOf(0.001, BOUNDS, false)).toBe("fresh");
+    const patient = { stale_zero_s: 0.05, stale_fault_s: 0.2 };
+    const levels = [0.04, 0.06, 0.21].map((age) => freshnessOf(age, patient));
+    expect(levels, "a bench file has bounds of its own").toEqual(["fresh", "stale", "lost"]);
   });
 });

@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from "vitest";
 import type { Metrics, WindowState } from "../../src/api/types";
-import { recoveryOf, sinceOf } from "../../src/layout/window";
+import { bestIn, recoveryOf, sinceOf } from "../../src/layout/window";
 import { text as page } from "../../src/text/en";
 import { text as replay } from "../../src/text/replay";
 
@@ -24,6 +24,12 @@ describe("a window", () => {
     expect(sinceOf(window("load", "3 kg load"))).toBe("3 kg load, since 5.00 s");
     expect(sinceOf(window("change", "NDOBC → FL"))).toBe("NDOBC → FL, since 5.00 s");
     expect(sinceOf(window("change", "Gains changed"))).toBe("Gains changed, since 5.00 s");
+    expect(sinceOf(window("stop", "Stop"))).toBe("Stop, since 5.00 s");
+  });
+
+  it("has a best where the lanes do the same, which a bench on its ramp does not", () => {
+    expect(bestIn(window("load", "3 kg load"), [0.2, 0.1])).toBe(1);
+    expect(bestIn(window("stop", "Stop"), [0.2, 0.1])).toBe(-1);
   });
 });
 

@@ -9,20 +9,57 @@ describe("reconnecting", () => {
   });
 });
 
+interface Socket {
+  onclose: (() => void) | null;
+  onmessage: ((event: { data: string }) => void) | null;
+  close: () => void;
+}
+
+/** Every socket that is opened. */
+function stubSockets(): Socket[] {
+  const sockets: Socket[] = [];
+  vi.stubGlobal(
+    "WebSocket",
+    class {
+      onclose: (() => void) | null = null;
+      onmessage: ((event: { data: string }) => void) | null = null;
+      constructor() {
+        sockets.push(this);
+      }
+      close() {}
+    },
+  );
+  return sockets;
+}
+
+describe("a stream that is slow to come", () => {
+  it("is lost only once it was there", async () => {
+    vi.useFakeTimers();
+    const sockets = stubSockets();
+    const phases: string[] = [];
+    const connection = new StreamConnection(
+      () => new URL("ws://lab/stream"),
+      async () => "down",
+      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
+    );
+    connection.open();
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(sockets.length, "it has tried again").toBeGreaterThan(1);
+    expect(phases).toEqual([]);
+    sockets.at(-1)?.onmessage?.({ data: "{}" });
+    sockets.at(-1)?.onclose?.();
+    expect(phases).toEqual(["live", "lost"]);
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(phases.at(-1)).toBe("lost");
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+});
+
 describe("a stream whose session has ended", () => {
   it("says so and does not come back by itself, while one that only broke does", async () => {
     vi.useFakeTimers();
-    const sockets: { onclose: (() => void) | null; close: () => void }[] = [];
-    vi.stubGlobal(
-      "WebSocket",
-      class {
-        onclose: (() => void) | null = null;
-        constructor() {
-          sockets.push(this);
-        }
-        close() {}
-      },
-    );
+    const sockets = stubSockets();
     const findings: Finding[] = ["up", "ended"];
     const phases: string[] = [];
     const connection = new StreamConnection(
