@@ -1,16 +1,15 @@
 /** Whether numbers of runs may be held against each other: only of what was asked of all alike. */
 import type { RunDifference } from "../api/types";
 import { text } from "../text/en";
+import { CHANGES, CHANGES_OF_CONTROLLER, CONTROLLER, LOADS } from "../text/told";
 import type { Overlaid } from "./overlaid";
 
 const words = text.overlay.unlike;
-/** What is compared may differ: who controls, with what, and what the server calls a change of it. */
-const CONTROLLER = "Controller";
-const CHANGES = "Changed while it was recorded";
-const CHANGES_OF_CONTROLLER = ["Law", "Lanes", "Gains", "Parameters of laws", "Observer"];
-/** When a load came is compared in session time, where the server tells it from the record's start. */
-const LOADS = "Loads";
 
+/**
+ * What is compared may differ: who controls, with what, and what the server calls a change of it;
+ * when a load came is compared in session time, where the server tells it from the record's start.
+ */
 function listDiffering({ differences }: RunDifference): string[] {
   const found = differences.filter(
     ({ group, name }) =>
