@@ -25,6 +25,7 @@ from svsa_server.lanes import build_window, list_ended_windows, list_session_str
 from svsa_server.recording_schemas import RecordingState
 from svsa_server.session_schemas import BranchState, LoadState, SessionProgress, SessionState
 from svsa_server.setting_schemas import ConfigurationState
+from svsa_server.stream_schemas import StateMessage
 
 
 def build_progress(hosted: HostedSession) -> SessionProgress:
@@ -81,6 +82,23 @@ def build_state(hosted: HostedSession) -> SessionState:
         ended_windows=list_ended_windows(session),
         sample=None if newest is None else _name_values(newest),
     )
+
+
+def write_news(hosted: HostedSession) -> str:
+    """The message of a stream after a change: made once for all clients that are told the same.
+
+    What moves by itself in it is of the first that was told.
+    """
+    control, queue = _build_control(hosted), _build_queue(hosted.hand)
+    key = (control.mine, queue and queue.place)
+    return hosted.state_texts.get(
+        hosted.version, key, lambda: StateMessage(state=build_state(hosted)).model_dump_json()
+    )
+
+
+def write_progress(hosted: HostedSession) -> str:
+    """The message of a stream once a second without a change: what moves by itself."""
+    return StateMessage(state=build_progress(hosted)).model_dump_json()
 
 
 def _build_control(hosted: HostedSession) -> ControlState:

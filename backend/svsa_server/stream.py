@@ -22,11 +22,9 @@ from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.access.roles import Person
 from svsa_server.control import asking, read_client
 from svsa_server.hosted import HostedSession
-from svsa_server.session_schemas import SessionProgress, SessionState
-from svsa_server.state import build_progress, build_state
+from svsa_server.state import build_state, write_news, write_progress
 from svsa_server.stream_schemas import (
     Hello,
-    StateMessage,
     StreamChannel,
     StreamError,
     StreamRequest,
@@ -164,23 +162,18 @@ async def _send(
             now = time.monotonic()
             news = None
             if hosted.version != version:
-                version, told_at, news = hosted.version, now, build_state(hosted)
+                version, told_at, news = hosted.version, now, write_news(hosted)
             elif now - told_at > PROGRESS_PERIOD_S:
-                told_at, news = now, build_progress(hosted)
+                told_at, news = now, write_progress(hosted)
             batch = cursor.take_batch(slow)
             if news is not None:
-                await _tell(websocket, news)
+                await websocket.send_text(news)
             if batch is not None:
                 await websocket.send_bytes(batch)
             spent = time.monotonic() - now
             slow = spent > SLOW_AFTER_S
             await asyncio.sleep(max(0.0, BATCH_PERIOD_S - spent))
         await websocket.close(1000, "The session has ended.")
-
-
-async def _tell(websocket: WebSocket, state: SessionState | SessionProgress) -> None:
-    """The state after a change, or once a second those of its fields that move by themselves."""
-    await websocket.send_text(StateMessage(state=state).model_dump_json())
 
 
 def _greet(hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]) -> str:

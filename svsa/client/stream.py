@@ -88,7 +88,7 @@ class BlockStream:
         while True:
             try:
                 with synchronous.connect(self._address, **self._options) as socket:
-                    reader = _Reader()
+                    reader = BlockReader()
                     for message in socket:
                         block, is_last = self._take(reader, message)
                         if block is not None:
@@ -106,7 +106,7 @@ class BlockStream:
         while True:
             try:
                 async with asynchronous.connect(self._address, **self._options) as socket:
-                    reader = _Reader()
+                    reader = BlockReader()
                     async for message in socket:
                         block, is_last = self._take(reader, message)
                         if block is not None:
@@ -120,7 +120,7 @@ class BlockStream:
                 self._check_patience(error)
                 await asyncio.sleep(PAUSE_S)
 
-    def _take(self, reader: "_Reader", message: str | bytes) -> tuple[Block | None, bool]:
+    def _take(self, reader: "BlockReader", message: str | bytes) -> tuple[Block | None, bool]:
         """What of a message is within the time that was asked for, and whether that is all."""
         block = reader.read(message)
         if block is None:
@@ -140,7 +140,7 @@ class BlockStream:
             raise LabError(f"{self._name} broke off: {error}.") from None
 
 
-class _Reader:
+class BlockReader:
     """What one connection has told: its hello, and the numbers of its lanes."""
 
     def __init__(self) -> None:
