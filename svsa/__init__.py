@@ -50,7 +50,7 @@ from svsa.run.configuration import (
 )
 
 if TYPE_CHECKING:
-    from svsa import design
+    from svsa import design, falsify
     from svsa.arena.tune import tune
     from svsa.client import connect, connect_async
     from svsa.records.catalogue.runs import Catalogue
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
 
 _LATE = {
     "design": "svsa.design",
+    "falsify": "svsa.falsify",
     "connect": "svsa.client",
     "connect_async": "svsa.client",
     "Catalogue": "svsa.records.catalogue.runs",
@@ -66,12 +67,15 @@ _LATE = {
 }
 
 
+_MODULES = ("design", "falsify")
+
+
 def __getattr__(name: str) -> object:
     """What a simulation does without, and what takes a while to import, when it is asked for."""
     if name not in _LATE:
         raise AttributeError(f"module 'svsa' has no attribute {name!r}")
     module = import_module(_LATE[name])
-    return module if name == "design" else getattr(module, name)
+    return module if name in _MODULES else getattr(module, name)
 
 
 __all__ = [
@@ -117,6 +121,7 @@ __all__ = [
     "connect_async",
     "design",
     "export_run",
+    "falsify",
     "load_prototype",
     "open_run",
     "paper",

@@ -25,6 +25,7 @@ from svsa.control.installed import get_title
 from svsa.design.cli import stability
 from svsa.errors import SvsaError
 from svsa.extras import require_extra
+from svsa.falsify.cli import falsify
 from svsa.identification.cli import identify
 from svsa.result.cli import compare
 from svsa.rig.cli import rig
@@ -96,6 +97,7 @@ def reproduce(
 app.add_typer(arena, name="arena")
 app.command("tune")(tune)
 app.add_typer(study, name="study")
+app.add_typer(falsify, name="falsify")
 app.command("compare")(compare)
 app.command("rig")(rig)
 app.command("identify")(identify)

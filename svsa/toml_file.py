@@ -55,6 +55,16 @@ def find_lines(text: str, names: Iterable[str]) -> list[int]:
     return [line for name in names if (line := _find_nearest(lines, name)) is not None]
 
 
+def tell_place(place: str, text: str, names: Iterable[str]) -> str:
+    """Where these values stand in a text, as an error tells it: "mine.toml, lines 3 and 7".
+
+    place: the name of its file, or "".
+    """
+    lines = sorted(set(find_lines(text, names)))
+    told = f"{'lines' if len(lines) > 1 else 'line'} {' and '.join(map(str, lines))}"
+    return ", ".join(filter(None, (place, told if lines else "")))
+
+
 def _find_nearest(lines: dict[str, int], name: str) -> int | None:
     while name and name not in lines:
         name = name[: max(name.rfind("."), name.rfind("["), 0)]

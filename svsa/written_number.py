@@ -5,6 +5,11 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _NARROW = "\N{NARROW NO-BREAK SPACE}"
 
 
+def settle_number(value: float, digits: int) -> float:
+    """The number with so many digits: where machines differ in the last one, the same."""
+    return float(f"{value:.{digits}g}")
+
+
 def write_number(value: float) -> str:
     """The number to six digits, in groups of three where it is large."""
     text = f"{value:g}"

@@ -13,7 +13,7 @@ COMPILED = "compiled"
 ORDER = (
     *("package", "", "simd", "model", "reference", "control", "observer", "plant", "loop", "run"),
     *("session", "records", "export", "design", "identification", "result", "paper", "benchmark"),
-    *("arena", "study", "rig", "hardware", "scene", "server", "client", "browser"),
+    *("arena", "study", "falsify", "rig", "hardware", "scene", "server", "client", "browser"),
 )
 """Of the folders; what stands in none is \"\"."""
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from svsa.errors import ParameterError, Violation
 from svsa.study.study import Study
-from svsa.toml_file import find_lines, parse_toml, read_toml
+from svsa.toml_file import parse_toml, read_toml, tell_place
 
 STUDY_FILE = "study file"
 OBJECT = "STUDY"
@@ -63,11 +63,7 @@ def _build(sections: dict[str, Any], text: str, place: str, changes: dict[str, A
         return Study(**sections | changes)
     except ParameterError as error:
         names = [violation.name for violation in error.violations if violation.name not in changes]
-        lines = find_lines(text, names)
-        told = " and ".join(map(str, sorted(set(lines))))
-        word = "lines" if len(set(lines)) > 1 else "line"
-        where = ", ".join(filter(None, (place, f"{word} {told}" if lines else "")))
-        raise ParameterError(*error.violations, file=where) from None
+        raise ParameterError(*error.violations, file=tell_place(place, text, names)) from None
 
 
 def _run_python(path: Path) -> Study:

@@ -1,6 +1,7 @@
 """A study as a value: what varies, how many runs, under which laws, and what counts as success."""
 
 import math
+from collections.abc import Mapping
 from typing import Any, Literal, Self
 
 from pydantic import model_validator
@@ -72,16 +73,14 @@ class Study(Checked):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if not self.measure_from_s < self.duration_s:
-            bound = f"less than duration_s, {self.duration_s:g} s"
-            raise ParameterError(Violation("measure_from_s", self.measure_from_s, "s", bound))
+        check_measured(self.measure_from_s, self.duration_s)
         self._check_names()
         if self.sampling == "sensitivity":
             self._check_sensitivity()
         for law in self.laws:
             base = self.build_base(law)
             for number, variation in enumerate(self.vary):
-                _check_variation(base, variation, f"vary[{number}]")
+                check_variation(base, variation, f"vary[{number}]")
         if self.draw_count > MAX_RUNS:
             bound = f"so few that there are at most {MAX_RUNS} draws, not {self.draw_count}"
             raise ParameterError(Violation("runs", self.runs, "", bound))
@@ -126,15 +125,27 @@ class Study(Checked):
 
     def build_base(self, law: str) -> Configuration:
         """What the runs of a law begin from; raises `ParameterError`."""
-        changes = {name: value for name, value in self.base.items() if name != FIGURE}
-        try:
-            figure = get_figure(self.base.get(FIGURE, "4a"))
-            return change_settings(figure.build_configuration(law), changes)
-        except ParameterError as error:
-            raise error.within("base") from None
+        return build_base(self.base, law)
 
 
-def _check_variation(base: Configuration, variation: Variation, name: str) -> None:
+def check_measured(measure_from_s: float, duration_s: float) -> None:
+    """Raise `ParameterError` where a run ends before it is measured."""
+    if not measure_from_s < duration_s:
+        bound = f"less than duration_s, {duration_s:g} s"
+        raise ParameterError(Violation("measure_from_s", measure_from_s, "s", bound))
+
+
+def build_base(base: Mapping[str, Any], law: str) -> Configuration:
+    """A figure and settings in its place, under a law; raises `ParameterError`."""
+    changes = {name: value for name, value in base.items() if name != FIGURE}
+    try:
+        figure = get_figure(base.get(FIGURE, "4a"))
+        return change_settings(figure.build_configuration(law), changes)
+    except ParameterError as error:
+        raise error.within("base") from None
+
+
+def check_variation(base: Configuration, variation: Variation, name: str) -> None:
     """Raise `ParameterError` where a value at an end is none for its setting."""
     try:
         present = read_setting(base, variation.path)

@@ -9,6 +9,7 @@ from scipy.special import ndtr, ndtri
 
 from svsa.checked import BY_KIND, Checked, Flag, Number, Whole, quantity
 from svsa.errors import ParameterError, Violation
+from svsa.written_number import settle_number
 
 MAX_LEVELS = 10_000
 _DIGITS = 12
@@ -198,7 +199,7 @@ def _pick(values: tuple[Any, ...], shares: np.ndarray) -> list[Any]:
 
 def _settle(values: np.ndarray) -> list[float]:
     """To twelve digits, in which no machine's logarithm differs from another's."""
-    return [float(f"{value:.{_DIGITS}g}") for value in values]
+    return [settle_number(value, _DIGITS) for value in values]
 
 
 def _is_number(value: Any) -> bool:

@@ -1,14 +1,16 @@
 """A stretch of a study's draws, run under every law: the rows of its table."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
 
 from svsa.run.batch import run_configurations
+from svsa.run.configuration import Configuration
 from svsa.study.draws import Draws, build_configurations, draw
 from svsa.study.metrics import METRICS, build_outcome, build_refused
-from svsa.study.study import Study
+from svsa.study.study import Study, Success
 
 ROW, DRAW, LAW, SEED = "row", "draw", "law", "seed"
 
@@ -46,15 +48,12 @@ def run_draws(study: Study, first: int, count: int) -> pa.Table:
 def _run_law(study: Study, draws: Draws, number: int, schema: pa.Schema) -> pa.Table:
     """The rows of one of the study's laws."""
     law = study.laws[number]
-    configurations = build_configurations(study, law, draws)
-    run = [index for index, built in enumerate(configurations) if built is not None]
-    built = [one for one in configurations if one is not None]
-    outcome = build_refused(draws.size)
-    if built:
-        periods = np.array([one.sampling.period_s for one in built])
-        summaries = run_configurations(built, study.duration_s, study.measure_from_s)
-        found = build_outcome(summaries, periods, study.measure_from_s, study.success)
-        outcome = found if len(built) == draws.size else _fill_in(outcome, run, found)
+    outcome = measure_runs(
+        build_configurations(study, law, draws),
+        study.duration_s,
+        study.measure_from_s,
+        study.success,
+    )
     numbers = np.arange(draws.first, draws.first + draws.size)
     values = {
         variation.column: variation.label(drawn)
@@ -70,6 +69,24 @@ def _run_law(study: Study, draws: Draws, number: int, schema: pa.Schema) -> pa.T
     }
     arrays = [pa.array(columns[field.name], field.type) for field in schema]
     return pa.table(arrays, schema=schema)
+
+
+def measure_runs(
+    configurations: Sequence[Configuration | None],
+    duration_s: float,
+    measure_from_s: float,
+    success: Success,
+) -> dict[str, Any]:
+    """What came of each run, see `build_outcome`; None is one that was refused."""
+    run = [index for index, built in enumerate(configurations) if built is not None]
+    built = [one for one in configurations if one is not None]
+    outcome = build_refused(len(configurations))
+    if not built:
+        return outcome
+    periods = np.array([one.sampling.period_s for one in built])
+    summaries = run_configurations(built, duration_s, measure_from_s)
+    found = build_outcome(summaries, periods, measure_from_s, success)
+    return found if len(built) == len(configurations) else _fill_in(outcome, run, found)
 
 
 def _fill_in(outcome: dict[str, Any], rows: list[int], found: dict[str, Any]) -> dict[str, Any]:

@@ -1,0 +1,59 @@
+"""Adversaries and scenarios as TOML files, and the adversaries that come with the package."""
+
+from pathlib import Path
+from typing import Any, TypeVar
+
+import tomli_w
+
+from svsa.checked import Checked
+from svsa.errors import ParameterError, Violation
+from svsa.falsify.adversary import Adversary
+from svsa.falsify.scenario import LoadScenario
+from svsa.toml_file import read_toml, tell_place
+
+ADVERSARY_FILE, SCENARIO_FILE = "adversary file", "scenario file"
+_BUILT_IN = Path(__file__).parent / "builtin"
+_Kind = TypeVar("_Kind", bound=Checked)
+
+
+def list_adversaries() -> dict[str, str]:
+    """The adversaries that come with the package: name and title."""
+    return {
+        path.stem: str(read_toml(path, ADVERSARY_FILE)["title"])
+        for path in sorted(_BUILT_IN.glob("*.toml"))
+    }
+
+
+def read_adversary(source: str | Path, **changes: Any) -> Adversary:
+    """The adversary of a file that ends in .toml, or one of the package's by its name.
+
+    changes: fields in place of the file's. Raises `ParameterError` with file and lines.
+    """
+    path = Path(source)
+    if path.suffix != ".toml":
+        path = _BUILT_IN / f"{path}.toml"
+        if not path.exists():
+            bound = f"a file that ends in .toml, or one of {', '.join(list_adversaries())}"
+            raise ParameterError(Violation("adversary", str(source), "", bound))
+    return _read(Adversary, path, ADVERSARY_FILE, changes)
+
+
+def read_scenario(path: str | Path) -> LoadScenario:
+    """A scenario that was kept; raises `ParameterError` with file and lines."""
+    return _read(LoadScenario, Path(path), SCENARIO_FILE, {})
+
+
+def write_scenario(path: str | Path, scenario: LoadScenario) -> None:
+    """Keep a scenario where `read_scenario` finds it."""
+    Path(path).write_text(tomli_w.dumps(scenario.model_dump(exclude_none=True)), encoding="utf-8")
+
+
+def _read(kind: type[_Kind], path: Path, called: str, changes: dict[str, Any]) -> _Kind:
+    sections = read_toml(path, called)
+    try:
+        return kind(**sections | changes)
+    except ParameterError as error:
+        names = [violation.name for violation in error.violations if violation.name not in changes]
+        raise ParameterError(
+            *error.violations, file=tell_place(str(path), path.read_text(encoding="utf-8"), names)
+        ) from None

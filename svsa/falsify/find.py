@@ -1,0 +1,185 @@
+"""The falsifier: search an adversary's ranges for what hurts most, then make it simple."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from svsa.checked import check_number
+from svsa.errors import SvsaError
+from svsa.falsify.adversary import Adversary
+from svsa.falsify.measure import Measured, measure_attacks
+from svsa.falsify.scenario import Attack, Finding, LoadScenario
+from svsa.falsify.search import Method, search
+from svsa.falsify.shrink import Shrunk, shrink
+from svsa.falsify.wording import tell_outcome
+from svsa.release import __version__
+
+RUNS, MAX_RUNS = 20_000, 1_000_000
+
+
+class FalsifierError(SvsaError):
+    """A search that cannot begin."""
+
+
+@dataclass(frozen=True)
+class Falsified:
+    """What a search found.
+
+    severities: of each run how much it hurt, infinite for a fault, see `measure.judge`; with them
+    a search that was broken off goes on. run: number of the worst, from 1 on; the first fault.
+    nothing: how much the law is hurt without any load of the adversary. attack: the worst as it was
+    found; shrunk: made simple, None where the search was
+    broken off or that was not asked for.
+    """
+
+    adversary: Adversary
+    method: Method
+    seed: int
+    runs: int
+    severities: np.ndarray
+    nothing: float
+    run: int
+    attack: Attack
+    outcome: str
+    shrunk: Shrunk | None
+    is_complete: bool
+
+    @property
+    def severity(self) -> float:
+        """How much the worst run hurts."""
+        return float(self.severities[self.run - 1])
+
+    @property
+    def is_fault(self) -> bool:
+        """Whether it is a fault that was found."""
+        return math.isinf(self.severity)
+
+    @property
+    def scenario(self) -> LoadScenario:
+        """The simplest of it as a scenario."""
+        a, simple = self.adversary, self.shrunk
+        attack = simple.attack if simple else self.attack
+        return LoadScenario(
+            title=f"{a.title}: {self.outcome}"[:200],
+            base=a.base,
+            duration_s=simple.duration_s if simple else a.duration_s,
+            measure_from_s=a.measure_from_s,
+            settings=dict(attack.settings),
+            loads=attack.loads,
+            found=Finding(
+                law=a.law,
+                harm=a.harm,
+                outcome=simple.outcome if simple else self.outcome,
+                adversary=a.title,
+                method=self.method,
+                seed=self.seed,
+                run=self.run,
+                runs=len(self.severities),
+                version=__version__,
+            ),
+        )
+
+
+class _EndedError(Exception):
+    """The search is not to go on."""
+
+
+class _Search:
+    """The runs of a search, counted against its bound; those known from before are not run."""
+
+    def __init__(
+        self, adversary: Adversary, runs: int, known: Sequence[float] | np.ndarray
+    ) -> None:
+        self.adversary, self.base = adversary, adversary.build_base()
+        self.severities: list[float] = []
+        self.worst: tuple[int, Attack] | None = None
+        self._runs, self._known = runs, np.asarray(known, dtype=float)
+
+    def judge(self, shares: np.ndarray) -> np.ndarray:
+        """How much each of a generation hurts; raises `_EndedError` where that ends the search."""
+        done = len(self.severities)
+        if done >= self._runs:
+            raise _EndedError
+        shares = shares[: self._runs - done]
+        attacks = [self.adversary.build_attack(self.base, row.tolist()) for row in shares]
+        severity = self._known[done : done + len(attacks)]
+        if len(severity) < len(attacks):
+            severity = self.measure(attacks).severity
+        worst = int(np.argmax(severity))
+        if self.worst is None or severity[worst] > self.severities[self.worst[0]]:
+            self.worst = done + worst, attacks[worst]
+        is_fault = bool(np.isposinf(severity[worst]))
+        self.severities += severity.tolist()[: worst + 1 if is_fault else None]
+        if is_fault or len(self.severities) >= self._runs:
+            raise _EndedError
+        return severity
+
+    def measure(self, attacks: Sequence[Attack]) -> Measured:
+        return measure_attacks(self.adversary, self.base, attacks, self.adversary.duration_s)
+
+
+def falsify(
+    adversary: Adversary,
+    *,
+    runs: int = RUNS,
+    seed: int = 0,
+    method: Method = "cma",
+    known: Sequence[float] | np.ndarray = (),
+    on_generation: Callable[[int, float], None] = lambda done, worst: None,
+    is_cancelled: Callable[[], bool] = lambda: False,
+    is_shrunk: bool = True,
+) -> Falsified:
+    """Search for what hurts the adversary's law most, and shrink it to the simplest that does.
+
+    runs: at most, those of shrinking besides. The search ends at the first fault, than which
+    nothing is worse. The same arguments give the same result. method: "random" is there to be
+    compared with. known: `Falsified.severities` of the same search broken off. on_generation: told
+    after each how many runs there were, and the greatest severity. is_cancelled: asked before
+    each; where it says so, and at Ctrl-C, the worst so far is returned as it is. is_shrunk: whether
+    it is made simple.
+
+    Raises `ParameterError` for numbers out of range, `FalsifierError` where the law ends in a fault
+    by itself, `KeyboardInterrupt` before the first generation.
+    """
+    check_number("runs", runs, "", 1, MAX_RUNS)
+    check_number("seed", seed, "", 0, 2**63 - 1)
+    one = _Search(adversary, runs, known)
+    nothing = one.measure([Attack((), {})])
+    if not np.isfinite(nothing.severity[0]):
+        told = tell_outcome(nothing, 0, adversary.harm)
+        raise FalsifierError(f"{adversary.law} needs no adversary: without any load, {told}.")
+    is_complete = False
+
+    def judge(shares: np.ndarray) -> np.ndarray:
+        if one.worst is not None:
+            on_generation(len(one.severities), one.severities[one.worst[0]])
+            if is_cancelled():
+                raise KeyboardInterrupt
+        return one.judge(shares)
+
+    try:
+        search(method, adversary.size, seed, judge)
+    except _EndedError:
+        is_complete = True
+    except KeyboardInterrupt:
+        if one.worst is None:
+            raise
+    assert one.worst is not None  # noqa: S101  a generation was judged
+    number, attack = one.worst
+    found = one.measure([attack])
+    simple = shrink(adversary, one.base, attack, found) if is_complete and is_shrunk else None
+    return Falsified(
+        adversary=adversary,
+        method=method,
+        seed=seed,
+        runs=runs,
+        severities=np.array(one.severities),
+        nothing=float(nothing.severity[0]),
+        run=number + 1,
+        attack=attack,
+        outcome=tell_outcome(found, 0, adversary.harm),
+        shrunk=simple,
+        is_complete=is_complete,
+    )
