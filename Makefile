@@ -46,8 +46,8 @@ check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated
 	$(BIN)/ruff check .
 	$(BIN)/basedpyright
 	$(BIN)/lint-imports
-	@$(BIN)/svsa openapi > .venv/openapi.json
-	@$(WEB) run --silent schema -- "$(CURDIR)/.venv/openapi.json" --check
+	@$(BIN)/svsa openapi | diff -q docs/openapi.json - || (echo "Run: make schema"; exit 1)
+	@$(WEB) run --silent schema -- "$(CURDIR)/docs/openapi.json" --check
 	$(WEB) run check
 
 hooks: .venv/installed  ## have every commit pass `make check` first
@@ -64,9 +64,9 @@ $(PAGE): .venv/installed $(PAGE_SOURCES)
 	@$(BIN)/python frontend/web/hatch_build.py
 	@touch $@
 
-schema: .venv/installed  ## the page's types of the API, generated from the server's schema
-	$(BIN)/svsa openapi > .venv/openapi.json
-	$(WEB) run schema -- "$(CURDIR)/.venv/openapi.json"
+schema: .venv/installed  ## docs/openapi.json, the schema of the API, and the page's types of it
+	$(BIN)/svsa openapi > docs/openapi.json
+	$(WEB) run schema -- "$(CURDIR)/docs/openapi.json"
 
 screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots

@@ -78,6 +78,7 @@ def build_app(
         lifespan=_live,
         docs_url=None,
         redoc_url=None,
+        generate_unique_id_function=lambda route: route.name,
     )
     app.state.door = door
     app.state.config = config

@@ -1,7 +1,9 @@
 """The documentation: everything that it loads comes from this server, and says what is sent."""
 
+import json
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 from websockets.sync.client import connect
@@ -65,6 +67,18 @@ def test_the_secret_is_asked_for_where_one_is_set_but_for_stop_and_login() -> No
         "/api/v1/emergency-stop",
     }
     assert not [o for item in open_lab["paths"].values() for o in item.values() if "security" in o]
+
+
+def test_the_schema_in_the_docs_is_the_server_s_and_names_every_operation_once() -> None:
+    """A change of the API is seen as one; `make schema` writes it."""
+    schema = build_app(Settings(secret=None)).openapi()
+    kept = Path(__file__).parents[2] / "docs" / "openapi.json"
+    assert json.loads(kept.read_text(encoding="utf-8")) == json.loads(json.dumps(schema))
+    ids = [
+        operation["operationId"] for item in schema["paths"].values() for operation in item.values()
+    ]
+    assert len(set(ids)) == len(ids)
+    assert all(re.fullmatch(r"[a-z][a-z_]{2,24}", one) for one in ids)
 
 
 def test_the_stream_stands_beside_rest_as_it_is_packed() -> None:

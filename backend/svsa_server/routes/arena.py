@@ -26,7 +26,7 @@ async def read_arena(_: NamedClient) -> Results:
     return load_published()
 
 
-@router.post("/laws/{law}/measurement", responses=REFUSALS | BUSY)
+@router.post("/laws/{law}/measurement", operation_id="measure_law", responses=REFUSALS | BUSY)
 async def measure(
     _: NamedClient,
     work: Work,

@@ -18,9 +18,9 @@ async def read_health() -> Health:
     return Health(version=svsa.__version__)
 
 
-@router.post("/emergency-stop", status_code=204, deprecated=True)
+@router.post("/emergency-stop", status_code=204, deprecated=True, operation_id="emergency_stop_lab")
 @router.post("/quick-stop", status_code=204)
-def quick_stop(request: Request) -> None:
+def quick_stop_lab(request: Request) -> None:
     """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
     laboratory = request.app.state.laboratory
     laboratory.get(SHARED_SESSION).session.quick_stop()

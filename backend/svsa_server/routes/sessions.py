@@ -69,7 +69,7 @@ def pause(hosted: NamedSession) -> SessionState:
     return build_state(hosted)
 
 
-@router.post("/{session}/emergency-stop", deprecated=True)
+@router.post("/{session}/emergency-stop", deprecated=True, operation_id="emergency_stop")
 @router.post("/{session}/quick-stop")
 def quick_stop(hosted: NamedSession) -> SessionState:
     """Zero current at once on a bench, latched until cleared; a simulation pauses.
@@ -126,6 +126,7 @@ def load_experiment(
     "/{session}/stream",
     tags=["stream"],
     status_code=426,
+    operation_id="stream_session",
     response_model=Problem,
     response_description="This is a WebSocket",
     description=describe_stream(BATCH_PERIOD_S),

@@ -15,7 +15,7 @@ export interface paths {
          * Read Health
          * @description That the server lives, and its version.
          */
-        get: operations["read_health_api_v1_health_get"];
+        get: operations["read_health"];
         put?: never;
         post?: never;
         delete?: never;
@@ -34,10 +34,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Quick Stop
+         * Quick Stop Lab
          * @description Stop the shared session at once, whoever asks: no secret is needed to stop a machine.
          */
-        post: operations["quick_stop_api_v1_quick_stop_post"];
+        post: operations["quick_stop_lab"];
         delete?: never;
         options?: never;
         head?: never;
@@ -54,11 +54,11 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Quick Stop
+         * Quick Stop Lab
          * @deprecated
          * @description Stop the shared session at once, whoever asks: no secret is needed to stop a machine.
          */
-        post: operations["quick_stop_api_v1_emergency_stop_post"];
+        post: operations["emergency_stop_lab"];
         delete?: never;
         options?: never;
         head?: never;
@@ -76,7 +76,7 @@ export interface paths {
          * Read Laws
          * @description The control laws that are installed, the paper's first, each with its own parameters.
          */
-        get: operations["read_laws_api_v1_laws_get"];
+        get: operations["read_laws"];
         put?: never;
         post?: never;
         delete?: never;
@@ -96,7 +96,7 @@ export interface paths {
          * List Figures
          * @description The paper's simulated figures as data.
          */
-        get: operations["list_figures_api_v1_figures_get"];
+        get: operations["list_figures"];
         put?: never;
         post?: never;
         delete?: never;
@@ -116,7 +116,7 @@ export interface paths {
          * Read Access
          * @description How one comes in, and as whom this request has come.
          */
-        get: operations["read_access_api_v1_access_get"];
+        get: operations["read_access"];
         put?: never;
         post?: never;
         delete?: never;
@@ -140,7 +140,7 @@ export interface paths {
          *
          *     Where the lab is open, everyone is in already.
          */
-        post: operations["log_in_api_v1_login_post"];
+        post: operations["log_in"];
         delete?: never;
         options?: never;
         head?: never;
@@ -162,7 +162,7 @@ export interface paths {
          *
          *     A name that somebody here has already gets a number.
          */
-        post: operations["join_api_v1_join_post"];
+        post: operations["join"];
         delete?: never;
         options?: never;
         head?: never;
@@ -182,7 +182,7 @@ export interface paths {
          * Leave
          * @description Forget who this browser is.
          */
-        post: operations["leave_api_v1_leave_post"];
+        post: operations["leave"];
         delete?: never;
         options?: never;
         head?: never;
@@ -204,7 +204,7 @@ export interface paths {
          *
          *     It asks for control like a person. An instructor's scripts are operators, too.
          */
-        post: operations["create_token_api_v1_tokens_post"];
+        post: operations["create_token"];
         delete?: never;
         options?: never;
         head?: never;
@@ -222,13 +222,13 @@ export interface paths {
          * List Sessions
          * @description Every session of this server; in a class the shared one and one's own.
          */
-        get: operations["list_sessions_api_v1_sessions_get"];
+        get: operations["list_sessions"];
         put?: never;
         /**
          * Create Session
          * @description A private simulated session, running; it ends by itself when nobody uses it.
          */
-        post: operations["create_session_api_v1_sessions_post"];
+        post: operations["create_session"];
         delete?: never;
         options?: never;
         head?: never;
@@ -246,14 +246,14 @@ export interface paths {
          * Read Session
          * @description Where a session is, how it is set, and how well it does.
          */
-        get: operations["read_session_api_v1_sessions__session__get"];
+        get: operations["read_session"];
         put?: never;
         post?: never;
         /**
          * End Session
          * @description End a private session.
          */
-        delete: operations["end_session_api_v1_sessions__session__delete"];
+        delete: operations["end_session"];
         options?: never;
         head?: never;
         patch?: never;
@@ -272,7 +272,7 @@ export interface paths {
          * Start
          * @description Run on from where it is.
          */
-        post: operations["start_api_v1_sessions__session__start_post"];
+        post: operations["start"];
         delete?: never;
         options?: never;
         head?: never;
@@ -292,7 +292,7 @@ export interface paths {
          * Pause
          * @description Stop time; nothing is lost.
          */
-        post: operations["pause_api_v1_sessions__session__pause_post"];
+        post: operations["pause"];
         delete?: never;
         options?: never;
         head?: never;
@@ -314,7 +314,7 @@ export interface paths {
          *
          *     Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
          */
-        post: operations["quick_stop_api_v1_sessions__session__quick_stop_post"];
+        post: operations["quick_stop"];
         delete?: never;
         options?: never;
         head?: never;
@@ -337,7 +337,7 @@ export interface paths {
          *
          *     Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
          */
-        post: operations["quick_stop_api_v1_sessions__session__emergency_stop_post"];
+        post: operations["emergency_stop"];
         delete?: never;
         options?: never;
         head?: never;
@@ -357,7 +357,7 @@ export interface paths {
          * Reset
          * @description Begin again at t = 0 with everything as it is set now, after a fault too.
          */
-        post: operations["reset_api_v1_sessions__session__reset_post"];
+        post: operations["reset"];
         delete?: never;
         options?: never;
         head?: never;
@@ -377,7 +377,7 @@ export interface paths {
          * Step
          * @description Run some ticks while paused.
          */
-        post: operations["step_api_v1_sessions__session__step_post"];
+        post: operations["step"];
         delete?: never;
         options?: never;
         head?: never;
@@ -396,7 +396,7 @@ export interface paths {
          * Set Speed
          * @description Slow motion or fast forward.
          */
-        put: operations["set_speed_api_v1_sessions__session__speed_put"];
+        put: operations["set_speed"];
         post?: never;
         delete?: never;
         options?: never;
@@ -419,7 +419,7 @@ export interface paths {
          *
          *     What is set comes from the figure; lanes and effects from the request. A bench has its own.
          */
-        post: operations["load_experiment_api_v1_sessions__session__experiment_post"];
+        post: operations["load_experiment"];
         delete?: never;
         options?: never;
         head?: never;
@@ -459,7 +459,7 @@ export interface paths {
          *
          *     Whatever the client sends holds the dead-man's switch of a bench for 0.1 s, as long as the client may command.
          */
-        get: operations["describe_api_v1_sessions__session__stream_get"];
+        get: operations["stream_session"];
         put?: never;
         post?: never;
         delete?: never;
@@ -488,13 +488,13 @@ export interface paths {
          *     waits when its holder gives no command for SVSA_IDLE_OPERATOR_S (90 s). A bench ramps down
          *     before it is handed on.
          */
-        put: operations["take_control_api_v1_sessions__session__control_put"];
+        put: operations["take_control"];
         post?: never;
         /**
          * Give Control Back
          * @description Everybody may command again; in a class who waits first, or one waits no longer.
          */
-        delete: operations["give_control_back_api_v1_sessions__session__control_delete"];
+        delete: operations["give_control_back"];
         options?: never;
         head?: never;
         patch?: never;
@@ -513,7 +513,7 @@ export interface paths {
          * Hand Control Over
          * @description Give control to one of those who wait for it in a class; its holder or an instructor does.
          */
-        post: operations["hand_control_over_api_v1_sessions__session__control_handover_post"];
+        post: operations["hand_control_over"];
         delete?: never;
         options?: never;
         head?: never;
@@ -532,7 +532,7 @@ export interface paths {
          * Lock Control
          * @description The instructor locks control: whoever had it is first to get it back when it is unlocked.
          */
-        put: operations["lock_control_api_v1_sessions__session__control_lock_put"];
+        put: operations["lock_control"];
         post?: never;
         delete?: never;
         options?: never;
@@ -553,7 +553,7 @@ export interface paths {
          * Arm
          * @description Reset the drives and bring them to current mode, in about a second: OFF → READY.
          */
-        post: operations["arm_api_v1_sessions__session__bench_arm_post"];
+        post: operations["arm"];
         delete?: never;
         options?: never;
         head?: never;
@@ -573,7 +573,7 @@ export interface paths {
          * Confirm Home
          * @description Confirm that an axis stands at its zero mark; the state tells the next step.
          */
-        post: operations["confirm_home_api_v1_sessions__session__bench_home_post"];
+        post: operations["confirm_home"];
         delete?: never;
         options?: never;
         head?: never;
@@ -593,7 +593,7 @@ export interface paths {
          * Clear Fault
          * @description Clear a latched fault: FAULT → OFF; it must be armed again.
          */
-        post: operations["clear_fault_api_v1_sessions__session__bench_clear_post"];
+        post: operations["clear_fault"];
         delete?: never;
         options?: never;
         head?: never;
@@ -615,7 +615,7 @@ export interface paths {
          *
          *     The way back from a loop that is silent or gone; refused while the bench moves.
          */
-        post: operations["restart_loop_api_v1_sessions__session__bench_restart_post"];
+        post: operations["restart_loop"];
         delete?: never;
         options?: never;
         head?: never;
@@ -634,7 +634,7 @@ export interface paths {
          * Set Position
          * @description Follow another position reference, faded over without a jump in any derivative.
          */
-        put: operations["set_position_api_v1_sessions__session__position_put"];
+        put: operations["set_position"];
         post?: never;
         delete?: never;
         options?: never;
@@ -654,7 +654,7 @@ export interface paths {
          * Set Stiffness
          * @description Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad.
          */
-        put: operations["set_stiffness_api_v1_sessions__session__stiffness_put"];
+        put: operations["set_stiffness"];
         post?: never;
         delete?: never;
         options?: never;
@@ -674,7 +674,7 @@ export interface paths {
          * Set Law
          * @description Control with another law, and the lanes beside too, each from where its plant is.
          */
-        put: operations["set_law_api_v1_sessions__session__law_put"];
+        put: operations["set_law"];
         post?: never;
         delete?: never;
         options?: never;
@@ -694,7 +694,7 @@ export interface paths {
          * Set Gains
          * @description New gains, as poles or coefficients; refused with the roots when not Hurwitz.
          */
-        put: operations["set_gains_api_v1_sessions__session__gains_put"];
+        put: operations["set_gains"];
         post?: never;
         delete?: never;
         options?: never;
@@ -716,7 +716,7 @@ export interface paths {
          *
          *     What is left out stays.
          */
-        put: operations["set_parameters_api_v1_sessions__session__parameters_put"];
+        put: operations["set_parameters"];
         post?: never;
         delete?: never;
         options?: never;
@@ -736,7 +736,7 @@ export interface paths {
          * Set Observer
          * @description How fast the disturbance observer follows, on link, motor 1 and motor 2.
          */
-        put: operations["set_observer_api_v1_sessions__session__observer_put"];
+        put: operations["set_observer"];
         post?: never;
         delete?: never;
         options?: never;
@@ -761,7 +761,7 @@ export interface paths {
          * Change Actuator
          * @description Change parameters of the true plant.
          */
-        patch: operations["change_actuator_api_v1_sessions__session__actuator_patch"];
+        patch: operations["change_actuator"];
         trace?: never;
     };
     "/api/v1/sessions/{session}/nominal": {
@@ -778,7 +778,7 @@ export interface paths {
          *
          *     Gains, observer, the true plant and limits stay as they are.
          */
-        put: operations["load_nominal_api_v1_sessions__session__nominal_put"];
+        put: operations["load_nominal"];
         post?: never;
         delete?: never;
         options?: never;
@@ -787,7 +787,7 @@ export interface paths {
          * Change Nominal
          * @description Change parameters of the model that controller and observer believe in.
          */
-        patch: operations["change_nominal_api_v1_sessions__session__nominal_patch"];
+        patch: operations["change_nominal"];
         trace?: never;
     };
     "/api/v1/sessions/{session}/effects": {
@@ -802,7 +802,7 @@ export interface paths {
          * Set Effects
          * @description Switch on what separates the simulation from a bench; what is left out is off.
          */
-        put: operations["set_effects_api_v1_sessions__session__effects_put"];
+        put: operations["set_effects"];
         post?: never;
         delete?: never;
         options?: never;
@@ -822,7 +822,7 @@ export interface paths {
          * Set Lanes
          * @description Run other controllers beside the session's own: same references, loads and noise.
          */
-        put: operations["set_lanes_api_v1_sessions__session__lanes_put"];
+        put: operations["set_lanes"];
         post?: never;
         delete?: never;
         options?: never;
@@ -844,7 +844,7 @@ export interface paths {
          *
          *     What is left out is the session's. The same law goes on with what it remembers.
          */
-        put: operations["set_lane_api_v1_sessions__session__lanes__lane__put"];
+        put: operations["set_lane"];
         post?: never;
         delete?: never;
         options?: never;
@@ -869,7 +869,7 @@ export interface paths {
          *     the gains), the encoders' noise in the torques, the peak torque under the load, and a verdict
          *     with its reasons. Gains that PUT …/gains would refuse get the verdict refuse.
          */
-        post: operations["predict_design_api_v1_sessions__session__predict_post"];
+        post: operations["predict_design"];
         delete?: never;
         options?: never;
         head?: never;
@@ -889,7 +889,7 @@ export interface paths {
          * Respond
          * @description What this design does when the 3 kg come, and to a sine on the link; nothing is changed.
          */
-        post: operations["respond_api_v1_sessions__session__design_response_post"];
+        post: operations["respond"];
         delete?: never;
         options?: never;
         head?: never;
@@ -912,7 +912,7 @@ export interface paths {
          *     The closed loop's poles with the true plant, for how wrong a model it stays stable, what a
          *     disturbance that changes costs, and how fast the observer may be.
          */
-        post: operations["show_stability_api_v1_sessions__session__design_stability_post"];
+        post: operations["show_stability"];
         delete?: never;
         options?: never;
         head?: never;
@@ -934,7 +934,7 @@ export interface paths {
          *
          *     The starts come from coarse to fine, so that the first parts tell the shape.
          */
-        post: operations["map_attraction_api_v1_sessions__session__design_region_post"];
+        post: operations["map_attraction"];
         delete?: never;
         options?: never;
         head?: never;
@@ -956,7 +956,7 @@ export interface paths {
          *
          *     It is a simulation also where a bench is asked about, and the session asked stays as it is.
          */
-        post: operations["simulate_design_api_v1_sessions__session__design_simulation_post"];
+        post: operations["simulate_design"];
         delete?: never;
         options?: never;
         head?: never;
@@ -979,12 +979,12 @@ export interface paths {
          *     Slow and fast, soft and stiff: what `svsa identify` needs. Only without loads. It ends by
          *     itself, and with it the recording; a reference of your own breaks it off.
          */
-        post: operations["excite_api_v1_sessions__session__excitation_post"];
+        post: operations["excite"];
         /**
          * Stop Excitation
          * @description Break the excitation off, and end its recording; the references stay as they are.
          */
-        delete: operations["stop_excitation_api_v1_sessions__session__excitation_delete"];
+        delete: operations["stop_excitation"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1005,12 +1005,12 @@ export interface paths {
          *
          *     A push ends by itself: sent again while it is on, it is changed and lasts on, as one load.
          */
-        post: operations["apply_load_api_v1_sessions__session__loads_post"];
+        post: operations["apply_load"];
         /**
          * Clear Loads
          * @description Take every load off.
          */
-        delete: operations["clear_loads_api_v1_sessions__session__loads_delete"];
+        delete: operations["clear_loads"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1030,7 +1030,7 @@ export interface paths {
          * Remove Load
          * @description Take one load off.
          */
-        delete: operations["remove_load_api_v1_sessions__session__loads__load_id__delete"];
+        delete: operations["remove_load"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1049,12 +1049,12 @@ export interface paths {
          * Start Recording
          * @description Record every sample and command from now on, at full rate.
          */
-        post: operations["start_recording_api_v1_sessions__session__recording_post"];
+        post: operations["start_recording"];
         /**
          * Stop Recording
          * @description End the recording; the run is in the list as soon as its file is finished.
          */
-        delete: operations["stop_recording_api_v1_sessions__session__recording_delete"];
+        delete: operations["stop_recording"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1073,7 +1073,7 @@ export interface paths {
          * Branch Run
          * @description A private session that goes on, paused, from a recorded run as it stood at a tick.
          */
-        post: operations["branch_run_api_v1_runs__run_id__branch_post"];
+        post: operations["branch_run"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1093,7 +1093,7 @@ export interface paths {
          * Read Csv
          * @description The series in a CSV; what is wrong in it is named with its row.
          */
-        post: operations["read_csv_api_v1_references_csv_post"];
+        post: operations["read_csv"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1113,7 +1113,7 @@ export interface paths {
          * Preview Position
          * @description What a reference of position would ask for, before it is followed.
          */
-        post: operations["preview_position_api_v1_references_position_preview_post"];
+        post: operations["preview_position"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1133,7 +1133,7 @@ export interface paths {
          * Preview Stiffness
          * @description What a reference of stiffness would ask for, before it is followed.
          */
-        post: operations["preview_stiffness_api_v1_references_stiffness_preview_post"];
+        post: operations["preview_stiffness"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1151,7 +1151,7 @@ export interface paths {
          * Read Samples
          * @description A stretch of the run for a plot; least and greatest values are kept.
          */
-        get: operations["read_samples_api_v1_runs__run_id__samples_get"];
+        get: operations["read_samples"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1171,7 +1171,7 @@ export interface paths {
          * Read Metrics
          * @description How good every lane is over a stretch of the run, such as from its load on.
          */
-        get: operations["read_metrics_api_v1_runs__run_id__metrics_get"];
+        get: operations["read_metrics"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1191,7 +1191,7 @@ export interface paths {
          * Export Run
          * @description The run as a file of another program.
          */
-        get: operations["export_run_api_v1_runs__run_id__export_get"];
+        get: operations["export_run"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1211,7 +1211,7 @@ export interface paths {
          * Show Replay
          * @description The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s.
          */
-        get: operations["show_replay_api_v1_runs__run_id__replay_get"];
+        get: operations["show_replay"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1231,7 +1231,7 @@ export interface paths {
          * Download Replay
          * @description The run as one page with 3D replay and plots together; opens from a file, offline.
          */
-        get: operations["download_replay_api_v1_runs__run_id__replay_html_get"];
+        get: operations["download_replay"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1253,7 +1253,7 @@ export interface paths {
          * Compare Run
          * @description Simulate a run again from its record alone and compare every bit.
          */
-        post: operations["compare_run_api_v1_runs__run_id__compare_post"];
+        post: operations["compare_run"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1271,7 +1271,7 @@ export interface paths {
          * Read Origin
          * @description The run that a session is on: how it stood at t = 0 and what was changed since.
          */
-        get: operations["read_origin_api_v1_sessions__session__origin_get"];
+        get: operations["read_origin"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1291,7 +1291,7 @@ export interface paths {
          * Read Run Origin
          * @description A recorded run: how it stood at its t = 0 and what was changed, to its last sample.
          */
-        get: operations["read_run_origin_api_v1_runs__run_id__origin_get"];
+        get: operations["read_run_origin"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1311,7 +1311,7 @@ export interface paths {
          * Read Difference
          * @description What of the settings differs between a run and others, and nothing that does not.
          */
-        get: operations["read_difference_api_v1_runs__run_id__difference_get"];
+        get: operations["read_difference"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1333,7 +1333,7 @@ export interface paths {
          *
          *     In a class: those of the shared session, and of private ones one's own; for instructors all.
          */
-        get: operations["list_runs_api_v1_runs_get"];
+        get: operations["list_runs"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1353,21 +1353,21 @@ export interface paths {
          * Read Run
          * @description A run with its configuration, its channels and the commands given while it went on.
          */
-        get: operations["read_run_api_v1_runs__run_id__get"];
+        get: operations["read_run"];
         put?: never;
         post?: never;
         /**
          * Delete Run
          * @description Put a run into the trash, from which `restore` takes it back.
          */
-        delete: operations["delete_run_api_v1_runs__run_id__delete"];
+        delete: operations["delete_run"];
         options?: never;
         head?: never;
         /**
          * Change Run
          * @description Rename a run, tag it, write notes.
          */
-        patch: operations["change_run_api_v1_runs__run_id__patch"];
+        patch: operations["change_run"];
         trace?: never;
     };
     "/api/v1/runs/{run_id}/restore": {
@@ -1383,7 +1383,7 @@ export interface paths {
          * Restore Run
          * @description Take a run out of the trash.
          */
-        post: operations["restore_run_api_v1_runs__run_id__restore_post"];
+        post: operations["restore_run"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1401,7 +1401,7 @@ export interface paths {
          * List Jobs
          * @description The last tunings and studies of this server, the newest first.
          */
-        get: operations["list_jobs_api_v1_jobs_get"];
+        get: operations["list_jobs"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1421,14 +1421,14 @@ export interface paths {
          * Read Job
          * @description How far a job is, how fast it goes and how long it still takes.
          */
-        get: operations["read_job_api_v1_jobs__job__get"];
+        get: operations["read_job"];
         put?: never;
         post?: never;
         /**
          * Cancel Job
          * @description Cancel a job: at once where it waits, else as soon as it can; what is done is kept.
          */
-        delete: operations["cancel_job_api_v1_jobs__job__delete"];
+        delete: operations["cancel_job"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1445,7 +1445,7 @@ export interface paths {
          * List Tunings
          * @description The last tunings of this server, the newest first, without what they tried.
          */
-        get: operations["list_tunings_api_v1_tunings_get"];
+        get: operations["list_tunings"];
         put?: never;
         /**
          * Start Tuning
@@ -1453,7 +1453,7 @@ export interface paths {
          *
          *     It takes about a second a candidate, and makes no live session late.
          */
-        post: operations["start_tuning_api_v1_tunings_post"];
+        post: operations["start_tuning"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1471,14 +1471,14 @@ export interface paths {
          * Read Tuning
          * @description How far a tuning is, and what it tried from a number on.
          */
-        get: operations["read_tuning_api_v1_tunings__tuning__get"];
+        get: operations["read_tuning"];
         put?: never;
         post?: never;
         /**
          * Stop Tuning
          * @description Break a tuning off before its next candidate; the best so far is kept.
          */
-        delete: operations["stop_tuning_api_v1_tunings__tuning__delete"];
+        delete: operations["stop_tuning"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1495,7 +1495,7 @@ export interface paths {
          * Read Tuned File
          * @description The parameter file (TOML) of the best, which says what it was measured on.
          */
-        get: operations["read_tuned_file_api_v1_tunings__tuning__file_get"];
+        get: operations["read_tuned_file"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1515,13 +1515,13 @@ export interface paths {
          * List All
          * @description The studies that come with the lab, and those that were begun here, the last one first.
          */
-        get: operations["list_all_api_v1_studies_get"];
+        get: operations["list_all"];
         put?: never;
         /**
          * Start Study
          * @description Begin a study, or go on with one of this name: a job, that makes no live session late.
          */
-        post: operations["start_study_api_v1_studies_post"];
+        post: operations["start_study"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1541,7 +1541,7 @@ export interface paths {
          * Check Study
          * @description What a study would be; nothing is begun. A wrong text is refused with lines and bounds.
          */
-        post: operations["check_study_api_v1_studies_check_post"];
+        post: operations["check_study"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1559,7 +1559,7 @@ export interface paths {
          * Read Study
          * @description A study, how much of it is done, and the job that works at it.
          */
-        get: operations["read_study_api_v1_studies__study__get"];
+        get: operations["read_study"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1579,7 +1579,7 @@ export interface paths {
          * Summarize Study
          * @description Success, faults and quantiles of each law so far, and the first law less each other one.
          */
-        get: operations["summarize_study_api_v1_studies__study__summary_get"];
+        get: operations["summarize_study"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1599,7 +1599,7 @@ export interface paths {
          * Read Sensitivity
          * @description Sobol indices of an outcome under each law; of a study that was drawn for it.
          */
-        get: operations["read_sensitivity_api_v1_studies__study__sensitivity_get"];
+        get: operations["read_sensitivity"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1622,7 +1622,7 @@ export interface paths {
          *     uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with `name`
          *     and `labels`), then each column as float64, little-endian, `row` first.
          */
-        get: operations["read_rows_api_v1_studies__study__rows_get"];
+        get: operations["read_rows"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1642,7 +1642,7 @@ export interface paths {
          * Read Row
          * @description One row with every column; null where it has no value.
          */
-        get: operations["read_row_api_v1_studies__study__rows__row__get"];
+        get: operations["read_row"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1662,7 +1662,7 @@ export interface paths {
          * Download Rows
          * @description The whole table as Parquet, once the study was ended or cancelled.
          */
-        get: operations["download_rows_api_v1_studies__study__rows_parquet_get"];
+        get: operations["download_rows"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1684,7 +1684,7 @@ export interface paths {
          * Replay Row
          * @description Run a row again as a recorded run, with every sample, to be seen in 3D.
          */
-        post: operations["replay_row_api_v1_studies__study__rows__row__replay_post"];
+        post: operations["replay_row"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1704,7 +1704,7 @@ export interface paths {
          *
          *     Errors in degrees; what each number is of stands at its field. Laws that came later have none.
          */
-        get: operations["read_arena_api_v1_arena_get"];
+        get: operations["read_arena"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1726,7 +1726,7 @@ export interface paths {
          * Measure
          * @description Put a law, as it is by default, through the whole suite: about 370 runs, some seconds.
          */
-        post: operations["measure_api_v1_arena_laws__law__measurement_post"];
+        post: operations["measure_law"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1746,7 +1746,7 @@ export interface paths {
          * See Scenario
          * @description A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL.
          */
-        post: operations["see_scenario_api_v1_arena_sessions_post"];
+        post: operations["see_scenario"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1764,7 +1764,7 @@ export interface paths {
          * Read Outcome
          * @description Whether a request whose answer did not come was carried out.
          */
-        get: operations["read_outcome_api_v1_requests__request_name__get"];
+        get: operations["read_outcome"];
         put?: never;
         post?: never;
         delete?: never;
@@ -6285,7 +6285,7 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
-    read_health_api_v1_health_get: {
+    read_health: {
         parameters: {
             query?: never;
             header?: never;
@@ -6314,7 +6314,7 @@ export interface operations {
             };
         };
     };
-    quick_stop_api_v1_quick_stop_post: {
+    quick_stop_lab: {
         parameters: {
             query?: never;
             header?: never;
@@ -6341,7 +6341,7 @@ export interface operations {
             };
         };
     };
-    quick_stop_api_v1_emergency_stop_post: {
+    emergency_stop_lab: {
         parameters: {
             query?: never;
             header?: never;
@@ -6368,7 +6368,7 @@ export interface operations {
             };
         };
     };
-    read_laws_api_v1_laws_get: {
+    read_laws: {
         parameters: {
             query?: never;
             header?: never;
@@ -6397,7 +6397,7 @@ export interface operations {
             };
         };
     };
-    list_figures_api_v1_figures_get: {
+    list_figures: {
         parameters: {
             query?: never;
             header?: never;
@@ -6426,7 +6426,7 @@ export interface operations {
             };
         };
     };
-    read_access_api_v1_access_get: {
+    read_access: {
         parameters: {
             query?: never;
             header?: never;
@@ -6455,7 +6455,7 @@ export interface operations {
             };
         };
     };
-    log_in_api_v1_login_post: {
+    log_in: {
         parameters: {
             query?: never;
             header?: never;
@@ -6522,7 +6522,7 @@ export interface operations {
             };
         };
     };
-    join_api_v1_join_post: {
+    join: {
         parameters: {
             query?: never;
             header?: never;
@@ -6600,7 +6600,7 @@ export interface operations {
             };
         };
     };
-    leave_api_v1_leave_post: {
+    leave: {
         parameters: {
             query?: never;
             header?: never;
@@ -6627,7 +6627,7 @@ export interface operations {
             };
         };
     };
-    create_token_api_v1_tokens_post: {
+    create_token: {
         parameters: {
             query?: never;
             header?: never;
@@ -6696,7 +6696,7 @@ export interface operations {
             };
         };
     };
-    list_sessions_api_v1_sessions_get: {
+    list_sessions: {
         parameters: {
             query?: never;
             header?: {
@@ -6755,7 +6755,7 @@ export interface operations {
             };
         };
     };
-    create_session_api_v1_sessions_post: {
+    create_session: {
         parameters: {
             query?: never;
             header?: never;
@@ -6833,7 +6833,7 @@ export interface operations {
             };
         };
     };
-    read_session_api_v1_sessions__session__get: {
+    read_session: {
         parameters: {
             query?: never;
             header?: {
@@ -6895,7 +6895,7 @@ export interface operations {
             };
         };
     };
-    end_session_api_v1_sessions__session__delete: {
+    end_session: {
         parameters: {
             query?: never;
             header?: {
@@ -6955,7 +6955,7 @@ export interface operations {
             };
         };
     };
-    start_api_v1_sessions__session__start_post: {
+    start: {
         parameters: {
             query?: never;
             header?: {
@@ -7017,7 +7017,7 @@ export interface operations {
             };
         };
     };
-    pause_api_v1_sessions__session__pause_post: {
+    pause: {
         parameters: {
             query?: never;
             header?: {
@@ -7079,7 +7079,7 @@ export interface operations {
             };
         };
     };
-    quick_stop_api_v1_sessions__session__quick_stop_post: {
+    quick_stop: {
         parameters: {
             query?: never;
             header?: {
@@ -7141,7 +7141,7 @@ export interface operations {
             };
         };
     };
-    quick_stop_api_v1_sessions__session__emergency_stop_post: {
+    emergency_stop: {
         parameters: {
             query?: never;
             header?: {
@@ -7203,7 +7203,7 @@ export interface operations {
             };
         };
     };
-    reset_api_v1_sessions__session__reset_post: {
+    reset: {
         parameters: {
             query?: never;
             header?: {
@@ -7265,7 +7265,7 @@ export interface operations {
             };
         };
     };
-    step_api_v1_sessions__session__step_post: {
+    step: {
         parameters: {
             query?: never;
             header?: {
@@ -7349,7 +7349,7 @@ export interface operations {
             };
         };
     };
-    set_speed_api_v1_sessions__session__speed_put: {
+    set_speed: {
         parameters: {
             query?: never;
             header?: {
@@ -7433,7 +7433,7 @@ export interface operations {
             };
         };
     };
-    load_experiment_api_v1_sessions__session__experiment_post: {
+    load_experiment: {
         parameters: {
             query?: never;
             header?: {
@@ -7517,7 +7517,7 @@ export interface operations {
             };
         };
     };
-    describe_api_v1_sessions__session__stream_get: {
+    stream_session: {
         parameters: {
             query?: {
                 /** @description Samples a second, Hz */
@@ -7599,7 +7599,7 @@ export interface operations {
             };
         };
     };
-    take_control_api_v1_sessions__session__control_put: {
+    take_control: {
         parameters: {
             query?: never;
             header?: {
@@ -7683,7 +7683,7 @@ export interface operations {
             };
         };
     };
-    give_control_back_api_v1_sessions__session__control_delete: {
+    give_control_back: {
         parameters: {
             query?: never;
             header?: {
@@ -7745,7 +7745,7 @@ export interface operations {
             };
         };
     };
-    hand_control_over_api_v1_sessions__session__control_handover_post: {
+    hand_control_over: {
         parameters: {
             query?: never;
             header?: {
@@ -7829,7 +7829,7 @@ export interface operations {
             };
         };
     };
-    lock_control_api_v1_sessions__session__control_lock_put: {
+    lock_control: {
         parameters: {
             query?: never;
             header?: {
@@ -7913,7 +7913,7 @@ export interface operations {
             };
         };
     };
-    arm_api_v1_sessions__session__bench_arm_post: {
+    arm: {
         parameters: {
             query?: never;
             header?: {
@@ -7975,7 +7975,7 @@ export interface operations {
             };
         };
     };
-    confirm_home_api_v1_sessions__session__bench_home_post: {
+    confirm_home: {
         parameters: {
             query?: never;
             header?: {
@@ -8059,7 +8059,7 @@ export interface operations {
             };
         };
     };
-    clear_fault_api_v1_sessions__session__bench_clear_post: {
+    clear_fault: {
         parameters: {
             query?: never;
             header?: {
@@ -8121,7 +8121,7 @@ export interface operations {
             };
         };
     };
-    restart_loop_api_v1_sessions__session__bench_restart_post: {
+    restart_loop: {
         parameters: {
             query?: never;
             header?: {
@@ -8183,7 +8183,7 @@ export interface operations {
             };
         };
     };
-    set_position_api_v1_sessions__session__position_put: {
+    set_position: {
         parameters: {
             query?: never;
             header?: {
@@ -8267,7 +8267,7 @@ export interface operations {
             };
         };
     };
-    set_stiffness_api_v1_sessions__session__stiffness_put: {
+    set_stiffness: {
         parameters: {
             query?: never;
             header?: {
@@ -8351,7 +8351,7 @@ export interface operations {
             };
         };
     };
-    set_law_api_v1_sessions__session__law_put: {
+    set_law: {
         parameters: {
             query?: never;
             header?: {
@@ -8435,7 +8435,7 @@ export interface operations {
             };
         };
     };
-    set_gains_api_v1_sessions__session__gains_put: {
+    set_gains: {
         parameters: {
             query?: never;
             header?: {
@@ -8519,7 +8519,7 @@ export interface operations {
             };
         };
     };
-    set_parameters_api_v1_sessions__session__parameters_put: {
+    set_parameters: {
         parameters: {
             query?: never;
             header?: {
@@ -8607,7 +8607,7 @@ export interface operations {
             };
         };
     };
-    set_observer_api_v1_sessions__session__observer_put: {
+    set_observer: {
         parameters: {
             query?: never;
             header?: {
@@ -8691,7 +8691,7 @@ export interface operations {
             };
         };
     };
-    change_actuator_api_v1_sessions__session__actuator_patch: {
+    change_actuator: {
         parameters: {
             query?: never;
             header?: {
@@ -8775,7 +8775,7 @@ export interface operations {
             };
         };
     };
-    load_nominal_api_v1_sessions__session__nominal_put: {
+    load_nominal: {
         parameters: {
             query?: never;
             header?: {
@@ -8859,7 +8859,7 @@ export interface operations {
             };
         };
     };
-    change_nominal_api_v1_sessions__session__nominal_patch: {
+    change_nominal: {
         parameters: {
             query?: never;
             header?: {
@@ -8943,7 +8943,7 @@ export interface operations {
             };
         };
     };
-    set_effects_api_v1_sessions__session__effects_put: {
+    set_effects: {
         parameters: {
             query?: never;
             header?: {
@@ -9027,7 +9027,7 @@ export interface operations {
             };
         };
     };
-    set_lanes_api_v1_sessions__session__lanes_put: {
+    set_lanes: {
         parameters: {
             query?: never;
             header?: {
@@ -9111,7 +9111,7 @@ export interface operations {
             };
         };
     };
-    set_lane_api_v1_sessions__session__lanes__lane__put: {
+    set_lane: {
         parameters: {
             query?: never;
             header?: {
@@ -9197,7 +9197,7 @@ export interface operations {
             };
         };
     };
-    predict_design_api_v1_sessions__session__predict_post: {
+    predict_design: {
         parameters: {
             query?: never;
             header?: {
@@ -9281,7 +9281,7 @@ export interface operations {
             };
         };
     };
-    respond_api_v1_sessions__session__design_response_post: {
+    respond: {
         parameters: {
             query?: never;
             header?: {
@@ -9374,7 +9374,7 @@ export interface operations {
             };
         };
     };
-    show_stability_api_v1_sessions__session__design_stability_post: {
+    show_stability: {
         parameters: {
             query?: never;
             header?: {
@@ -9467,7 +9467,7 @@ export interface operations {
             };
         };
     };
-    map_attraction_api_v1_sessions__session__design_region_post: {
+    map_attraction: {
         parameters: {
             query?: never;
             header?: {
@@ -9560,7 +9560,7 @@ export interface operations {
             };
         };
     };
-    simulate_design_api_v1_sessions__session__design_simulation_post: {
+    simulate_design: {
         parameters: {
             query?: never;
             header?: {
@@ -9653,7 +9653,7 @@ export interface operations {
             };
         };
     };
-    excite_api_v1_sessions__session__excitation_post: {
+    excite: {
         parameters: {
             query?: never;
             header?: {
@@ -9737,7 +9737,7 @@ export interface operations {
             };
         };
     };
-    stop_excitation_api_v1_sessions__session__excitation_delete: {
+    stop_excitation: {
         parameters: {
             query?: never;
             header?: {
@@ -9799,7 +9799,7 @@ export interface operations {
             };
         };
     };
-    apply_load_api_v1_sessions__session__loads_post: {
+    apply_load: {
         parameters: {
             query?: never;
             header?: {
@@ -9883,7 +9883,7 @@ export interface operations {
             };
         };
     };
-    clear_loads_api_v1_sessions__session__loads_delete: {
+    clear_loads: {
         parameters: {
             query?: never;
             header?: {
@@ -9945,7 +9945,7 @@ export interface operations {
             };
         };
     };
-    remove_load_api_v1_sessions__session__loads__load_id__delete: {
+    remove_load: {
         parameters: {
             query?: never;
             header?: {
@@ -10008,7 +10008,7 @@ export interface operations {
             };
         };
     };
-    start_recording_api_v1_sessions__session__recording_post: {
+    start_recording: {
         parameters: {
             query?: never;
             header?: {
@@ -10092,7 +10092,7 @@ export interface operations {
             };
         };
     };
-    stop_recording_api_v1_sessions__session__recording_delete: {
+    stop_recording: {
         parameters: {
             query?: never;
             header?: {
@@ -10154,7 +10154,7 @@ export interface operations {
             };
         };
     };
-    branch_run_api_v1_runs__run_id__branch_post: {
+    branch_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -10234,7 +10234,7 @@ export interface operations {
             };
         };
     };
-    read_csv_api_v1_references_csv_post: {
+    read_csv: {
         parameters: {
             query?: never;
             header?: never;
@@ -10294,7 +10294,7 @@ export interface operations {
             };
         };
     };
-    preview_position_api_v1_references_position_preview_post: {
+    preview_position: {
         parameters: {
             query?: never;
             header?: never;
@@ -10354,7 +10354,7 @@ export interface operations {
             };
         };
     };
-    preview_stiffness_api_v1_references_stiffness_preview_post: {
+    preview_stiffness: {
         parameters: {
             query?: never;
             header?: never;
@@ -10414,7 +10414,7 @@ export interface operations {
             };
         };
     };
-    read_samples_api_v1_runs__run_id__samples_get: {
+    read_samples: {
         parameters: {
             query?: {
                 /** @description Names with commas between them; left out, those of the plots */
@@ -10482,7 +10482,7 @@ export interface operations {
             };
         };
     };
-    read_metrics_api_v1_runs__run_id__metrics_get: {
+    read_metrics: {
         parameters: {
             query?: {
                 /** @description Time of the run, s */
@@ -10546,7 +10546,7 @@ export interface operations {
             };
         };
     };
-    export_run_api_v1_runs__run_id__export_get: {
+    export_run: {
         parameters: {
             query: {
                 /** @description Format of the file */
@@ -10620,7 +10620,7 @@ export interface operations {
             };
         };
     };
-    show_replay_api_v1_runs__run_id__replay_get: {
+    show_replay: {
         parameters: {
             query?: never;
             header?: never;
@@ -10688,7 +10688,7 @@ export interface operations {
             };
         };
     };
-    download_replay_api_v1_runs__run_id__replay_html_get: {
+    download_replay: {
         parameters: {
             query?: never;
             header?: never;
@@ -10756,7 +10756,7 @@ export interface operations {
             };
         };
     };
-    compare_run_api_v1_runs__run_id__compare_post: {
+    compare_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -10824,7 +10824,7 @@ export interface operations {
             };
         };
     };
-    read_origin_api_v1_sessions__session__origin_get: {
+    read_origin: {
         parameters: {
             query?: never;
             header?: {
@@ -10886,7 +10886,7 @@ export interface operations {
             };
         };
     };
-    read_run_origin_api_v1_runs__run_id__origin_get: {
+    read_run_origin: {
         parameters: {
             query?: never;
             header?: never;
@@ -10945,7 +10945,7 @@ export interface operations {
             };
         };
     };
-    read_difference_api_v1_runs__run_id__difference_get: {
+    read_difference: {
         parameters: {
             query: {
                 /** @description Ids of the runs beside it */
@@ -11007,7 +11007,7 @@ export interface operations {
             };
         };
     };
-    list_runs_api_v1_runs_get: {
+    list_runs: {
         parameters: {
             query?: {
                 /** @description Words of which each must stand, but for its case, in what the list shows of a run besides numbers and times: name, settings, tags, notes, origin; or its id */
@@ -11082,7 +11082,7 @@ export interface operations {
             };
         };
     };
-    read_run_api_v1_runs__run_id__get: {
+    read_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -11141,7 +11141,7 @@ export interface operations {
             };
         };
     };
-    delete_run_api_v1_runs__run_id__delete: {
+    delete_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -11200,7 +11200,7 @@ export interface operations {
             };
         };
     };
-    change_run_api_v1_runs__run_id__patch: {
+    change_run: {
         parameters: {
             query?: never;
             header?: {
@@ -11293,7 +11293,7 @@ export interface operations {
             };
         };
     };
-    restore_run_api_v1_runs__run_id__restore_post: {
+    restore_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -11352,7 +11352,7 @@ export interface operations {
             };
         };
     };
-    list_jobs_api_v1_jobs_get: {
+    list_jobs: {
         parameters: {
             query?: never;
             header?: never;
@@ -11408,7 +11408,7 @@ export interface operations {
             };
         };
     };
-    read_job_api_v1_jobs__job__get: {
+    read_job: {
         parameters: {
             query?: never;
             header?: never;
@@ -11467,7 +11467,7 @@ export interface operations {
             };
         };
     };
-    cancel_job_api_v1_jobs__job__delete: {
+    cancel_job: {
         parameters: {
             query?: never;
             header?: never;
@@ -11526,7 +11526,7 @@ export interface operations {
             };
         };
     };
-    list_tunings_api_v1_tunings_get: {
+    list_tunings: {
         parameters: {
             query?: never;
             header?: never;
@@ -11582,7 +11582,7 @@ export interface operations {
             };
         };
     };
-    start_tuning_api_v1_tunings_post: {
+    start_tuning: {
         parameters: {
             query?: never;
             header?: never;
@@ -11669,7 +11669,7 @@ export interface operations {
             };
         };
     };
-    read_tuning_api_v1_tunings__tuning__get: {
+    read_tuning: {
         parameters: {
             query?: {
                 /** @description Number of the first trial to be told */
@@ -11731,7 +11731,7 @@ export interface operations {
             };
         };
     };
-    stop_tuning_api_v1_tunings__tuning__delete: {
+    stop_tuning: {
         parameters: {
             query?: never;
             header?: never;
@@ -11790,7 +11790,7 @@ export interface operations {
             };
         };
     };
-    read_tuned_file_api_v1_tunings__tuning__file_get: {
+    read_tuned_file: {
         parameters: {
             query?: never;
             header?: never;
@@ -11849,7 +11849,7 @@ export interface operations {
             };
         };
     };
-    list_all_api_v1_studies_get: {
+    list_all: {
         parameters: {
             query?: never;
             header?: never;
@@ -11905,7 +11905,7 @@ export interface operations {
             };
         };
     };
-    start_study_api_v1_studies_post: {
+    start_study: {
         parameters: {
             query?: never;
             header?: never;
@@ -11992,7 +11992,7 @@ export interface operations {
             };
         };
     };
-    check_study_api_v1_studies_check_post: {
+    check_study: {
         parameters: {
             query?: never;
             header?: never;
@@ -12070,7 +12070,7 @@ export interface operations {
             };
         };
     };
-    read_study_api_v1_studies__study__get: {
+    read_study: {
         parameters: {
             query?: never;
             header?: never;
@@ -12129,7 +12129,7 @@ export interface operations {
             };
         };
     };
-    summarize_study_api_v1_studies__study__summary_get: {
+    summarize_study: {
         parameters: {
             query?: never;
             header?: never;
@@ -12197,7 +12197,7 @@ export interface operations {
             };
         };
     };
-    read_sensitivity_api_v1_studies__study__sensitivity_get: {
+    read_sensitivity: {
         parameters: {
             query?: {
                 /** @description succeeded, or a metric */
@@ -12268,7 +12268,7 @@ export interface operations {
             };
         };
     };
-    read_rows_api_v1_studies__study__rows_get: {
+    read_rows: {
         parameters: {
             query: {
                 /** @description Names of columns */
@@ -12332,7 +12332,7 @@ export interface operations {
             };
         };
     };
-    read_row_api_v1_studies__study__rows__row__get: {
+    read_row: {
         parameters: {
             query?: never;
             header?: never;
@@ -12395,7 +12395,7 @@ export interface operations {
             };
         };
     };
-    download_rows_api_v1_studies__study__rows_parquet_get: {
+    download_rows: {
         parameters: {
             query?: never;
             header?: never;
@@ -12454,7 +12454,7 @@ export interface operations {
             };
         };
     };
-    replay_row_api_v1_studies__study__rows__row__replay_post: {
+    replay_row: {
         parameters: {
             query?: never;
             header?: never;
@@ -12524,7 +12524,7 @@ export interface operations {
             };
         };
     };
-    read_arena_api_v1_arena_get: {
+    read_arena: {
         parameters: {
             query?: never;
             header?: {
@@ -12565,7 +12565,7 @@ export interface operations {
             };
         };
     };
-    measure_api_v1_arena_laws__law__measurement_post: {
+    measure_law: {
         parameters: {
             query?: never;
             header?: {
@@ -12636,7 +12636,7 @@ export interface operations {
             };
         };
     };
-    see_scenario_api_v1_arena_sessions_post: {
+    see_scenario: {
         parameters: {
             query?: never;
             header?: {
@@ -12717,7 +12717,7 @@ export interface operations {
             };
         };
     };
-    read_outcome_api_v1_requests__request_name__get: {
+    read_outcome: {
         parameters: {
             query?: never;
             header?: never;
