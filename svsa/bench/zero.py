@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from svsa.bench.axes import AXIS_WORDS
 from svsa.bench.calibration import (
     Calibration,
     compute_fingerprint,
@@ -32,7 +33,8 @@ def calibrate(
     `EncoderError` where it cannot be read. An older record is replaced.
     """
     if homing.next_step is not None:
-        raise StateError(f"{homing.next_step} has not been confirmed at its zero mark yet.")
+        axis = AXIS_WORDS[homing.next_step].capitalize()
+        raise StateError(f"{axis} has not been confirmed at its zero mark yet.")
     zero = read_deflection_zero(bench, opener, now)
     before = find_calibration(bench)
     fingerprint = compute_fingerprint(bench)

@@ -111,6 +111,33 @@ def test_the_top_bar_has_few_rows_and_no_more_while_it_records(visited: Page, la
     assert not {key: count for key, count in rows.items() if count > most[key[0]]}
 
 
+# What a bench and its twin are called, and the longest values of their table.
+NAME_LIKE_A_BENCH = """() => {
+    const rows = document.querySelectorAll(".comparison tbody tr");
+    rows.forEach((row, index) => {
+        row.querySelector(".legend-name").textContent = ["Bench NDOBC-W", "Twin NDOBC-W"][index];
+        ["−0.012", "✓ 0.012", "✓ 0.012"].forEach((value, at) => {
+            row.querySelectorAll("td")[at].textContent = value;
+        });
+    });
+}"""
+
+
+@pytest.mark.parametrize("visited", ["running bench"], indirect=True)
+def test_the_table_of_a_bench_takes_no_room_from_its_plots(visited: Page, lab: Lab) -> None:
+    visited.set_viewport_size({"width": 1280, "height": 720})
+    alone = get_box(visited.locator(".plots"))["width"]
+    compare(visited, lab, is_on=True)
+    visited.evaluate(NAME_LIKE_A_BENCH)
+    beside = get_box(visited.locator(".plots"))["width"]
+    table, view = (get_box(visited.locator(one)) for one in (".comparison", ".view"))
+    tools = get_box(visited.get_by_role("toolbar", name="Plot tools"))["height"]
+    compare(visited, lab, is_on=False)
+    assert beside == pytest.approx(alone, abs=1)
+    assert table["width"] <= view["width"] + 1
+    assert tools < 40, "one row"
+
+
 def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visited: Page) -> None:
     visited.set_viewport_size({"width": 1280, "height": 720})
     visited.locator(".plots-scroll").evaluate("list => list.scrollTo(0, 0)")

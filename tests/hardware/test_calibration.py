@@ -164,7 +164,7 @@ def test_calibrating_again_keeps_signs_that_were_confirmed_for_these_settings(be
 def test_nothing_is_written_before_every_mark_is_confirmed(bench):
     homing, bus = Homing(), RigBus()
     homing.confirm("link", "Ada")
-    with pytest.raises(StateError, match="motor1"):
+    with pytest.raises(StateError, match="Motor 1 has not"):
         calibrate(bench, homing, bus.open, bus.now)
     assert find_calibration(bench) is None
 
