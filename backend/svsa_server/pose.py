@@ -6,23 +6,8 @@ from svsa.plant.disturbances import get_hung_mass
 from svsa.session.session import Session
 from svsa.signals import CHANNEL_INDEX
 from svsa_scene import ActuatorPose, RivalPose
-from svsa_scene.pose import draw_nothing_unknown
+from svsa_scene.pose import POSE_CHANNELS, draw_nothing_unknown
 from svsa_server.lanes import list_session_stretches
-
-_CHANNELS = (
-    "position_rad",
-    "position_reference_rad",
-    "motor1_position_rad",
-    "motor2_position_rad",
-    "lever_ratio",
-    "stiffness_nm_per_rad",
-    "torque1_nm",
-    "torque2_nm",
-    "disturbance_link_nm",
-    "disturbance_motor1_nm",
-    "disturbance_motor2_nm",
-    "deflection_limit_rad",
-)
 
 
 def read_pose(session: Session) -> ActuatorPose | None:
@@ -31,7 +16,7 @@ def read_pose(session: Session) -> ActuatorPose | None:
     if newest is None:
         return None
 
-    values = {channel: float(newest[CHANNEL_INDEX[channel]]) for channel in _CHANNELS}
+    values = {channel: float(newest[CHANNEL_INDEX[channel]]) for channel in POSE_CHANNELS}
     return ActuatorPose(
         **draw_nothing_unknown(values),
         rivals=_read_rivals(session),
@@ -52,7 +37,5 @@ def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
 
 
 def _find_hung_mass(session: Session) -> float:
-    tick = session.run.tick
-    return sum(
-        get_hung_mass(load) for _, load, start, end in session.run.loads if start <= tick < end
-    )
+    on = (held.load for held in session.run.loads if held.is_on(session.run.tick))
+    return sum(map(get_hung_mass, on))

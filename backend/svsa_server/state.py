@@ -191,7 +191,7 @@ def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadSta
         id=scheduled.number,
         start_s=scheduled.start_tick * period_s,
         end_s=None if math.isinf(scheduled.end_tick) else scheduled.end_tick * period_s,
-        active=scheduled.start_tick <= tick < scheduled.end_tick,
+        active=scheduled.is_on(tick),
         load=scheduled.load,
     )
 

@@ -175,6 +175,10 @@ class ScheduledLoad(NamedTuple):
     start_tick: int
     end_tick: float
 
+    def is_on(self, tick: int) -> bool:
+        """Whether it acts during the sample that begins at this tick."""
+        return self.start_tick <= tick < self.end_tick
+
 
 def schedule_load(number: int, load: Load, tick: int, period: float) -> ScheduledLoad:
     """Onset and end in whole ticks of `period` (s); an onset in the past is now (`tick`)."""
@@ -193,7 +197,7 @@ def continue_push(
     """
     if isinstance(load, PushLoad) and load.start_s is None:
         for held in loads:
-            if isinstance(held.load, PushLoad) and held.start_tick <= tick < held.end_tick:
+            if isinstance(held.load, PushLoad) and held.is_on(tick):
                 told = schedule_load(held.number, load, tick, period)
                 return told._replace(start_tick=held.start_tick)
     return None

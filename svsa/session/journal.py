@@ -105,7 +105,7 @@ class Journal:
                 self.version += 1
             case RemoveLoad():
                 taken = loads[command.argument]
-                if taken.start_tick < self.run.tick <= taken.end_tick:
+                if taken.is_on(self.run.tick - 1):
                     self._end_load(taken.load)
                     self.timeline.take_off(taken.load, self.run.tick)
                     self.metrics.begin_window(self.run.tick)
@@ -182,9 +182,8 @@ class Journal:
         self._hang_loads()
 
     def _hang_loads(self) -> None:
-        tick = self.run.tick
-        on = (load for load in self.run.loads if load.start_tick <= tick < load.end_tick)
-        self._hang(tuple(load.load for load in on))
+        on = (held for held in self.run.loads if held.is_on(self.run.tick))
+        self._hang(tuple(held.load for held in on))
 
     def _find_next_edge(self) -> int:
         edges = [edge for load in self.run.loads for edge in (load.start_tick, load.end_tick)]

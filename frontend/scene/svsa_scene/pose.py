@@ -18,6 +18,21 @@ class RivalPose:
     ink: int = 0
 
 
+POSE_CHANNELS = (
+    "position_rad",
+    "position_reference_rad",
+    "motor1_position_rad",
+    "motor2_position_rad",
+    "lever_ratio",
+    "stiffness_nm_per_rad",
+    "torque1_nm",
+    "torque2_nm",
+    "disturbance_link_nm",
+    "disturbance_motor1_nm",
+    "disturbance_motor2_nm",
+    "deflection_limit_rad",
+)
+"""The channels of a sample that a pose is made of, by the names of its fields."""
 _DISTURBANCES = ("disturbance_link_nm", "disturbance_motor1_nm", "disturbance_motor2_nm")
 
 

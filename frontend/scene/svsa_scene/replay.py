@@ -19,9 +19,9 @@ import numpy.typing as npt
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.records.measured_window import MeasuredWindow
 from svsa.run.events import Event
-from svsa_scene.pose import LaneStretch
+from svsa_scene.pose import POSE_CHANNELS, LaneStretch
 from svsa_scene.replay_curves import compute_metrics, pack_curves
-from svsa_scene.replay_motion import POSE_CHANNELS, record_motion
+from svsa_scene.replay_motion import record_motion
 from svsa_scene.replay_packing import ArrayPack
 
 MAX_LANES = 4

@@ -21,25 +21,12 @@ from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.geometry import turn
 from svsa_scene.names import add_label
-from svsa_scene.pose import ActuatorPose, LaneStretch, draw_nothing_unknown
+from svsa_scene.pose import POSE_CHANNELS, ActuatorPose, LaneStretch, draw_nothing_unknown
 from svsa_scene.replay_packing import ArrayPack
 from svsa_scene.scene import ActuatorScene
 
 RATE_HZ = 30.0
 MAX_FRAMES = 5400
-POSE_CHANNELS = (
-    "position_rad",
-    "position_reference_rad",
-    "motor1_position_rad",
-    "motor2_position_rad",
-    "lever_ratio",
-    "stiffness_nm_per_rad",
-    "torque1_nm",
-    "torque2_nm",
-    "disturbance_link_nm",
-    "deflection_limit_rad",
-)
-
 _REST = {"wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, 0.0), "visible": True}
 _SMOOTH = ("wxyz", "position", "scale")
 _GHOST_STEP = 0.16

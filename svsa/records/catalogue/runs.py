@@ -211,10 +211,6 @@ class Catalogue:
         """A page of the list, by the fields of `Query`; raises `ParameterError` as it does."""
         return self.query(Query(search, **wanted))
 
-    def list_tags(self) -> dict[str, int]:
-        """Every tag in use, and on how many runs."""
-        return self.list_facets()["tag"]
-
     def _locate(self, entry: RunEntry) -> Path:
         return (self._runs if entry.deleted is None else self._trash) / entry.id
 

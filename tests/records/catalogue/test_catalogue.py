@@ -76,7 +76,7 @@ def test_search_tags_sort_and_pages(catalogue: Catalogue) -> None:
     assert [run.id for run in page.runs] == ["run-3", "run-4", "run-5"]
     assert page.total == 7
     assert catalogue.list(page=9).runs == ()
-    assert catalogue.list_tags() == {"100%": 3, "even": 4, "odd": 3}
+    assert catalogue.list_facets()["tag"] == {"100%": 3, "even": 4, "odd": 3}
 
 
 @pytest.mark.parametrize(
@@ -150,7 +150,7 @@ def test_delete_takes_a_run_away_and_restore_brings_it_back(catalogue: Catalogue
     assert catalogue.list().total == 0
     assert list_ids(catalogue, trash=True) == ["run-1"]
     assert catalogue.open("run-1").tick_count == 20
-    assert catalogue.list_tags() == {}
+    assert catalogue.list_facets()["tag"] == {}
     assert catalogue.restore("run-1") == before
     assert catalogue.list().runs == (before,)
     with pytest.raises(StateError, match="not in the trash"):

@@ -206,7 +206,7 @@ def test_a_catalogue_of_the_older_format_is_opened_and_filled_in(varied: Catalog
     again.describe_older()
     assert [again.list(sort="name").runs, again.list(trash=True).runs] == before
     assert list_ids(again, law="ndobc", figure="4b") == ["run-1"]
-    assert again.list_tags() == {"class": 1}
+    assert again.list_facets()["tag"] == {"class": 1}
 
 
 def test_metrics_that_an_older_version_took_of_whole_runs_are_measured_anew(

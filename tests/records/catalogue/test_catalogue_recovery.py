@@ -56,7 +56,7 @@ def test_the_list_is_built_anew_from_the_folders(catalogue: Catalogue, loss: str
     assert sorted(again.recover().registered) == ["run-1", "run-2", "run-3"]
     assert again.list(sort="name").runs == before
     assert list_ids(again, trash=True) == ["run-3"]
-    assert again.list_tags()["kept"] == 1
+    assert again.list_facets()["tag"]["kept"] == 1
     if loss == "damaged":
         assert (catalogue.folder / "catalogue.sqlite.damaged-1").exists()
 
