@@ -31,6 +31,7 @@ import "./runs/table.css";
 import "./runs/run.css";
 import "./runs/overlay.css";
 import "./arena/arena.css";
+import "./studies/studies.css";
 import "./script/script.css";
 import { render } from "preact";
 import { watchHold } from "./bench/hold";

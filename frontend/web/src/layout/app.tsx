@@ -12,6 +12,7 @@ import { PrivateBanner } from "../runs/private";
 import { Runs } from "../runs/runs";
 import { CallsDrawer } from "../script/drawer";
 import { phase, session } from "../state/session";
+import { StudiesPage } from "../studies/page";
 import { text } from "../text/en";
 import { TunePanel } from "../tuning/panel";
 import { Banners } from "./banners";
@@ -44,6 +45,8 @@ export function App() {
         <Runs at={at} />
       ) : at.kind === "arena" ? (
         <ArenaPage />
+      ) : at.kind === "studies" ? (
+        <StudiesPage />
       ) : state === null ? (
         phase.value !== "ended" && <main class="waiting-page">{text.connection.waiting}</main>
       ) : (

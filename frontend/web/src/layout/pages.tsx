@@ -7,16 +7,17 @@ import { isOpen as isTuning } from "../tuning/tuning";
 import { Popup } from "../widgets/popup";
 
 const words = text.pages;
-type Page = "lab" | "runs" | "arena";
+type Page = "lab" | "runs" | "arena" | "studies";
 const PAGES: Readonly<Record<Page, Place>> = {
   lab: { kind: "lab" },
   runs: { kind: "list" },
   arena: { kind: "arena" },
+  studies: { kind: "studies", study: "", look: {} },
 };
 
 /** A run and an overlay are of the runs. */
 export const pageOf = (at: Place): Page =>
-  isOfRuns(at) ? "runs" : at.kind === "arena" ? "arena" : "lab";
+  isOfRuns(at) ? "runs" : at.kind === "arena" || at.kind === "studies" ? at.kind : "lab";
 
 function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren {
   return (

@@ -15,6 +15,7 @@ import { runsText } from "./runs";
 import { sceneText } from "./scene";
 import { scriptText } from "./script";
 import { stabilityText } from "./stability";
+import { studiesText } from "./studies";
 import { tuningText } from "./tuning";
 
 export const text = {
@@ -34,5 +35,6 @@ export const text = {
   ...realismText,
   ...runsText,
   ...scriptText,
+  ...studiesText,
   ...tuningText,
 } as const;

@@ -7,12 +7,20 @@ export const pageText = {
   view: "The actuator in 3D",
   pages: {
     open: "Pages",
-    openHint: "Runs, arena, tuning, and the documented routes",
-    names: { lab: "Lab", runs: "Runs", arena: "Arena", tune: "Tune …", docs: "REST and stream" },
+    openHint: "Runs, arena, studies, tuning, and the documented routes",
+    names: {
+      lab: "Lab",
+      runs: "Runs",
+      arena: "Arena",
+      studies: "Studies",
+      tune: "Tune …",
+      docs: "REST and stream",
+    },
     hints: {
       lab: "The actuator, live",
       runs: "Recorded: look, compare, replay, export (O)",
       arena: "Every law in the same scenarios: errors, faults, robustness",
+      studies: "Many perturbed runs of every law: how often they succeed, and what decides it",
       tune: "Search a law's parameters on five training runs",
       docs: "What a script can do here, in a new tab",
     },

@@ -60,6 +60,15 @@ describe("a place in the address", () => {
     }
   });
 
+  it("of a study says what of it is looked at", () => {
+    const query = "?studies=load&sx=a&ty=b&law=fl&brush=s%3A1,2,3,4";
+    const look = { sx: "a", ty: "b", law: "fl", brush: "s:1,2,3,4" };
+    expect(readPlace(query)).toEqual({ kind: "studies", study: "load", look });
+    expect(writePlace(readPlace(query), query)).toBe(query);
+    expect(writePlace({ kind: "studies", study: "", look: {} }, query)).toBe("?studies=all");
+    expect(writePlace({ kind: "arena" }, query)).toBe("?arena=all");
+  });
+
   it("keeps what else the address says", () => {
     expect(writePlace({ kind: "list" }, "?session=private-1&run=a&t=2")).toBe(
       "?session=private-1&runs=all",

@@ -1,0 +1,82 @@
+/** Studies and the jobs that work at them, one function a call. */
+import { LockedError, RefusedError, UnansweredError } from "./errors";
+import { client } from "./identity";
+import { API, request } from "./request";
+import type { components } from "./schema";
+import type { Law, Refusal } from "./types";
+
+type Schemas = components["schemas"];
+
+export type Job = Schemas["JobState"];
+export type Study = Schemas["StudyState"];
+export type StudyPlan = Schemas["StudyPlan"];
+export type StudyColumn = Schemas["StudyColumn"];
+export type StudyList = Schemas["StudyList"];
+export type StudySummary = Schemas["StudySummary"];
+export type Estimate = Schemas["Estimate"];
+export type SobolIndices = Schemas["SobolIndices"];
+export type RowReplay = Schemas["RowReplay"];
+export type StudyRow = Readonly<Record<string, string | number | boolean | null>>;
+
+/** What is asked for; what is left out is as in the source or the text. */
+export interface StudyWish {
+  source?: string;
+  text?: string;
+  name?: string;
+  runs?: number;
+  laws?: readonly Law[];
+  success?: Readonly<Record<string, number>>;
+}
+
+const LONG_WAIT_MS = 90_000;
+const CLIENT_HEADER = "SVSA-Client";
+const pathOf = (study: string, rest = ""): string => `studies/${encodeURIComponent(study)}${rest}`;
+
+export const listStudies = () => request("get", "studies") as Promise<StudyList>;
+export const readStudy = (study: string) => request("get", pathOf(study)) as Promise<Study>;
+export const checkStudy = (wish: StudyWish) =>
+  request("post", "studies/check", wish) as Promise<StudyPlan>;
+export const startStudy = (wish: StudyWish) =>
+  request("post", "studies", wish, LONG_WAIT_MS) as Promise<Study>;
+export const cancelJob = (job: string) =>
+  request("delete", `jobs/${encodeURIComponent(job)}`) as Promise<Job>;
+export const readSummary = (study: string) =>
+  request("get", pathOf(study, "/summary"), undefined, LONG_WAIT_MS) as Promise<StudySummary>;
+export const readSensitivity = (study: string, outcome: string) =>
+  request(
+    "get",
+    pathOf(study, `/sensitivity?outcome=${encodeURIComponent(outcome)}`),
+    undefined,
+    LONG_WAIT_MS,
+  ) as Promise<SobolIndices[]>;
+export const readRow = (study: string, row: number) =>
+  request("get", pathOf(study, `/rows/${row}`)) as Promise<StudyRow>;
+/** Makes a recorded run of a row. */
+export const replayRow = (study: string, row: number) =>
+  request(
+    "post",
+    pathOf(study, `/rows/${row}/replay`),
+    undefined,
+    LONG_WAIT_MS,
+  ) as Promise<RowReplay>;
+export const tableOf = (study: string): string => new URL(pathOf(study, "/rows.parquet"), API).href;
+
+/** Columns of all rows, or of so many draws by lot, as the server packs them. */
+export async function readRows(study: string, columns: readonly string[]): Promise<ArrayBuffer> {
+  const query = new URLSearchParams(columns.map((column) => ["column", column]));
+  let response: Response;
+  try {
+    response = await fetch(new URL(pathOf(study, `/rows?${query}`), API), {
+      cache: "no-store",
+      headers: { [CLIENT_HEADER]: client },
+      signal: AbortSignal.timeout(LONG_WAIT_MS),
+    });
+    if (response.ok) return await response.arrayBuffer();
+  } catch (cause) {
+    throw new UnansweredError(cause);
+  }
+  const refusal = (await response.json().catch(() => null)) as Partial<Refusal> | null;
+  const message = refusal?.detail ?? `${response.status} ${response.statusText}`;
+  if (response.status === 401) throw new LockedError(message);
+  throw new RefusedError(response.status, message, refusal?.violations ?? []);
+}

@@ -1,0 +1,198 @@
+/** Dots of a study: scales, what a brush holds, the nearest one, shares over a plane, distributions. */
+
+export type Span = readonly [number, number];
+
+export interface Brush {
+  x: Span;
+  y: Span;
+}
+
+/** Least and greatest number, and the least above zero; null where there is none. */
+export function extentOf(
+  values: Float64Array,
+): { low: number; high: number; positive: number } | null {
+  let [low, high, positive] = [Infinity, -Infinity, Infinity];
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high && value < Infinity) high = value;
+    if (value > 0 && value < positive) positive = value;
+  }
+  return low <= high ? { low, high, positive } : null;
+}
+
+/** A scale that holds all values: with a little air, by ratios where that is asked for and can be. */
+export function scaleOf(values: Float64Array, isLog: boolean): { span: Span; isLog: boolean } {
+  const extent = extentOf(values);
+  if (extent === null) return { span: [0, 1], isLog: false };
+  const { low, high } = extent;
+  if (isLog && low > 0 && high > low) {
+    const air = (high / low) ** 0.03;
+    return { span: [low / air, high * air], isLog: true };
+  }
+  const air = high > low ? 0.03 * (high - low) : Math.max(0.5, Math.abs(low) * 0.05);
+  return { span: [low - air, high + air], isLog: false };
+}
+
+/** Whether values lie so far apart that equal ratios show them better. */
+export function spreadsByRatios(values: Float64Array): boolean {
+  const extent = extentOf(values);
+  return extent !== null && extent.low > 0 && extent.high > 30 * extent.low;
+}
+
+const LOT = 0.618033988749895;
+
+/** Names stand beside each other; dots of one name are spread about it, the same whenever drawn. */
+export function spreadNames(codes: Float64Array): Float64Array {
+  return codes.map((code, index) => code + 0.6 * (((index * LOT) % 1) - 0.5));
+}
+
+/** 1 for each dot in the brush; all of them without one. */
+export function markBrushed(x: Float64Array, y: Float64Array, brush: Brush | null): Uint8Array {
+  const marks = new Uint8Array(x.length);
+  if (brush === null) return marks.fill(1);
+  const [left, right] = brush.x;
+  const [bottom, top] = brush.y;
+  for (let index = 0; index < marks.length; index++) {
+    const [at, height] = [x[index] as number, y[index] as number];
+    if (at >= left && at <= right && height >= bottom && height <= top) marks[index] = 1;
+  }
+  return marks;
+}
+
+/** The dot nearest to a place, among those that are marked; null where none is within `reach`. */
+export function findNearest(
+  x: Float64Array,
+  y: Float64Array,
+  marks: Uint8Array,
+  place: (x: number, y: number) => readonly [number, number],
+  at: readonly [number, number],
+  reach: number,
+): number | null {
+  let [best, found] = [reach * reach, -1];
+  for (let index = 0; index < marks.length; index++) {
+    if (marks[index] === 0) continue;
+    const [left, top] = place(x[index] as number, y[index] as number);
+    const distance = (left - at[0]) ** 2 + (top - at[1]) ** 2;
+    if (distance <= best) [best, found] = [distance, index];
+  }
+  return found < 0 ? null : found;
+}
+
+export interface Cell {
+  column: number;
+  line: number;
+  runs: number;
+  good: number;
+}
+
+/**
+ * Ends of bins: between the values where there are few and many of each, as on a grid; else of one
+ * width.
+ */
+export function cutBins(values: Float64Array, isLog: boolean, most = 16): number[] {
+  const distinct = new Set<number>();
+  for (const value of values) {
+    if (Number.isFinite(value)) distinct.add(value);
+    if (distinct.size > 3 * most) break;
+  }
+  const levels = [...distinct].sort((a, b) => a - b);
+  const by = isLog && (levels[0] ?? 0) > 0 ? Math.log : (value: number) => value;
+  const back = by === Math.log ? Math.exp : (value: number) => value;
+  if (levels.length === 0) return [];
+  const isGrid = levels.length <= 3 * most && levels.length ** 2 <= values.length;
+  if (isGrid && levels.length > 1) {
+    const at = levels.map(by);
+    const middles = at.slice(1).map((value, index) => (value + (at[index] as number)) / 2);
+    const first = 2 * (at[0] as number) - (middles[0] as number);
+    const last = 2 * (at.at(-1) as number) - (middles.at(-1) as number);
+    return [first, ...middles, last].map(back);
+  }
+  const extent = extentOf(values) as { low: number; high: number };
+  const [low, high] = [by(extent.low), by(extent.high)];
+  const width = (high - low || 1) / most;
+  return Array.from({ length: most + 1 }, (_, index) => back(low + index * width));
+}
+
+/** In which bin a value lies; -1 for none. */
+export function findBin(edges: readonly number[], value: number): number {
+  const last = edges.length - 2;
+  if (!(value >= (edges[0] as number)) || value > (edges[last + 1] as number) * (1 + 1e-12))
+    return -1;
+  let [low, high] = [0, last];
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (value >= (edges[middle] as number)) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+/** How many runs, and how many of them succeeded, in each cell of a plane that has some. */
+export function countCells(
+  x: Float64Array,
+  y: Float64Array,
+  good: Float64Array,
+  marks: Uint8Array,
+  edges: readonly [readonly number[], readonly number[]],
+): Cell[] {
+  const [columns, lines] = [edges[0].length - 1, edges[1].length - 1];
+  if (columns < 1 || lines < 1) return [];
+  const runs = new Uint32Array(columns * lines);
+  const goods = new Uint32Array(columns * lines);
+  for (let index = 0; index < marks.length; index++) {
+    if (marks[index] === 0) continue;
+    const column = findBin(edges[0], x[index] as number);
+    const line = findBin(edges[1], y[index] as number);
+    if (column < 0 || line < 0) continue;
+    const at = line * columns + column;
+    runs[at] = (runs[at] as number) + 1;
+    if (good[index] === 1) goods[at] = (goods[at] as number) + 1;
+  }
+  const cells: Cell[] = [];
+  runs.forEach((count, at) => {
+    if (count > 0) {
+      const good = goods[at] as number;
+      cells.push({ column: at % columns, line: Math.floor(at / columns), runs: count, good });
+    }
+  });
+  return cells;
+}
+
+/**
+ * Below which value which share of the marked runs lies, in percent; what has no value, since it
+ * ended in a fault, lies below none.
+ */
+export function distribute(
+  values: Float64Array,
+  ended: Uint8Array,
+  marks: Uint8Array,
+  at: readonly number[],
+): number[] {
+  const whole: number[] = [];
+  let count = 0;
+  for (let index = 0; index < marks.length; index++) {
+    if (marks[index] === 0) continue;
+    count++;
+    const value = values[index] as number;
+    if (ended[index] === 0 && !Number.isNaN(value)) whole.push(value);
+  }
+  const sorted = Float64Array.from(whole).sort();
+  let reached = 0;
+  return at.map((limit) => {
+    while (reached < sorted.length && (sorted[reached] as number) <= limit) reached++;
+    return (100 * reached) / Math.max(1, count);
+  });
+}
+
+const Z = 1.959963984540054;
+
+/** A share and Wilson's interval of 95 %. */
+export function estimateShare(good: number, runs: number): readonly [number, number, number] {
+  if (runs === 0) return [Number.NaN, 0, 1];
+  const share = good / runs;
+  const middle = (share + (Z * Z) / (2 * runs)) / (1 + (Z * Z) / runs);
+  const half =
+    (Z / (1 + (Z * Z) / runs)) *
+    Math.sqrt((share * (1 - share)) / runs + (Z * Z) / (4 * runs * runs));
+  return [share, Math.max(0, middle - half), Math.min(1, middle + half)];
+}

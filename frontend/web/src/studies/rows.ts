@@ -1,0 +1,40 @@
+/** Rows of a study as columns of numbers, unpacked from what the server sends. */
+
+export interface Column {
+  values: Float64Array;
+  /** What its numbers stand for, where they are no numbers. */
+  labels: readonly string[] | null;
+}
+
+export interface Rows {
+  count: number;
+  /** How many are done; more than `count` where some were drawn by lot. */
+  total: number;
+  columns: ReadonlyMap<string, Column>;
+}
+
+export const NOTHING: Rows = { count: 0, total: 0, columns: new Map() };
+
+interface Header {
+  rows: number;
+  total: number;
+  columns: { name: string; labels?: string[] }[];
+}
+
+export function unpackRows(packed: ArrayBuffer): Rows {
+  const length = new DataView(packed).getUint32(0, true);
+  const text = new TextDecoder().decode(new Uint8Array(packed, 4, length));
+  const { rows: count, total, columns } = JSON.parse(text) as Header;
+  const found = columns.map(({ name, labels }, index): [string, Column] => [
+    name,
+    {
+      values: new Float64Array(packed, 4 + length + 8 * count * index, count),
+      labels: labels ?? null,
+    },
+  ]);
+  return { count, total, columns: new Map(found) };
+}
+
+const NONE = new Float64Array(0);
+export const valuesOf = (rows: Rows, name: string): Float64Array =>
+  rows.columns.get(name)?.values ?? NONE;

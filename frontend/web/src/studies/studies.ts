@@ -1,0 +1,194 @@
+/** The studies of this lab, the one that is looked at, its rows, and what is picked of them. */
+import { computed, signal } from "@preact/signals";
+import { RefusedError } from "../api/errors";
+import {
+  cancelJob,
+  listStudies,
+  readRow,
+  readRows,
+  readSensitivity,
+  readStudy,
+  readSummary,
+  replayRow,
+  type SobolIndices,
+  type Study,
+  type StudyList,
+  type StudyRow,
+  type StudySummary,
+  type StudyWish,
+  startStudy,
+} from "../api/studies";
+import { goTo, keepLook, place } from "../runs/place";
+import { explain } from "../state/actions";
+import { type Brushed, chooseAxes, readBrush, writeBrush } from "./look";
+import { NOTHING, type Rows, unpackRows } from "./rows";
+
+const PAUSE_MS = 1000;
+const GROWTH = 1.25;
+
+export const list = signal<StudyList | null>(null);
+export const study = signal<Study | null>(null);
+export const rows = signal<Rows>(NOTHING);
+export const summary = signal<StudySummary | null>(null);
+export const indices = signal<readonly SobolIndices[]>([]);
+export const picked = signal<readonly StudyRow[]>([]);
+export const problem = signal("");
+export const isBusy = signal("");
+
+const look = computed(() => (place.value.kind === "studies" ? place.value.look : {}));
+export const chosenName = computed(() => (place.value.kind === "studies" ? place.value.study : ""));
+export const axes = computed((): Record<string, string> => {
+  const columns = study.value?.columns ?? [];
+  const known = Object.entries(look.value).filter(
+    ([part, name]) => part !== "law" && columns.some((column) => column.name === name),
+  );
+  return { ...chooseAxes(columns), ...Object.fromEntries(known) };
+});
+/** The law whose runs the planes and the map show, or "" for every one; the first if none is said. */
+export const shownLaw = computed(() => {
+  const laws = study.value?.laws ?? [];
+  const said = look.value.law ?? laws[0] ?? "";
+  return laws.includes(said) ? said : "";
+});
+export const EVERY_LAW = "every";
+export const brush = computed(() => readBrush(look.value.brush ?? ""));
+
+/** A study's own words are better than those of the page: they name line, value and bound. */
+export const tell = (error: unknown): string =>
+  error instanceof RefusedError ? error.message : explain(error);
+
+export const isGoing = (one: Study | null): boolean =>
+  one?.job?.status === "waiting" || one?.job?.status === "running";
+
+export const setLook = (changed: Readonly<Record<string, string>>): void =>
+  keepLook({ ...look.peek(), ...changed });
+export const setBrush = (next: Brushed | null): void =>
+  setLook({ brush: next === null ? "" : writeBrush(next) });
+
+async function attempt<T>(work: () => Promise<T>): Promise<T | null> {
+  try {
+    const answer = await work();
+    problem.value = "";
+    return answer;
+  } catch (error) {
+    problem.value = tell(error);
+    return null;
+  }
+}
+
+export async function openList(): Promise<void> {
+  list.value = (await attempt(listStudies)) ?? list.peek();
+}
+
+let round = 0;
+const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
+
+export const wantedColumns = (names: Readonly<Record<string, string>>): string[] => [
+  ...new Set(["law", "fault", "succeeded", ...Object.values(names)].filter((name) => name !== "")),
+];
+
+export async function fetchRows(name: string): Promise<void> {
+  const packed = await attempt(() => readRows(name, wantedColumns(axes.peek())));
+  if (packed !== null && chosenName.peek() === name) rows.value = unpackRows(packed);
+}
+
+async function sumUp(found: Study): Promise<void> {
+  const told = await attempt(() => readSummary(found.name));
+  if (chosenName.peek() !== found.name) return;
+  summary.value = told;
+  if (found.study.sampling !== "sensitivity") return;
+  try {
+    indices.value = await readSensitivity(found.name, "succeeded");
+  } catch {
+    indices.value = [];
+  }
+}
+
+/** Looks at a study, and follows it while it grows. */
+export async function follow(name: string): Promise<void> {
+  const number = ++round;
+  study.value = null;
+  rows.value = NOTHING;
+  summary.value = null;
+  indices.value = [];
+  picked.value = [];
+  let shown = 0;
+  while (number === round && name !== "") {
+    const found = await attempt(() => readStudy(name));
+    if (number !== round || found === null) return;
+    study.value = found;
+    const isEnded = !isGoing(found);
+    if (found.done > 0 && (isEnded || found.done > shown * GROWTH)) {
+      shown = found.done;
+      await fetchRows(name);
+      if (number !== round) return;
+    }
+    if (isEnded) {
+      void openList();
+      if (found.done > 0) await sumUp(found);
+      return;
+    }
+    await pause();
+  }
+}
+
+export function leave(): void {
+  round++;
+}
+
+/** Whether it was begun. */
+export async function begin(wish: StudyWish): Promise<boolean> {
+  isBusy.value = "start";
+  const begun = await attempt(() => startStudy(wish));
+  isBusy.value = "";
+  if (begun === null) return false;
+  void openList();
+  const isHere = chosenName.peek() === begun.name;
+  goTo({ kind: "studies", study: begun.name, look: isHere ? look.peek() : {} });
+  if (isHere) void follow(begun.name);
+  return true;
+}
+
+export async function cancel(): Promise<void> {
+  const job = study.peek()?.job;
+  if (job) await attempt(() => cancelJob(job.id));
+}
+
+/** The row that is told of; the one before it stays beside it, to be overlaid. */
+export async function pick(row: number): Promise<void> {
+  const name = chosenName.peek();
+  const known = picked.peek();
+  if (known.at(-1)?.row === row) return;
+  const found = await attempt(() => readRow(name, row));
+  if (found !== null) {
+    picked.value = [...known.filter((one) => one.row !== row), found].slice(-2);
+  }
+}
+
+const runs = new Map<string, string>();
+
+async function record(name: string, row: number): Promise<string | null> {
+  const key = `${name} ${row}`;
+  const known = runs.get(key);
+  if (known !== undefined) return known;
+  const made = await attempt(() => replayRow(name, row));
+  if (made === null) return null;
+  runs.set(key, made.run_id);
+  return made.run_id;
+}
+
+/** Rows as recorded runs: one in 3D, two laid over each other. */
+export async function see(numbers: readonly number[]): Promise<void> {
+  const name = chosenName.peek();
+  isBusy.value = "see";
+  const made: string[] = [];
+  for (const row of numbers) {
+    const run = await record(name, row);
+    if (run === null) break;
+    made.push(run);
+  }
+  isBusy.value = "";
+  if (made.length < numbers.length) return;
+  const [first = ""] = made;
+  goTo(made.length > 1 ? { kind: "overlay", runs: made } : { kind: "run", run: first, timeS: 0 });
+}

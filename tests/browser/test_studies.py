@@ -1,0 +1,65 @@
+"""The page Studies: looked at, brushed, picked from and left for a run, by keyboard alone; axe."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from svsa.study.execution import run_study
+from svsa.study.store import keep_study
+from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
+from tests.lab import Lab, run_lab
+from tests.study.studies import build_study
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+
+@pytest.fixture(scope="module")
+def studied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    """A lab with a study of 80 runs of 1.2 s."""
+    data = tmp_path_factory.mktemp("data")
+    assert run_study(keep_study("short", build_study(), data / "studies"), workers=0)
+    with run_lab(data=str(data)) as lab:
+        yield lab
+
+
+def test_a_study_is_brushed_picked_from_and_left_for_a_run(page: Page, studied: Lab) -> None:
+    page.goto(studied.url + "/?studies=all")
+    page.get_by_role("link", name=re.compile("^short")).press("Enter")
+    law = page.get_by_role("row", name=re.compile("^NDOBC"))
+    expect(law).to_contain_text(re.compile(r"40.*%"), timeout=60_000)
+    expect_no_violation(page, WIDE, TABLET, PHONE)
+
+    plane = page.get_by_role("region", name="First plane")
+    plane.get_by_label("Across from").fill("1")
+    plane.get_by_label("Across from").press("Enter")
+    expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible()
+    assert "brush=s" in page.url
+    address = page.url
+    plane.get_by_role("application").press("ArrowRight")
+    expect(page.get_by_role("columnheader", name=re.compile("^Run "))).to_have_count(1)
+    plane.get_by_role("application").press("ArrowRight")
+    expect(page.get_by_role("button", name="Lay both over each other")).to_be_visible()
+    expect_no_violation(page, WIDE)
+    page.get_by_role("button", name="Open in 3D").last.press("Enter")
+    page.wait_for_url(re.compile(r"run="), timeout=60_000)
+    expect(page.get_by_role("heading", name=re.compile("^Study short, row "))).to_be_visible()
+
+    page.goto(address)
+    expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible()
+
+
+def test_a_wrong_text_is_told_with_its_line_and_nothing_is_begun(page: Page, studied: Lab) -> None:
+    page.goto(studied.url + "/?studies=all")
+    page.get_by_role("combobox", name="Study", exact=True).select_option(label="Own text (TOML) …")
+    text = page.get_by_label("Text of the study")
+    text.fill('title = "Mine"\nruns = 0\n')
+    page.get_by_role("button", name="Begin", exact=True).press("Enter")
+    expect(page.get_by_role("alert").first).to_contain_text("line 2: runs is 0")
+    text.fill('title = "Mine"\nruns = 2\n')
+    page.get_by_role("button", name="Check").press("Enter")
+    expect(page.get_by_text("Right: 2 draws, 2 runs under NDOBC.")).to_be_visible()
+    assert [one["name"] for one in studied.client.get("/api/v1/studies").json()["kept"]] == [
+        "short"
+    ]
