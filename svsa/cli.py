@@ -8,7 +8,7 @@ import json
 from collections.abc import Iterable
 from importlib.metadata import entry_points
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
@@ -124,7 +124,9 @@ def measure_costs(
     prepare(None if laws else PAPERS_LAWS)
     with _messages.status("Measuring …"):
         ticks = measure_laws(repeats) if laws else {}
-        costs = {} if laws else measure(repeats) | (measure_start() if start else {})
+        costs: dict[str, Any] = (
+            {} if laws else measure(repeats) | (measure_start() if start else {})
+        )
     if not laws and costs["ratio_to_c"] is None:
         _messages.print(
             "No C loop to compare with: it needs a C compiler (cc) and tests/bench/loop.c of the"
@@ -138,6 +140,8 @@ def measure_costs(
     table = Table(*heads, title="Time of a tick" if laws else "CPU time, the least of many")
     for law, cost in ticks.items():
         table.add_row(law, *(f"{value:.4g}" for value in cost))
+    by_effects = costs.pop("runs_per_second_1_core_by_effects", {})
+    costs |= {f"runs_per_second_1_core: {name}": rate for name, rate in by_effects.items()}
     for name, value in costs.items():
         table.add_row(name, f"{value:.4g}" if isinstance(value, float) else str(value))
     Console().print(table)

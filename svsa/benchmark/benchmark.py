@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from svsa.benchmark.batch_rates import measure_effects, measure_two_cores
 from svsa.benchmark.bench_tick import measure_bench_tick
 from svsa.benchmark.turns import measure_in_turns
 from svsa.control.feedback_linearization import build_gains
@@ -124,6 +125,7 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
             works["c"] = lambda: run_c(loop, run, samples)
             works["c_lanes"] = lambda: run_c_lanes(loop, run, ticks)
         cost = measure_in_turns(works, repeats)
+    effects = measure_effects(run.configuration, LANES, DURATION_S, repeats)
     c, c_lane = cost.get("c"), cost.get("c_lanes", 0.0) / LANES
     return {
         "figure": FIGURE,
@@ -135,6 +137,9 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
         "kernel_ratio_to_c": cost["kernel"] / c if c else None,
         "batch_runs_per_second_1_core": LANES / cost["batch"],
         "batch_ratio_to_c": c_lane * LANES / cost["batch"] if c else None,
+        "runs_per_second_1_core_by_effects": effects,
+        "two_cores_over_one": measure_two_cores(batch, ticks, repeats),
+        "load_average": os.getloadavg()[0],
         "bench_tick_cpu_us": 1e6 * measure_bench_tick(run, repeats),
     }
 

@@ -1,12 +1,12 @@
 """Works measured in turns, so that what else the machine does costs each of them the same."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 
-def measure_in_turns(works: dict[str, Callable[[], object]], repeats: int) -> dict[str, float]:
+def measure_in_turns(works: Mapping[str, Callable[[], object]], repeats: int) -> dict[str, float]:
     """The least CPU time of each, s; every one once before, which does not count."""
     least = dict.fromkeys(works, np.inf)
     for turn in range(repeats + 1):

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
 import svsa
-from svsa.benchmark import bench_tick, benchmark
+from svsa.benchmark import batch_rates, bench_tick, benchmark
 from svsa.cli import app
 from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX
@@ -61,8 +61,24 @@ def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -
         "single_run_realtime_factor",
         "batch_runs_per_second_1_core",
         "bench_tick_cpu_us",
+        "two_cores_over_one",
     )
     assert all(costs[name] > 0.0 for name in numbers)
+    rates = costs["runs_per_second_1_core_by_effects"]
+    assert list(rates) == list(batch_rates.EFFECTS)
+    assert rates["ideal"] > rates["every"] > 0.0
+
+
+def test_a_run_that_ends_in_a_fault_counts_as_the_part_that_was_run(monkeypatch) -> None:
+    """Else its rate would be the greater, the sooner it faults."""
+    monkeypatch.setattr(
+        batch_rates, "measure_in_turns", lambda works, repeats: dict.fromkeys(works, 1.0)
+    )
+    figure = benchmark.get_figure("4a").build_configuration("ndobc")
+    load = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.5)
+    rates = batch_rates.measure_effects(figure.changed(loads=(load,)), 8, 2.0, 1)
+    assert 0.25 * 8 < rates["ideal"] < 0.4 * 8
+    assert batch_rates.measure_effects(figure, 8, 2.0, 1)["ideal"] == 8.0
 
 
 def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
