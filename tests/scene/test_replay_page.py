@@ -138,6 +138,18 @@ def test_a_bench_that_does_not_know_its_disturbance_moves_all_the_same() -> None
     assert all(found[track] >= count - 1 for track, count in known.items()), "one frame is left out"
 
 
+def test_what_acts_on_the_motors_is_drawn_as_it_is_in_the_live_view() -> None:
+    samples, mass = make_run(ticks=1000, lanes=1)
+    names = []
+    for load_nm in (0.0, 2.0):
+        samples[:, :, CHANNELS.index("disturbance_motor1_nm")] = load_nm
+        samples[500:, :, CHANNELS.index("disturbance_motor1_nm")] = 0.5 * load_nm
+        lanes = [[LaneStretch("A", 0, 1, 0, 1000)]]
+        motion = record_motion(samples, CHANNELS, lanes, PERIOD_S, mass, ArrayPack())
+        names.append({one["name"] for one in motion.content["tracks"]})
+    assert any("w4" in name for name in names[1] - names[0])
+
+
 def test_its_events_are_those_of_its_samples_in_its_own_time(tmp_path: Path) -> None:
     ticks = (2999, 3000, 5000, 7000, 7001)
     events = [Event(tick, tick / 1000, "law", f"at {tick}") for tick in ticks]
