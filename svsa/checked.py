@@ -13,11 +13,11 @@ from svsa.errors import ParameterError, Violation
 from svsa.explanation import explain
 from svsa.written_number import write_number
 
-_GREATEST_WHOLE = 2**63
+_MAX_WHOLE = 2**63
 
 
 def _read_whole(value: Any) -> Any:
-    is_whole = isinstance(value, float) and value.is_integer() and abs(value) < _GREATEST_WHOLE
+    is_whole = isinstance(value, float) and value.is_integer() and abs(value) < _MAX_WHOLE
     return int(value) if is_whole else value
 
 

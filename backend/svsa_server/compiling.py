@@ -9,9 +9,9 @@ from typing import Any
 from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_law, is_usable, list_law_names
 
-_LEAST_PRIORITY = 19
+_LOWEST_PRIORITY = 19
 _COMPILE = (
-    f"import os; os.nice({_LEAST_PRIORITY}); from svsa.cli import main; main()",
+    f"import os; os.nice({_LOWEST_PRIORITY}); from svsa.cli import main; main()",
     "compile",
 )
 

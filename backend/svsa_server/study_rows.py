@@ -15,7 +15,7 @@ from svsa.study.tables import make_plain
 from svsa.study.work import DRAW, ROW, build_schema
 
 MEDIA_TYPE = "application/octet-stream"
-MOST_ROWS = 100_000
+MAX_ROWS = 100_000
 _TRIES = 3
 
 

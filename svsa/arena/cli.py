@@ -25,7 +25,7 @@ from svsa.extras import require_extra
 
 arena = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")
 _messages = Console(stderr=True)
-LEAST_WIDTH = 110
+MIN_WIDTH = 110
 """Columns of characters in which the table's numbers stand whole."""
 
 
@@ -67,7 +67,7 @@ def run_arena(
         print(format_markdown(found.rows))
     else:
         screen = Console()
-        Console(width=max(screen.width, LEAST_WIDTH)).print(_build_table(found))
+        Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(found))
 
 
 @arena.command("seed")

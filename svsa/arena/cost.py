@@ -10,7 +10,7 @@ from svsa.result.simulate import simulate
 from svsa.run.configuration import Configuration
 
 STIFFNESS_SHARE, SHAKE_SHARE = 0.1, 0.3
-LEAST_FAULT, MOST_FAULT = 6.0, 12.0
+MIN_FAULT, MAX_FAULT = 6.0, 12.0
 
 
 class RunCost(NamedTuple):
@@ -35,14 +35,14 @@ def compute_cost(result: Result, duration_s: float) -> RunCost:
     """
     fault = result.fault.code if result.fault else ""
     if not len(result.samples):
-        return RunCost(MOST_FAULT, fault=fault)
+        return RunCost(MAX_FAULT, fault=fault)
     error = math.degrees(_compute_rms(result.position_error_rad))
     stiffness, shake = _compute_rms(result.stiffness_error_nm_per_rad), compute_shake(result)
     cost = error + STIFFNESS_SHARE * stiffness + SHAKE_SHARE * shake
     if fault:
         survived = len(result.samples) * result.configuration.sampling.period_s / duration_s
-        cost = max(cost, MOST_FAULT - (MOST_FAULT - LEAST_FAULT) * min(survived, 1.0))
-    return RunCost(min(cost, MOST_FAULT), error, stiffness, shake, fault)
+        cost = max(cost, MAX_FAULT - (MAX_FAULT - MIN_FAULT) * min(survived, 1.0))
+    return RunCost(min(cost, MAX_FAULT), error, stiffness, shake, fault)
 
 
 def compute_shake(result: Result) -> float:

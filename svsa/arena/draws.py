@@ -10,7 +10,7 @@ from svsa.plant.effects import RIG, Friction, SensorNoise
 DRAWS = 100
 LOAD_S = 3.0
 DURATION_S = 10.0
-LEAST_SIGMA, GREATEST_SIGMA = 16.0, 70.0
+MIN_SIGMA, MAX_SIGMA = 16.0, 70.0
 
 
 def build_draw(number: int, seed: int = PUBLIC_SEED) -> Scenario:
@@ -23,7 +23,7 @@ def build_draw(number: int, seed: int = PUBLIC_SEED) -> Scenario:
     """
     random = start_generator(seed, number)
     plant = tuple((name, float(random.uniform(0.5, 1.5))) for name in INERTIAS)
-    sigma = LEAST_SIGMA * (GREATEST_SIGMA / LEAST_SIGMA) ** float(random.uniform())
+    sigma = MIN_SIGMA * (MAX_SIGMA / MIN_SIGMA) ** float(random.uniform())
     rubs, shakes = float(random.uniform(0.0, 2.0)), float(random.uniform(0.0, 2.0))
     friction, noise = Friction(), SensorNoise()
     effects = RIG.changed(

@@ -43,7 +43,7 @@ MAX_STEPS = 24
 SPRING_SHARE, TORQUE_RATIO = 0.95, 1.8
 DEFLECTION_RATE, DEFLECTION_SHARE = 60.0, 0.8
 LEVER_RATE, LEVER_MARGIN = 25.0, 0.02
-GOVERNED_MOST, GOVERNED_UP, GOVERNED_DOWN = 145.0, 80.0, 12.0
+MAX_GOVERNED, GOVERNED_UP, GOVERNED_DOWN = 145.0, 80.0, 12.0
 
 
 class YieldingPoles(LawParameters):
@@ -151,7 +151,7 @@ def govern_stiffness(
     most = compute_elastic_torque(mu, deflection, nominal.K)
     need = abs(w.w2 - nominal.M * reference.ddq - nominal.D * reference.dq)
     ratio = greatest(need / most, 1.0)
-    wanted = least(reference.sigma * ratio * math.sqrt(math.sqrt(ratio)), GOVERNED_MOST)
+    wanted = least(reference.sigma * ratio * math.sqrt(math.sqrt(ratio)), MAX_GOVERNED)
     added = greatest(wanted - reference.sigma, 0.0)
     rate = choose(added > memory.sigma, GOVERNED_UP, GOVERNED_DOWN)
     ddsigma = rate * (rate * (added - memory.sigma) - 2.0 * memory.dsigma)

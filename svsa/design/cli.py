@@ -87,12 +87,12 @@ def _build_loop_table(reports: "list[Report]") -> Table:
 
 
 def _build_range_table(reports: "list[Report]") -> Table:
-    from svsa.design.robustness import GREATEST_RATIO, LEAST_RATIO
+    from svsa.design.robustness import MAX_RATIO, MIN_RATIO
 
     table = Table(
         "true / nominal",
         title="Stays stable, one parameter at a time",
-        caption=f"looked for from {LEAST_RATIO:g} to {GREATEST_RATIO:g}",
+        caption=f"looked for from {MIN_RATIO:g} to {MAX_RATIO:g}",
         title_justify="left",
         caption_justify="left",
     )

@@ -8,7 +8,7 @@ import numpy as np
 from svsa.design.sampled_loop import linearize_tick
 from svsa.run.configuration import Configuration
 
-LEAST_HZ = 0.1
+MIN_HZ = 0.1
 POINTS = 120
 _NYQUIST_SHARE = 0.98
 
@@ -36,7 +36,7 @@ def compute_disturbance_response(
     """
     loop = linearize_tick(configuration, sigma)
     period = configuration.sampling.period_s
-    frequency = np.geomspace(LEAST_HZ, _NYQUIST_SHARE * 0.5 / period, points)
+    frequency = np.geomspace(MIN_HZ, _NYQUIST_SHARE * 0.5 / period, points)
     shifts = np.exp(2j * math.pi * period * frequency)
     unit = np.eye(len(loop.A))
     q = np.array([np.linalg.solve(shift * unit - loop.A, loop.W)[0] for shift in shifts])

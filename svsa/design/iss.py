@@ -18,7 +18,7 @@ from svsa.signals import CHANNEL_INDEX, CHANNELS
 RAMPS_NM_PER_S = (0.2, 1.0)
 RAMP_S = 1.0
 _SETTLED = 1e-9
-_LEAST_RATE = 1e-6
+_MIN_RATE = 1e-6
 _LONGEST_S = 20.0
 _POINTS = 4000
 
@@ -37,7 +37,7 @@ class RateGain(NamedTuple):
 
 def compute_rate_gain(loop: ClosedLoop) -> RateGain:
     """From the linear loop: |C A⁻² B| and ∫|C A⁻¹ e^{At} B| dt, for w2 and the position."""
-    if loop.slowest > -_LEAST_RATE:
+    if loop.slowest > -_MIN_RATE:
         return RateGain(math.inf, math.inf)
     A, b, c = loop.A, loop.B[:, 0], loop.C[0]
     from scipy.linalg import expm  # late: it takes a while

@@ -14,7 +14,7 @@ PARAMETERS = {
     "motor2_damping_nms_per_rad": "D2",
     "spring_stiffness_n_per_m": "Ks",
 }
-LEAST_RATIO, GREATEST_RATIO = 0.05, 20.0
+MIN_RATIO, MAX_RATIO = 0.05, 20.0
 _STRIDE = 1.12
 _CLOSE = 1e-4
 
@@ -23,7 +23,7 @@ class StableRange(NamedTuple):
     """True over nominal value of one parameter, all others nominal, with a Hurwitz loop.
 
     parameter: its name among `ActuatorParameters`; symbol: the paper's. low, high: None where it
-    is stable as far as was looked, from `LEAST_RATIO` to `GREATEST_RATIO`. present: the ratio in
+    is stable as far as was looked, from `MIN_RATIO` to `MAX_RATIO`. present: the ratio in
     the configuration.
     """
 
@@ -70,8 +70,8 @@ def find_stable_ranges(
         StableRange(
             name,
             symbol,
-            find_end(name, LEAST_RATIO),
-            find_end(name, GREATEST_RATIO),
+            find_end(name, MIN_RATIO),
+            find_end(name, MAX_RATIO),
             getattr(c.actuator, name) / getattr(nominal, name),
         )
         for name, symbol in PARAMETERS.items()

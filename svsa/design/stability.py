@@ -23,7 +23,7 @@ from svsa.run.configuration import Configuration
 
 _SHORT_S = 1e-4
 _SLOW_RAD_PER_S = 120.0
-_LEAST_RADIUS = 0.5
+_MIN_RADIUS = 0.5
 _STANDING_RAD_PER_S = 1e-2
 _CLOSE = 0.05
 
@@ -72,7 +72,7 @@ def _check_continuous(configuration: Configuration, sigma: float, loop: ClosedLo
     short = c.changed(effects=IDEAL, sampling=c.sampling.changed(period_s=_SHORT_S))
     sampled = linearize_tick(short, sigma)
     z = np.linalg.eigvals(sampled.A).astype(complex)
-    poles = np.log(z[np.abs(z) > _LEAST_RADIUS]) / _SHORT_S
+    poles = np.log(z[np.abs(z) > _MIN_RADIUS]) / _SHORT_S
     slow = loop.poles[np.abs(loop.poles) < _SLOW_RAD_PER_S]
     is_found = all(np.min(np.abs(poles - s)) < _CLOSE * max(1.0, abs(s)) for s in slow)
     is_moving = min(np.min(np.abs(poles)), np.min(np.abs(loop.poles))) > _STANDING_RAD_PER_S

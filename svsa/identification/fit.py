@@ -20,13 +20,13 @@ from svsa.identification.problem import SHAPE, UNKNOWNS, Point, Problem
 from svsa.identification.record import Evidence, IdentificationError
 
 _FIRST_DEVIATION = np.array([2e-5, 2e-5, 2e-4])
-_LEAST_DEVIATION = 1e-9
+_MIN_DEVIATION = 1e-9
 _MAX_PASSES = 6
 _STEADY = 0.02
 _MAX_ITERATIONS = 30
 _ROUGH, _FINE = 0.05, 1e-6
 _ROUGH_SHARE = 3
-_LEAST_DAMPING, _MAX_DAMPING = 1e-9, 1e6
+_MIN_DAMPING, _MAX_DAMPING = 1e-9, 1e6
 _OUTLIER = 5.0
 _MAX_DROPPED = 0.2
 _MODEL_SHARE = 1e-4
@@ -72,7 +72,7 @@ def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
         segments, point = segments[kept], Point(point.values, point.starts[kept])
         _check_dropped(evidence, len(segments))
         mean = squares[kept].sum(axis=0) / (len(segments) * evidence.length)
-        residual = np.maximum(np.sqrt(mean), _LEAST_DEVIATION)
+        residual = np.maximum(np.sqrt(mean), _MIN_DEVIATION)
         if kept.all() and np.all(np.abs(residual - before) <= _STEADY * before):
             break
     problem = Problem(evidence, segments, residual, centre)
@@ -122,7 +122,7 @@ def _minimize(
             damping *= 10.0
         fall, point, cost = cost - found, trial, found
         normal = problem.linearize(point)
-        damping = max(0.1 * damping, _LEAST_DAMPING)
+        damping = max(0.1 * damping, _MIN_DAMPING)
         if fall <= tolerance * cost:
             break
     return point, normal.squares

@@ -15,9 +15,9 @@ from svsa.run.configuration import Configuration, Design
 
 CONFIDENCE = 0.95
 LARGEST_INTERVAL = 0.5
-LEAST_SPEED_RAD_PER_S = 0.2
+MIN_SPEED_RAD_PER_S = 0.2
 LARGEST_MISFIT = 100.0
-_LEAST_NOISE_RAD = 1e-6
+_MIN_NOISE_RAD = 1e-6
 
 
 class Estimate(NamedTuple):
@@ -117,7 +117,7 @@ def identify(record: Record, progress: Progress = lambda _: None) -> Identificat
     """
     evidence = read_evidence(record)
     found = fit(evidence, progress)
-    noise = np.maximum(guess_noise(evidence), _LEAST_NOISE_RAD)
+    noise = np.maximum(guess_noise(evidence), _MIN_NOISE_RAD)
     misfit = float(np.max(found.residual / noise))
     if misfit > LARGEST_MISFIT:
         raise IdentificationError(
@@ -158,5 +158,5 @@ def _find_unmoved(evidence: Evidence) -> set[str]:
         name
         for part, speed in zip(parts, speeds, strict=True)
         for name in (f"{part}_inertia_kg_m2", f"{part}_damping_nms_per_rad")
-        if speed < LEAST_SPEED_RAD_PER_S
+        if speed < MIN_SPEED_RAD_PER_S
     }

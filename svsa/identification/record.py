@@ -23,7 +23,7 @@ from svsa.run.configuration import Configuration
 from svsa.run.replay import list_loads
 
 SEGMENT_S = 0.25
-LEAST_SEGMENTS = 24
+MIN_SEGMENTS = 24
 _CHANNELS = (
     "motor1_position_rad",
     "motor2_position_rad",
@@ -79,10 +79,10 @@ def read_evidence(record: Record) -> Evidence:
     for load in list_loads(configuration, commands):
         loaded[(ticks >= load.start_tick) & (ticks < load.end_tick)] = True
     segments = _find_segments(~(loaded | missed), length)
-    if len(segments) < LEAST_SEGMENTS:
+    if len(segments) < MIN_SEGMENTS:
         raise IdentificationError(
             f"Run {record.header.run_id} has {len(segments) * SEGMENT_S:g} s without a load:"
-            f" at least {LEAST_SEGMENTS * SEGMENT_S:g} s are needed."
+            f" at least {MIN_SEGMENTS * SEGMENT_S:g} s are needed."
         )
     a = configuration.actuator
     mu0 = rows[0, 5] - compute_lever_ratio(rows[0, 1], 0.0, a.spiral_reduction)

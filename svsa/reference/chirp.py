@@ -14,7 +14,7 @@ from svsa.reference.shape import (
     CHIRP,
     FASTEST_HZ,
     FULL_TURN_RAD,
-    GREATEST_NM_PER_RAD,
+    MAX_NM_PER_RAD,
     TRANSITION,
     Derivatives,
     Shape,
@@ -64,8 +64,8 @@ class ChirpPosition(_Chirp):
 class ChirpStiffness(_Chirp):
     """A chirp of σ_d, inside the range of the limits: see `_Chirp`."""
 
-    offset_nm_per_rad: Number = quantity("N·m/rad", "Mean", gt=0, le=GREATEST_NM_PER_RAD)
-    amplitude_nm_per_rad: Number = quantity("N·m/rad", "Amplitude A", ge=0, le=GREATEST_NM_PER_RAD)
+    offset_nm_per_rad: Number = quantity("N·m/rad", "Mean", gt=0, le=MAX_NM_PER_RAD)
+    amplitude_nm_per_rad: Number = quantity("N·m/rad", "Amplitude A", ge=0, le=MAX_NM_PER_RAD)
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""

@@ -9,7 +9,7 @@ from svsa.reference.curve import Curve, build_curve, check_curve
 from svsa.reference.shape import (
     FASTEST_POSITION,
     FULL_TURN_RAD,
-    GREATEST_NM_PER_RAD,
+    MAX_NM_PER_RAD,
     TRANSITION,
     Shape,
     build_curve_shape,
@@ -56,8 +56,8 @@ class MinimumJerkPosition(_MinimumJerk):
 class MinimumJerkStiffness(_MinimumJerk):
     """A movement of σ_d, inside the range of the limits: see `_MinimumJerk`."""
 
-    start_nm_per_rad: Number = quantity("N·m/rad", "Where it begins", gt=0, le=GREATEST_NM_PER_RAD)
-    end_nm_per_rad: Number = quantity("N·m/rad", "Where it ends", gt=0, le=GREATEST_NM_PER_RAD)
+    start_nm_per_rad: Number = quantity("N·m/rad", "Where it begins", gt=0, le=MAX_NM_PER_RAD)
+    end_nm_per_rad: Number = quantity("N·m/rad", "Where it ends", gt=0, le=MAX_NM_PER_RAD)
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""

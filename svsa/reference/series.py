@@ -14,20 +14,20 @@ from svsa.reference.shape import (
     FASTEST_POSITION,
     FASTEST_STIFFNESS,
     FULL_TURN_RAD,
-    GREATEST_NM_PER_RAD,
+    MAX_NM_PER_RAD,
     TRANSITION,
     Shape,
     build_curve_shape,
 )
 
 MAX_ROWS = 2000
-LEAST_GAP_S = 0.001
+MIN_GAP_S = 0.001
 SPLINE_DEGREE = 7
 AT_REST = tuple((order, 0.0) for order in (1, 2, 3))
 MAX_MISS = 1e-6
 
 _Position = Annotated[Number, Field(ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)]
-_Stiffness = Annotated[Number, Field(gt=0, le=GREATEST_NM_PER_RAD)]
+_Stiffness = Annotated[Number, Field(gt=0, le=MAX_NM_PER_RAD)]
 _Rows = Field(min_length=2, max_length=MAX_ROWS)
 
 
@@ -93,7 +93,7 @@ def build_spline(points: Points) -> Curve:
     Raises `ParameterError` for times that do not grow by 1 ms at least, and where the times
     are so uneven that the spline misses its own points.
     """
-    check_points(points, LEAST_GAP_S)
+    check_points(points, MIN_GAP_S)
     times, values = np.array(points.times), np.array(points.values)
     unit = (times[-1] - times[0]) / (len(times) - 1)
     knots = (times - times[0]) / unit

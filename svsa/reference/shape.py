@@ -10,9 +10,9 @@ MAX_NUMBERS = 6
 
 FULL_TURN_RAD = 2.0 * math.pi
 FASTEST_HZ = 5.0
-GREATEST_NM_PER_RAD = 1e4
+MAX_NM_PER_RAD = 1e4
 FASTEST_POSITION = tuple(FULL_TURN_RAD * (2.0 * math.pi * FASTEST_HZ) ** k for k in range(5))
-FASTEST_STIFFNESS = tuple(GREATEST_NM_PER_RAD * (2.0 * math.pi * FASTEST_HZ) ** k for k in range(3))
+FASTEST_STIFFNESS = tuple(MAX_NM_PER_RAD * (2.0 * math.pi * FASTEST_HZ) ** k for k in range(3))
 """Bounds of a value and its derivatives: those of the fastest sine that can be asked for."""
 TRANSITION = {"ge": 0.05, "le": 60, "default": 1.0}
 

@@ -11,7 +11,7 @@ from svsa.reference.points import Points, check_points
 from svsa.reference.shape import (
     FASTEST_POSITION,
     FULL_TURN_RAD,
-    GREATEST_NM_PER_RAD,
+    MAX_NM_PER_RAD,
     TRANSITION,
     Shape,
     build_curve_shape,
@@ -23,7 +23,7 @@ RISE = (126.0, -420.0, 540.0, -315.0, 70.0)
 
 _Times = Annotated[tuple[Number, ...], Field(min_length=1, max_length=MAX_STEPS)]
 _Position = Annotated[Number, Field(ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)]
-_Stiffness = Annotated[Number, Field(gt=0, le=GREATEST_NM_PER_RAD)]
+_Stiffness = Annotated[Number, Field(gt=0, le=MAX_NM_PER_RAD)]
 
 
 class _Steps(Checked):

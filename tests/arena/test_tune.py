@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 import svsa
-from svsa.arena.cost import LEAST_FAULT, MOST_FAULT, RunCost, compute_cost, compute_shake
+from svsa.arena.cost import MAX_FAULT, MIN_FAULT, RunCost, compute_cost, compute_shake
 from svsa.arena.search_space import build_space
 from svsa.arena.training import TRAINING
 from svsa.arena.tune import build_runs, count_sobol, tune
@@ -149,7 +149,7 @@ def test_a_fault_costs_six_to_twelve_and_shaking_costs():
     assert broken.fault is not None
     assert compute_cost(broken, 1.0).fault == "deflection_limit"
     costs = [compute_cost(broken, duration_s).cost for duration_s in (0.2, 1.0, 10.0)]
-    assert all(LEAST_FAULT < cost < MOST_FAULT for cost in costs)
+    assert all(MIN_FAULT < cost < MAX_FAULT for cost in costs)
     assert all(sooner > later for later, sooner in pairwise(costs))
 
 

@@ -13,7 +13,7 @@ from svsa.design.attraction import Cell, Fate, build_map, find_fates, order_cell
 from svsa.design.frequency import FrequencyResponse, compute_disturbance_response
 from svsa.design.loop_noise import choose_sensing
 from svsa.design.response import LoadResponse, simulate_load
-from svsa.design.robustness import GREATEST_RATIO, LEAST_RATIO
+from svsa.design.robustness import MAX_RATIO, MIN_RATIO
 from svsa.design.sampled_loop import linearize_tick
 from svsa.design.stability import Stability, assess
 from svsa.plant.disturbances import PaperLoad
@@ -156,8 +156,8 @@ def _build_stability(
         least_damping=loop.least_damping,
         largest_pole=radius,
         ranges=[StableRangeState(**one._asdict()) for one in found.ranges],
-        least_ratio=LEAST_RATIO,
-        greatest_ratio=GREATEST_RATIO,
+        least_ratio=MIN_RATIO,
+        greatest_ratio=MAX_RATIO,
         ramp_gain_rad_s_per_nm=_finite(gain.ramp),
         worst_gain_rad_s_per_nm=_finite(gain.worst),
         formula_rad_s_per_nm=found.formula,

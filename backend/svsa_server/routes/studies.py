@@ -16,7 +16,7 @@ from svsa_server.jobs import Job
 from svsa_server.routes.depends import BUSY, REFUSALS, Work
 from svsa_server.routes.jobs import find_jobs
 from svsa_server.studies import decide, replay, run, summarize
-from svsa_server.study_rows import MEDIA_TYPE, MOST_ROWS, pack_rows
+from svsa_server.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
 from svsa_server.study_rows import read_row as find_row
 from svsa_server.study_schemas import (
     BuiltInStudy,
@@ -103,7 +103,7 @@ async def read_sensitivity(
 def read_rows(
     study: Study,
     column: Annotated[list[str], Query(max_length=40, description="Names of columns")],
-    most: Annotated[int, Query(ge=1, le=MOST_ROWS, description="Rows at most")] = MOST_ROWS,
+    most: Annotated[int, Query(ge=1, le=MAX_ROWS, description="Rows at most")] = MAX_ROWS,
 ) -> Response:
     """Columns of the rows that are done; of more than `most` so many draws by lot.
 

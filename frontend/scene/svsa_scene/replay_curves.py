@@ -19,14 +19,14 @@ MAX_POINTS = 120_000
 """Of a curve, in all lanes together: a minute of two lanes at 1 kHz has every sample."""
 
 _AXIS_PARTS = 4000
-_LEAST_AXES = {
+_MIN_AXES = {
     "position_error_rad": math.radians(0.004),
     "position_rad": math.radians(2.0),
     "position_reference_rad": math.radians(2.0),
     "stiffness_nm_per_rad": 2.0,
     "stiffness_reference_nm_per_rad": 2.0,
 }
-_LEAST_TORQUE_AXIS_NM = 1.0
+_MIN_TORQUE_AXIS_NM = 1.0
 
 
 def decimate(values: Array, stride: int) -> Array:
@@ -51,7 +51,7 @@ def resolve(channel: str) -> float:
     """Step to which a drawn channel is rounded, in its SI unit: a 4000th of the least height that
     the page gives its axis at any zoom, thus finer than a pixel.
     """
-    return _LEAST_AXES.get(channel, _LEAST_TORQUE_AXIS_NM) / _AXIS_PARTS
+    return _MIN_AXES.get(channel, _MIN_TORQUE_AXIS_NM) / _AXIS_PARTS
 
 
 def pack_curves(

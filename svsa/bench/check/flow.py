@@ -9,7 +9,7 @@ from svsa.bench.check.probe import Probe, Traffic
 from svsa.bench.check.step import CheckStep, Result
 
 LISTEN_S = 1.0
-LEAST_SHARE = 0.98
+MIN_SHARE = 0.98
 STILL_COUNTS = 2
 REST_CURRENT = 0.03
 
@@ -43,7 +43,7 @@ def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
         if longest > safety.stale_fault_s:
             advice = f"The loop would end in a fault. Frames are lost: {WIRING}."
             yield CheckStep(title, Result.FAIL, measured, advice)
-        elif rate < LEAST_SHARE * wanted or longest > safety.stale_zero_s:
+        elif rate < MIN_SHARE * wanted or longest > safety.stale_zero_s:
             advice = (
                 "The loop would fall to zero torque in the gaps. Take other traffic off the bus,"
                 " use a quicker adapter, and leave the machine to this program."

@@ -7,7 +7,7 @@ from svsa.bench.check.step import CheckStep, Result
 
 STEPS = 40
 CURRENT = 0.05
-LEAST_MA = 100.0
+MIN_MA = 100.0
 LOST_S = 0.03
 
 
@@ -16,7 +16,7 @@ def check_latency(probe: Probe, name: str) -> CheckStep:
     title = f"{name}: latency"
     address = probe.motors[name]
     nominal_ma = 1e3 * getattr(probe.bench, name).nominal_current_a
-    current = round(min(max(CURRENT * nominal_ma, LEAST_MA), 0.15 * nominal_ma))
+    current = round(min(max(CURRENT * nominal_ma, MIN_MA), 0.15 * nominal_ma))
     delays: list[float] = []
     try:
         for number in range(STEPS):

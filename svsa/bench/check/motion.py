@@ -18,8 +18,8 @@ LEVELS = (0.01, 0.02, 0.03, 0.05, 0.08, 0.11, 0.15)
 LONGEST_PULSE_S = 0.15
 IMPULSE_S = 0.003
 MAX_TRAVEL_RAD = 0.03
-LEAST_COUNTS = 8
-LEAST_DEFLECTION_COUNTS = 4
+MIN_COUNTS = 8
+MIN_DEFLECTION_COUNTS = 4
 SETTLE_S = 0.2
 _SEND_S = 0.002
 
@@ -67,8 +67,8 @@ def _turn(probe: Probe, name: str, motor: MotorSettings) -> tuple[Pulse, Pulse]:
 
 def _is_clear(name: str, pulse: Pulse) -> bool:
     """Whether the motor has moved, and with motor 1 the deflection as well."""
-    deflected = name != "motor1" or abs(pulse.deflected) >= LEAST_DEFLECTION_COUNTS
-    return abs(pulse.moved) >= LEAST_COUNTS and deflected
+    deflected = name != "motor1" or abs(pulse.deflected) >= MIN_DEFLECTION_COUNTS
+    return abs(pulse.moved) >= MIN_COUNTS and deflected
 
 
 def _get_most_counts(motor: MotorSettings) -> float:
@@ -95,7 +95,7 @@ def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse
             for _ in probe.follow(_SEND_S, traffic):
                 pass
             moved, deflected = _find_travel(traffic, address, start, spring)
-            if abs(moved) >= most or abs(deflected) >= max(most_spring, LEAST_COUNTS):
+            if abs(moved) >= most or abs(deflected) >= max(most_spring, MIN_COUNTS):
                 break
     finally:
         probe.send_current(name, 0)
@@ -127,7 +127,7 @@ def _judge_motor(name: str, motor: MotorSettings, pulse: Pulse, back: Pulse) -> 
             " off and its leads are not shorted; switch the drive off and on."
         )
         return CheckStep(title, Result.FAIL, measured, advice)
-    if abs(pulse.moved) < LEAST_COUNTS:
+    if abs(pulse.moved) < MIN_COUNTS:
         if abs(pulse.measured_ma) < 0.5 * abs(pulse.current_ma):
             advice = (
                 "No current flows: check the motor's leads and the drive's supply, and that"
@@ -169,7 +169,7 @@ def _judge_deflection(bench: BenchFile, pulse: Pulse) -> CheckStep:
     measured = f"motor1 {pulse.moved:+d} counts{angle}: deflection {pulse.deflected:+d} counts"
     if bench.deflection.counts_per_rev:
         measured += f" ({math.degrees(pulse.deflected * scale):+.2f}°)"
-    if abs(pulse.deflected) < LEAST_DEFLECTION_COUNTS:
+    if abs(pulse.deflected) < MIN_DEFLECTION_COUNTS:
         advice = (
             "The principal motor turned and the deflection did not change: check that the encoder"
             " is coupled to the shaft, its 5 V, A and B, and that the spring's pivot is not at"

@@ -34,7 +34,7 @@ GATE_JITTER_S = 0.0001
 COMMAND_GATE_S = 0.001 - GATE_JITTER_S
 FIRST_ANSWER_S = 0.5
 JUMP_FACTOR = 1.5
-LEAST_JUMP_COUNTS = 50.0
+MIN_JUMP_COUNTS = 50.0
 _CURRENT = struct.Struct(">hh4s")
 _FEEDBACK = struct.Struct(">hhi")
 _FILL = b"\x55" * 4
@@ -116,7 +116,7 @@ class Drive:
         self.heard_s = time_s
         if heard is not None and abs(raw) < abs(before):
             farthest = self._speed_max * (abs(time_s - heard) + self._period_s)
-            if abs(self.counts - before) > JUMP_FACTOR * farthest + LEAST_JUMP_COUNTS:
+            if abs(self.counts - before) > JUMP_FACTOR * farthest + MIN_JUMP_COUNTS:
                 self.zeroed = True
 
     def is_open(self, now: float) -> bool:
