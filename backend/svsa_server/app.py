@@ -34,6 +34,7 @@ from svsa_server.routes import (
     access,
     arena,
     bench,
+    classroom,
     control,
     design,
     identification,
@@ -101,6 +102,7 @@ def build_app(
     for part in (
         lab,
         access,
+        classroom,
         sessions,
         control,
         bench,

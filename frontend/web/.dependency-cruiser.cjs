@@ -3,7 +3,7 @@ const ROOMS = [
   ["main"],
   ["debug", "docs", "replay"],
   ["layout"],
-  ["arena", "studies"],
+  ["arena", "classroom", "studies"],
   ["keys"],
   ["runs"],
   ["controls", "control", "learning", "safety", "scene", "script"],

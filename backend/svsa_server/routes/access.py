@@ -5,7 +5,6 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Request, Response
 from fastapi.responses import JSONResponse
 
-from svsa.errors import StateError
 from svsa_server.access.doors import COOKIE, ClassDoor, Door
 from svsa_server.access.guard import PERSON
 from svsa_server.access.roles import Person, Role
@@ -17,6 +16,7 @@ from svsa_server.access_schemas import (
     TokenState,
 )
 from svsa_server.problems import Problem, answer_problem
+from svsa_server.routes.classroom import find_class
 from svsa_server.routes.depends import REFUSALS, NamedPerson
 
 router = APIRouter(tags=["access"])
@@ -66,7 +66,7 @@ async def join(
 
     A name that somebody here has already gets a number.
     """
-    door = _find_class(request)
+    door = find_class(request)
     if not await door.check_code(wanted.code):
         await door.patience.wait()
         return answer_problem(401, "wrong_code", "That is not the code of this class.")
@@ -96,7 +96,7 @@ async def create_token(
 
     It asks for control like a person. An instructor's scripts are operators, too.
     """
-    door = _find_class(request)
+    door = find_class(request)
     role = min(person.role, Role[wanted.role.upper()])
     script = person._replace(role=role)
     if person.role is Role.INSTRUCTOR:
@@ -106,13 +106,6 @@ async def create_token(
 
 def _find_door(request: Request) -> Door:
     return request.app.state.door
-
-
-def _find_class(request: Request) -> ClassDoor:
-    door = _find_door(request)
-    if not isinstance(door, ClassDoor):
-        raise StateError("This lab is no class: nobody joins it, and it knows no persons.")
-    return door
 
 
 def _tell(door: Door, person: Person | None) -> AccessState:

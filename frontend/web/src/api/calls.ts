@@ -14,8 +14,8 @@ export interface Call {
 }
 
 const MAX_CALLS = 200;
-/** What carries the lab's secret is shown nowhere. */
-const SECRET_PATH = "login";
+/** What carries a secret of the lab is shown nowhere. */
+const SECRET_PATHS = ["login", "join"];
 /** What is only looked at, at every key that is pressed. */
 const LOOKED_AT = "references/";
 
@@ -35,7 +35,7 @@ export function noteCall(
   status: number | null,
   answer: unknown = null,
 ): number | null {
-  if (method === "get" || path === SECRET_PATH || path.startsWith(LOOKED_AT)) return null;
+  if (method === "get" || SECRET_PATHS.includes(path) || path.startsWith(LOOKED_AT)) return null;
   return addCall({ method, path, body, status, timeS: readTime(answer) });
 }
 

@@ -97,7 +97,9 @@ export const removeAllLoads = () => call("delete", "/loads");
 export const takeControl = (by: string, takeOver: boolean) =>
   call("put", "/control", { by, take_over: takeOver });
 export const giveControlBack = () => call("delete", "/control");
-export const login = (secret: string) => request("post", "login", { secret });
+/** Gives control to somebody who waits for it; the instructor may, and who has it. */
+export const handControlOver = (to: string) => call("post", "/control/handover", { to });
+export const lockControl = (locked: boolean) => call("put", "/control/lock", { locked });
 
 export function streamAddress(rateHz: number, historyS: number, channels: readonly string[]): URL {
   const address = new URL(`${SESSION}/stream`, API);

@@ -211,6 +211,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/class": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Class
+         * @description Who is here, in the order of their names, and which private sessions one may see.
+         */
+        get: operations["read_class"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/class/code": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Renew Code
+         * @description A new class code, told once, also as a QR code; who has joined stays.
+         */
+        post: operations["renew_code"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/class/broadcast": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Broadcast
+         * @description Give every private session law, gains, observer and references of the shared session.
+         */
+        post: operations["broadcast"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions": {
         parameters: {
             query?: never;
@@ -2137,6 +2197,19 @@ export interface components {
             tick: number;
         };
         /**
+         * BroadcastState
+         * @description Where the settings of the shared session were taken.
+         */
+        BroadcastState: {
+            /** Taken */
+            taken: number;
+            /**
+             * Refused
+             * @description Why not, of each session that refused them
+             */
+            refused: string[];
+        };
+        /**
          * BuiltInStudy
          * @description A study that comes with the lab.
          */
@@ -2259,6 +2332,53 @@ export interface components {
              * @description Amplitude A, N·m/rad
              */
             amplitude_nm_per_rad: number;
+        };
+        /**
+         * ClassCode
+         * @description A new class code, told once.
+         */
+        ClassCode: {
+            /** Code */
+            code: string;
+            /**
+             * Address
+             * @description Where one joins with it; what follows # stays in the browser
+             */
+            address: string;
+            /**
+             * Qr
+             * @description The address as a QR code: an image as a data URI
+             */
+            qr: string;
+        };
+        /**
+         * ClassSession
+         * @description A private session.
+         */
+        ClassSession: {
+            /** Session */
+            session: string;
+            /**
+             * Owner
+             * @description Name of who made it; their id where they are gone
+             */
+            owner: string;
+            /** Status */
+            status: string;
+            /** Recording */
+            recording: boolean;
+            /** Watching */
+            watching: number;
+        };
+        /**
+         * ClassState
+         * @description The class at this instant; sessions are all for the instructor, and one's own for others.
+         */
+        ClassState: {
+            /** People */
+            people: components["schemas"]["PersonState"][];
+            /** Sessions */
+            sessions: components["schemas"]["ClassSession"][];
         };
         /**
          * Comparison
@@ -3801,6 +3921,26 @@ export interface components {
             least: number | null;
             /** Most */
             most: number | null;
+        };
+        /**
+         * PersonState
+         * @description Somebody who was heard within a minute, or has a stream open.
+         */
+        PersonState: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "observer" | "operator" | "instructor";
+            /**
+             * Sees
+             * @description Sessions that they have a stream of; of private ones only the instructor's to know, and their own
+             */
+            sees: string[];
         };
         /**
          * PositionSeries
@@ -6687,6 +6827,120 @@ export interface operations {
             };
             /** @description Refused values; nothing was changed */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_class: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClassState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    renew_code: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClassCode"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    broadcast: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BroadcastState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -4,12 +4,14 @@ import {
   confirmControl,
   isAsked,
   otherHolder,
+  queue,
   wishControl,
 } from "../state/control";
 import { defaultName, LONGEST_NAME, personName } from "../state/preferences";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
+import { InTurn } from "./inturn";
 
 const words = text.control;
 
@@ -79,7 +81,13 @@ export function ControlBanner() {
   const other = otherHolder.value;
   return (
     <>
-      {isAsked.value ? <Question other={other} /> : other !== null && <Held other={other} />}
+      {isAsked.value ? (
+        <Question other={other} />
+      ) : queue.value !== null ? (
+        <InTurn queue={queue.value} />
+      ) : (
+        other !== null && <Held other={other} />
+      )}
       <Problem control={CONTROL_OF_SESSION} />
     </>
   );

@@ -1,4 +1,12 @@
-import { control, leaveControl, mayCommand, otherHolder, wishControl } from "../state/control";
+import { isInstructor, isObserver } from "../state/access";
+import {
+  control,
+  leaveControl,
+  mayCommand,
+  otherHolder,
+  queue,
+  wishControl,
+} from "../state/control";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 
@@ -7,18 +15,25 @@ const words = text.control;
 function Button() {
   const other = otherHolder.value;
   const isMine = control.value?.mine === true;
+  const inTurn = queue.value;
+  const waits = inTurn !== null && inTurn.place !== null;
+  if (isObserver.value) return null;
   const [label, hint] = isMine
-    ? [words.giveBack, words.giveBackHint]
-    : other === null
-      ? [words.take, words.takeHint]
-      : [words.takeOver, words.takeOverHint(other)];
+    ? [words.giveBack, inTurn === null ? words.giveBackHint : words.giveOnHint]
+    : waits
+      ? [words.leaveQueue, words.leaveQueueHint]
+      : inTurn !== null && !isInstructor.value
+        ? [words.ask, words.askHint]
+        : other === null
+          ? [words.take, words.takeHint]
+          : [words.takeOver, words.takeOverHint(other)];
   return (
     <button
       type="button"
       class="button is-small"
       disabled={!isLive.value}
       title={hint}
-      onClick={() => (isMine ? void leaveControl() : wishControl())}
+      onClick={() => (isMine || waits ? void leaveControl() : wishControl())}
     >
       {label}
     </button>
@@ -29,7 +44,9 @@ function Button() {
 export function ControlCell() {
   const now = control.value;
   if (now === null) return null;
-  const holder = now.mine ? words.you : (now.holder ?? words.everyone);
+  const inTurn = queue.value;
+  const nobody = inTurn === null ? words.everyone : inTurn.locked ? words.locked : words.nobody;
+  const holder = now.mine ? words.you : (now.holder ?? nobody);
   const who = isLive.value ? holder : text.status.notKnown;
   const sign = now.holder === null || !isLive.value ? "○" : now.mine ? "●" : "▪";
   return (
@@ -42,7 +59,11 @@ export function ControlCell() {
         <span role="status">
           <span aria-hidden="true">{sign}</span> <span class="control-name">{who}</span>
         </span>{" "}
-        {isLive.value && <small>· {words.watching(now.watching)}</small>}
+        {isLive.value && (
+          <small>
+            · {inTurn?.place ? words.place(inTurn.place) : words.watching(now.watching)}
+          </small>
+        )}
       </dd>
       <dd class="control-act">
         <Button />

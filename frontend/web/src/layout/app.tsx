@@ -1,5 +1,6 @@
 import { ArenaPage } from "../arena/page";
 import { BenchStrip } from "../bench/strip";
+import { ClassPanel } from "../classroom/panel";
 import { Controls } from "../controls/controls";
 import { LoadButton } from "../controls/loadbutton";
 import { DesignPanel } from "../design/panel";
@@ -61,6 +62,7 @@ export function App() {
       <DesignPanel />
       <TunePanel />
       <LearnPanel />
+      <ClassPanel />
       {state !== null && at.kind === "lab" && <Tour />}
       <CallsDrawer />
       <StatusBar />

@@ -1,3 +1,4 @@
+import { ClassButton } from "../classroom/panel";
 import { HelpButton } from "../keys/help";
 import { LearnButton } from "../learning/panel";
 import { place } from "../runs/place";
@@ -52,6 +53,7 @@ export function TopBar() {
         </fieldset>
       )}
       <div class="topbar-end">
+        <ClassButton />
         <LearnButton />
         <PagesMenu />
         <CallsButton />

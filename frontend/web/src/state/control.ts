@@ -1,6 +1,7 @@
 /** Who is in control of the session: everybody, this page, or somebody else. */
 import { computed, signal } from "@preact/signals";
-import { giveControlBack, takeControl } from "../api/client";
+import { giveControlBack, handControlOver, lockControl, takeControl } from "../api/client";
+import { access, isInstructor, isObserver } from "./access";
 import { perform } from "./actions";
 import { nameForControl, personName, rememberPerson } from "./preferences";
 import { isLive, session } from "./session";
@@ -15,8 +16,18 @@ export const otherHolder = computed(() =>
   control.value === null || control.value.mine ? null : control.value.holder,
 );
 
+/** Who waits for control, in a class; null elsewhere. */
+export const queue = computed(() => session.value?.queue ?? null);
+
+/** Nobody else is in control; in a class one must be oneself, or the instructor. */
+const isFree = computed(() => {
+  if (isObserver.value) return false;
+  if (queue.value === null || isInstructor.value) return otherHolder.value === null;
+  return control.value?.mine === true;
+});
+
 /** Whether what this page sends is taken: it is connected, and nobody else is in control. */
-export const mayCommand = computed(() => isLive.value && otherHolder.value === null);
+export const mayCommand = computed(() => isLive.value && isFree.value);
 
 /** Whether the session takes a command: the loop of a bench answers to none before it ticks. */
 export const takesCommands = computed(() => {
@@ -29,7 +40,8 @@ export const isAsked = signal(false);
 
 /** Takes control at once where that needs no question. */
 export function wishControl(): void {
-  if (personName.peek().trim() === "" || otherHolder.peek() !== null) isAsked.value = true;
+  if (queue.peek() !== null) void askForControl();
+  else if (personName.peek().trim() === "" || otherHolder.peek() !== null) isAsked.value = true;
   else void confirmControl(personName.peek());
 }
 
@@ -42,5 +54,17 @@ export async function confirmControl(name: string): Promise<void> {
   isAsked.value = false;
   rememberPerson(by);
 }
+
+/** In a class one is known, and waits for one's turn; the instructor has it at once. */
+const askForControl = (): Promise<boolean> =>
+  perform(CONTROL_OF_SESSION, () =>
+    takeControl(nameForControl(access.peek()?.name ?? ""), isInstructor.peek()),
+  );
+
+export const handOver = (to: string): Promise<boolean> =>
+  perform(CONTROL_OF_SESSION, () => handControlOver(to));
+
+export const lock = (isLocked: boolean): Promise<boolean> =>
+  perform(CONTROL_OF_SESSION, () => lockControl(isLocked));
 
 export const leaveControl = (): Promise<boolean> => perform(CONTROL_OF_SESSION, giveControlBack);

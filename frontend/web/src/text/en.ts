@@ -1,6 +1,7 @@
 /** Every word of the page, by area. */
 import { arenaText } from "./arena";
 import { benchText } from "./bench";
+import { classroomText } from "./classroom";
 import { controlText } from "./control";
 import { controlsText } from "./controls";
 import { designText } from "./design";
@@ -23,6 +24,7 @@ export const text = {
   ...plotsText,
   ...controlsText,
   ...controlText,
+  ...classroomText,
   ...arenaText,
   ...benchText,
   ...designText,

@@ -1,0 +1,120 @@
+"""A class: who is here and sees what, a new code, the instructor's settings for everybody."""
+
+import asyncio
+
+import segno
+from fastapi import APIRouter, Request
+
+from svsa.errors import StateError, SvsaError
+from svsa.run.command import (
+    Command,
+    SetGains,
+    SetLaw,
+    SetObserver,
+    SetParameters,
+    SetPosition,
+    SetStiffness,
+)
+from svsa.run.configuration import Configuration
+from svsa_server.access.doors import ClassDoor
+from svsa_server.access.roles import Person
+from svsa_server.class_schemas import (
+    BroadcastState,
+    ClassCode,
+    ClassSession,
+    ClassState,
+    PersonState,
+)
+from svsa_server.hosted import HostedSession
+from svsa_server.laboratory import SHARED_SESSION, Laboratory
+from svsa_server.routes.depends import REFUSALS, NamedPerson
+
+router = APIRouter(prefix="/class", tags=["class"], responses={409: REFUSALS[409]})
+_SCALE = 6
+
+
+@router.get("")
+async def read_class(request: Request, person: NamedPerson) -> ClassState:
+    """Who is here, in the order of their names, and which private sessions one may see."""
+    people, laboratory = find_class(request).people, _find_laboratory(request)
+    here = {one.id: one for one in people.list_here()}
+    for hosted in laboratory.sessions.values():
+        for client in hosted.list_viewers():
+            if client not in here and (known := people.find(client)) is not None:
+                here[client] = known
+    seen = [hosted for hosted in laboratory.sessions.values() if person.may_see(hosted.owner)]
+    ordered = sorted(here.values(), key=lambda one: (one.name.casefold(), one.id))
+    return ClassState(
+        people=[_build_person(one, seen) for one in ordered],
+        sessions=[
+            _build_session(hosted, people.find(hosted.owner)) for hosted in seen if hosted.owner
+        ],
+    )
+
+
+@router.post("/code", status_code=201)
+async def renew_code(request: Request) -> ClassCode:
+    """A new class code, told once, also as a QR code; who has joined stays."""
+    code = await asyncio.to_thread(find_class(request).keys.renew_code)
+    address = f"{str(request.base_url).rstrip('/')}/#join={code}"
+    return ClassCode(code=code, address=address, qr=segno.make(address).svg_data_uri(scale=_SCALE))
+
+
+@router.post("/broadcast")
+async def broadcast(request: Request) -> BroadcastState:
+    """Give every private session law, gains, observer and references of the shared session."""
+    find_class(request)
+    laboratory = _find_laboratory(request)
+    commands = list_settings(laboratory.get(SHARED_SESSION).session.run.configuration)
+    taken, refused = 0, []
+    for name, hosted in laboratory.sessions.items():
+        if name == SHARED_SESSION:
+            continue
+        try:
+            for command in commands:
+                hosted.session.change(command)
+        except SvsaError as error:
+            refused.append(f"{name}: {error}")
+        else:
+            taken += 1
+    return BroadcastState(taken=taken, refused=refused)
+
+
+def list_settings(configuration: Configuration) -> list[Command]:
+    """The commands that set law, its numbers and references as they are here."""
+    own = configuration.parameters
+    return [
+        SetPosition(argument=configuration.position),
+        SetStiffness(argument=configuration.stiffness),
+        SetGains(argument=configuration.gains),
+        SetObserver(argument=configuration.observer),
+        *([SetParameters(argument=own)] if own else []),
+        SetLaw(argument=configuration.law),
+    ]
+
+
+def find_class(request: Request) -> ClassDoor:
+    """The class of this lab; raises `StateError` where it is none."""
+    door = request.app.state.door
+    if not isinstance(door, ClassDoor):
+        raise StateError("This lab is no class: nobody joins it, and it knows no persons.")
+    return door
+
+
+def _find_laboratory(request: Request) -> Laboratory:
+    return request.app.state.laboratory
+
+
+def _build_person(person: Person, seen: list[HostedSession]) -> PersonState:
+    sees = [hosted.session.name for hosted in seen if person.id in hosted.list_viewers()]
+    return PersonState(id=person.id, name=person.name, role=person.role.word, sees=sees)
+
+
+def _build_session(hosted: HostedSession, owner: Person | None) -> ClassSession:
+    return ClassSession(
+        session=hosted.session.name,
+        owner=owner.name if owner else hosted.owner,
+        status=hosted.session.status,
+        recording=hosted.session.journal.recorder is not None,
+        watching=hosted.streams,
+    )

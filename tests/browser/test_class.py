@@ -1,0 +1,119 @@
+"""A class in two browsers: joined, waited for, handed over; and the instructor's page."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from svsa_server.access.class_keys import ClassKeys, ToldOnce
+from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
+from tests.lab import Lab, run_lab
+
+pytestmark = [pytest.mark.browser]
+
+
+class Room(NamedTuple):
+    """A class as a process, and its code and token."""
+
+    lab: Lab
+    told: ToldOnce
+
+
+@pytest.fixture(scope="module")
+def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
+    folder: Path = tmp_path_factory.mktemp("class")
+    _, told = ClassKeys.open(folder)
+    assert told is not None
+    with run_lab("--class", data=str(folder)) as lab:
+        yield Room(lab, told)
+
+
+@pytest.fixture
+def open_page(browser: Browser, room: Room) -> Iterator[object]:
+    """Opens a page in a browser of its own; all are closed at the end."""
+    contexts = []
+
+    def open_one(below: str = "/") -> Page:
+        context = browser.new_context(viewport={"width": 1280, "height": 720})
+        context.add_init_script("localStorage.setItem('svsa.tour', 'seen')")
+        context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
+        contexts.append(context)
+        page = context.new_page()
+        page.goto(room.lab.url + below)
+        return page
+
+    yield open_one
+    for context in contexts:
+        context.close()
+
+
+def join(page: Page, name: str, code: str | None = None) -> None:
+    page.get_by_label("Your name").fill(name)
+    if code is not None:
+        page.get_by_label("Class code").fill(code)
+    page.get_by_role("button", name="Join").click()
+    expect(find_control(page)).to_be_visible()
+
+
+def find_control(page: Page) -> Locator:
+    return page.get_by_role("region", name="Status", exact=True).locator(".is-control")
+
+
+def find_banner(page: Page, words: str) -> Locator:
+    return page.get_by_role("status").filter(has_text=words)
+
+
+def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
+    ada = open_page()
+    ada.get_by_label("Your name").fill("Ada")
+    ada.get_by_label("Class code").fill("XXXX-XXXX")
+    ada.get_by_role("button", name="Join").click()
+    expect(ada.get_by_text("That is not the code of this class.")).to_be_visible()
+    expect_no_violation(ada, WIDE, PHONE)
+    ada.set_viewport_size({"width": 1280, "height": 720})
+    join(ada, "Ada", room.told.code)
+    bob = open_page(f"/#join={room.told.code}")
+    expect(bob.get_by_label("Class code")).to_have_value(room.told.code)
+    assert "#" not in bob.url
+    join(bob, "Bob")
+
+    expect(find_banner(bob, "Nobody is in control.")).to_be_visible()
+    expect(bob.get_by_role("button", name="Fig. 4B")).to_be_disabled()
+    find_control(ada).get_by_role("button", name="Ask for control").click()
+    expect(find_control(ada)).to_contain_text("You")
+    expect(ada.get_by_role("button", name="Fig. 4B")).to_be_enabled()
+    find_banner(bob, "Ada is in control.").get_by_role("button", name="Ask for control").click()
+    expect(find_banner(bob, "You are next.")).to_be_visible()
+    expect(find_control(bob)).to_contain_text("your place: 1")
+
+    bob.get_by_role("button", name="Pause", exact=True).click()
+    expect(bob.get_by_role("button", name="Run", exact=True)).to_be_disabled()
+    expect(ada.get_by_role("button", name="Run", exact=True)).to_be_enabled()
+
+    find_banner(ada, "Bob waits for control.").get_by_role(
+        "button", name="Hand over to Bob"
+    ).click()
+    expect(find_control(bob)).to_contain_text("You")
+    expect(bob.get_by_role("button", name="Run", exact=True)).to_be_enabled()
+    expect(ada.get_by_role("button", name="Fig. 4B")).to_be_disabled()
+
+
+def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room: Room) -> None:
+    student, teacher = open_page(), open_page()
+    join(student, "Eve", room.told.code)
+    teacher.get_by_role("button", name="I am the instructor").click()
+    teacher.get_by_label("Instructor token").fill(room.told.instructor_token)
+    teacher.get_by_role("button", name="Enter").click()
+    expect(find_control(teacher)).to_be_visible()
+    teacher.get_by_role("button", name="Class", exact=True).click()
+    panel = teacher.get_by_role("dialog", name="The class")
+    expect(panel.get_by_role("rowheader", name="Eve")).to_be_visible()
+    panel.get_by_role("button", name="Lock control").click()
+    expect(find_banner(student, "The instructor has locked control.")).to_be_visible()
+    panel.get_by_role("button", name="New class code").click()
+    expect(panel.get_by_role("img", name="QR code")).to_be_visible()
+    expect_no_violation(teacher, WIDE, PHONE)
+    panel.get_by_role("button", name="Unlock control").click()
+    expect(find_banner(student, "The instructor has locked control.")).to_be_hidden()

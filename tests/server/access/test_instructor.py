@@ -1,0 +1,73 @@
+"""The instructor's page over REST: who is here and sees what, a new code, a broadcast, an end."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from svsa_server.access.class_keys import ClassKeys
+from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
+
+CLASS = "/api/v1/class"
+
+
+@pytest.fixture
+def classroom(tmp_path: Path) -> Iterator[Classroom]:
+    with run_class(tmp_path) as room:
+        yield room
+
+
+def test_who_is_here_and_which_sessions_are_for_the_instructor_to_see(
+    classroom: Classroom,
+) -> None:
+    ada, bob, instructor = (
+        classroom.join("Ada"),
+        classroom.join("Bob", "observer"),
+        classroom.log_in(),
+    )
+    name = ada.post("/api/v1/sessions", json={}).json()["session"]
+    told = instructor.get(CLASS).raise_for_status().json()
+    assert [(one["name"], one["role"]) for one in told["people"]] == [
+        ("Ada", "operator"),
+        ("Bob", "observer"),
+        ("Instructor", "instructor"),
+    ]
+    (session,) = told["sessions"]
+    assert (session["session"], session["owner"], session["status"]) == (name, "Ada", "running")
+    assert bob.get(CLASS).json()["sessions"] == []
+    assert len(ada.get(CLASS).json()["sessions"]) == 1
+    instructor.delete(f"/api/v1/sessions/{name}").raise_for_status()
+    assert instructor.get(CLASS).json()["sessions"] == []
+    bob.post("/api/v1/leave").raise_for_status()
+    assert [one["name"] for one in ada.get(CLASS).json()["people"]] == ["Ada", "Instructor"]
+
+
+def test_a_new_code_is_told_once_with_a_qr_code_of_where_one_joins(
+    classroom: Classroom, tmp_path: Path
+) -> None:
+    ada, instructor = classroom.join("Ada"), classroom.log_in()
+    assert read_kind(ada.post(CLASS + "/code")) == "not_allowed"
+    told = instructor.post(CLASS + "/code").raise_for_status().json()
+    assert told["address"].endswith(f"/#join={told['code']}")
+    assert told["qr"].startswith("data:image/svg+xml")
+    keys, _ = ClassKeys.open(tmp_path)
+    assert keys.is_code(told["code"])
+    old = {"name": "Eve", "code": classroom.told.code}
+    assert classroom.lab.client.post("/api/v1/join", json=old).status_code == 401
+    assert classroom.lab.client.post("/api/v1/join", json=old | {"code": told["code"]}).is_success
+    assert read_person(ada)["inside"], "who has joined stays"
+
+
+def test_a_broadcast_gives_everybody_the_settings_of_the_shared_session(
+    classroom: Classroom,
+) -> None:
+    ada, instructor = classroom.join("Ada"), classroom.log_in()
+    path = "/api/v1/sessions/" + ada.post("/api/v1/sessions", json={}).json()["session"]
+    instructor.put(SHARED + "/law", json={"law": "fl_integral"}).raise_for_status()
+    instructor.put(SHARED + "/observer", json={"bandwidth_rad_per_s": [40, 50, 60]})
+    assert read_kind(ada.post(CLASS + "/broadcast")) == "not_allowed"
+    told = instructor.post(CLASS + "/broadcast").raise_for_status().json()
+    assert told == {"taken": 1, "refused": []}
+    shared, hers = (ada.get(one).json()["configuration"] for one in (SHARED, path))
+    for setting in ("law", "observer", "gains", "position", "stiffness", "parameters"):
+        assert hers[setting] == shared[setting], setting
