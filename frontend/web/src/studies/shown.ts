@@ -70,5 +70,7 @@ export const shownMarks = computed(() => {
 });
 
 /** The marks of one law's runs alone. */
-export const marksOf = (place: number): Uint8Array =>
-  marks.value.map((mark, index) => (lawPlaces.value[index] === place ? mark : 0));
+export const marksOf = (place: number): Uint8Array => {
+  const laws = lawPlaces.value;
+  return marks.value.map((mark, index) => (laws[index] === place ? mark : 0));
+};

@@ -18,12 +18,12 @@ function tellShare({ value, low, high }: Estimate): string {
 
 /** How a law did in the brush, with Wilson's interval. */
 function inBrush(place: number): string {
-  const marks = marksOf(place);
+  const [marks, isGood, isEnded] = [marksOf(place), good.value, ended.value];
   let [runs, held] = [0, 0];
   marks.forEach((mark, index) => {
     if (mark === 0) return;
     runs++;
-    if (good.value[index] === 1 && ended.value[index] === 0) held++;
+    if (isGood[index] === 1 && isEnded[index] === 0) held++;
   });
   const [value, low, high] = estimateShare(held, runs);
   return runs === 0 ? "–" : `${held}/${runs}: ${tellShare({ value, low, high })}`;
