@@ -61,7 +61,7 @@ def test_a_script_has_sessions_streams_and_runs_of_its_own(tokens: tuple[str, st
         assert result.name == "mine"
         assert len(list(ada.runs)) == 1
         assert list(bob.runs) == []
-        assert len(next(ada.session.stream(duration_s=0.1)).ticks)
+        assert len(next(iter(ada.session.stream(duration_s=0.1))).ticks)
 
 
 def test_a_token_stands_in_no_address(tokens: tuple[str, str, str]) -> None:

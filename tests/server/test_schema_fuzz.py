@@ -78,12 +78,7 @@ MAY_BE_REFUSED = {
     "POST /api/v1/arena/laws/{law}/measurement": INSTALLED,
     "POST /api/v1/arena/sessions": f"{INSTALLED}; the scenario is one of GET /arena",
     "PUT /api/v1/sessions/{session}/control": "a name must be printable characters of Unicode",
-    "POST /api/v1/join": "only a class is joined, and by its code",
-    "POST /api/v1/tokens": "only a class has tokens",
-    **dict.fromkeys(
-        ("GET /api/v1/class", "POST /api/v1/class/code", "POST /api/v1/class/broadcast"),
-        "only where the lab is a class",
-    ),
+    "POST /api/v1/join": "a name must be printable characters of Unicode",
 }
 """Operations that may refuse what their schema allows, and the rule that JSON Schema cannot say.
 
