@@ -65,11 +65,10 @@ export const setLook = (changed: Readonly<Record<string, string>>): void =>
 export const setBrush = (next: Brushed | null): void =>
   setLook({ brush: next === null ? "" : writeBrush(next) });
 
+/** What is asked for by the way leaves standing why a wish was refused. */
 async function attempt<T>(work: () => Promise<T>): Promise<T | null> {
   try {
-    const answer = await work();
-    problem.value = "";
-    return answer;
+    return await work();
   } catch (error) {
     problem.value = tell(error);
     return null;
@@ -107,6 +106,7 @@ async function sumUp(found: Study): Promise<void> {
 /** Looks at a study, and follows it while it grows. */
 export async function follow(name: string): Promise<void> {
   const number = ++round;
+  problem.value = "";
   study.value = null;
   rows.value = NOTHING;
   summary.value = null;
@@ -138,6 +138,7 @@ export function leave(): void {
 
 /** Whether it was begun. */
 export async function begin(wish: StudyWish): Promise<boolean> {
+  problem.value = "";
   isBusy.value = "start";
   const begun = await attempt(() => startStudy(wish));
   isBusy.value = "";
@@ -180,6 +181,7 @@ async function record(name: string, row: number): Promise<string | null> {
 /** Rows as recorded runs: one in 3D, two laid over each other. */
 export async function see(numbers: readonly number[]): Promise<void> {
   const name = chosenName.peek();
+  problem.value = "";
   isBusy.value = "see";
   const made: string[] = [];
   for (const row of numbers) {
