@@ -19,7 +19,7 @@ class HostedSession:
     """A session, and what is the server's own of it. Times are monotonic, s.
 
     session: what people start, pause and change. `hand`: who is in control of it. `excitation`:
-    what is being played on it, or None. `state_texts`: its state as streams are told of it.
+    what is being played on it, or None. `state_texts`, `progress_texts`: what streams are told.
     `last_use`: when it was last asked for; infinite for one that never ends by itself. `owner`:
     the id of the person whose it is; empty for everybody's.
     """
@@ -35,7 +35,7 @@ class HostedSession:
         self.hand = hand or ControlHand(session.name)
         self.excitation: Excitation | None = None
         self.last_use = last_use
-        self.state_texts = VersionedTexts()
+        self.state_texts, self.progress_texts = VersionedTexts(), VersionedTexts()
         self._streams: Counter[str | None] = Counter()
         self._changes = 0
         self._playing: asyncio.Task[None] | None = None

@@ -1,6 +1,7 @@
 """A session as it is told on the wire."""
 
 import math
+from collections.abc import Hashable
 from dataclasses import asdict
 
 import numpy as np
@@ -26,6 +27,8 @@ from svsa_server.recording_schemas import RecordingState
 from svsa_server.session_schemas import BranchState, LoadState, SessionProgress, SessionState
 from svsa_server.setting_schemas import ConfigurationState
 from svsa_server.stream_schemas import StateMessage
+
+FRESH_S = 3.0
 
 
 def build_progress(hosted: HostedSession) -> SessionProgress:
@@ -96,9 +99,18 @@ def write_news(hosted: HostedSession) -> str:
     )
 
 
-def write_progress(hosted: HostedSession) -> str:
-    """The message of a stream once a second without a change: what moves by itself."""
-    return StateMessage(state=build_progress(hosted)).model_dump_json()
+def is_fresh(hosted: HostedSession) -> bool:
+    """Whether the window has begun so lately that its numbers still move fast."""
+    run, window = hosted.session.run, hosted.session.journal.timeline.window
+    return (run.tick - window.first_tick) * run.period_s < FRESH_S
+
+
+def write_progress(hosted: HostedSession, period: Hashable) -> str:
+    """What moves by itself, for a stream: made once in each period."""
+    version = (hosted.version, period)
+    return hosted.progress_texts.get(
+        version, None, lambda: StateMessage(state=build_progress(hosted)).model_dump_json()
+    )
 
 
 def _build_control(hosted: HostedSession) -> ControlState:

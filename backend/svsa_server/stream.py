@@ -22,7 +22,7 @@ from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.access.roles import Person
 from svsa_server.control import asking, read_client
 from svsa_server.hosted import HostedSession
-from svsa_server.state import build_state, write_news, write_progress
+from svsa_server.state import build_state, is_fresh, write_news, write_progress
 from svsa_server.stream_schemas import (
     Hello,
     StreamChannel,
@@ -33,6 +33,8 @@ from svsa_server.stream_schemas import (
 
 BATCH_PERIOD_S = 1.0 / 30.0
 PROGRESS_PERIOD_S = 1.0
+FRESH_PROGRESS_PERIOD_S = 0.2
+"""As long as a window is fresh: what a load does to the error is done in tenths of a second."""
 SLOW_AFTER_S = 0.5
 # Faster than so many times, samples do not lie further apart: of each batch only the newest are
 # sent, and between them is a gap. A line from sample to sample over seconds would be a guess.
@@ -156,15 +158,16 @@ async def _send(
 ) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         await websocket.send_text(_greet(hosted, cursor, channels))
-        version, told_at = hosted.version, time.monotonic()
+        version, told_in = hosted.version, (0.0, 0)
         slow = False
         while not hosted.session.closed:
             now = time.monotonic()
-            news = None
+            every_s = FRESH_PROGRESS_PERIOD_S if is_fresh(hosted) else PROGRESS_PERIOD_S
+            news, period = None, (every_s, int(now / every_s))
             if hosted.version != version:
-                version, told_at, news = hosted.version, now, write_news(hosted)
-            elif now - told_at > PROGRESS_PERIOD_S:
-                told_at, news = now, write_progress(hosted)
+                version, told_in, news = hosted.version, period, write_news(hosted)
+            elif period != told_in:
+                told_in, news = period, write_progress(hosted, period)
             batch = cursor.take_batch(slow)
             if news is not None:
                 await websocket.send_text(news)

@@ -72,7 +72,7 @@ class Hello(BaseModel):
 
 
 class StateMessage(BaseModel):
-    """The state after every change; once a second without one, what moves by itself."""
+    """The state after every change; without one what moves by itself, 1 or 5 times a second."""
 
     type: Literal["state"] = "state"
     state: SessionState | SessionProgress
@@ -111,8 +111,9 @@ def describe_stream(batch_period_s: float) -> str:
             " plain GET is answered with 426.",
             "",
             "Text messages are JSON, told apart by `type`: `hello` first, `state` after every"
-            " change and with the fields that move by themselves once a second, `error` before the"
-            " stream is closed for a wrong address. Their schema is that of the answer 101.",
+            " change, and with the fields that move by themselves five times a second in the first"
+            " seconds of a window and once a second later, `error` before the stream is closed for"
+            " a wrong address. Their schema is that of the answer 101.",
             "",
             f"Binary messages are batches of samples, about {1 / batch_period_s:.0f} a second,"
             f" little-endian: a header of {HEADER.size} bytes,",

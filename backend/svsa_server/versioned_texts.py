@@ -7,10 +7,10 @@ class VersionedTexts:
     """What was made of one version, by key; another version forgets it."""
 
     def __init__(self) -> None:
-        self._version: int | None = None
+        self._version: Hashable = None
         self._texts: dict[Hashable, str] = {}
 
-    def get(self, version: int, key: Hashable, make: Callable[[], str]) -> str:
+    def get(self, version: Hashable, key: Hashable, make: Callable[[], str]) -> str:
         """What was made of this version for this key, or is made now."""
         if version != self._version:
             self._version = version

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from svsa.paper import get_figure
+from svsa.run.command import SetLaw
 from svsa.session.simulated import SimulatedSession
 from svsa_server import state
 from svsa_server.control import Holder, asking
@@ -33,3 +34,23 @@ def test_who_is_in_control_is_told_so_and_nobody_else(hosted):
         asking.set(client)
         control = json.loads(state.write_news(hosted))["state"]["control"]
         assert (control["holder"], control["mine"]) == ("Ada", is_ada)
+
+
+def test_what_moves_by_itself_is_written_once_in_each_period(hosted, monkeypatch):
+    written = []
+    build = state.build_progress
+    monkeypatch.setattr(state, "build_progress", lambda of: written.append(of) or build(of))
+    assert len({state.write_progress(hosted, period=7) for _ in range(100)}) == len(written) == 1
+    state.write_progress(hosted, period=8)
+    hosted.session.start()
+    assert json.loads(state.write_progress(hosted, period=8))["state"]["status"] == "running"
+    assert len(written) == 3
+
+
+def test_a_window_is_fresh_in_its_first_seconds(hosted):
+    assert state.is_fresh(hosted)
+    for _ in range(4):
+        hosted.session.step(1000)
+    assert not state.is_fresh(hosted)
+    hosted.session.change(SetLaw(argument="fl"))
+    assert state.is_fresh(hosted)

@@ -497,7 +497,7 @@ export interface paths {
          * Describe
          * @description Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a plain GET is answered with 426.
          *
-         *     Text messages are JSON, told apart by `type`: `hello` first, `state` after every change and with the fields that move by themselves once a second, `error` before the stream is closed for a wrong address. Their schema is that of the answer 101.
+         *     Text messages are JSON, told apart by `type`: `hello` first, `state` after every change, and with the fields that move by themselves five times a second in the first seconds of a window and once a second later, `error` before the stream is closed for a wrong address. Their schema is that of the answer 101.
          *
          *     Binary messages are batches of samples, about 30 a second, little-endian: a header of 32 bytes,
          *
@@ -5729,7 +5729,7 @@ export interface components {
         };
         /**
          * StateMessage
-         * @description The state after every change; once a second without one, what moves by itself.
+         * @description The state after every change; without one what moves by itself, 1 or 5 times a second.
          */
         StateMessage: {
             /**

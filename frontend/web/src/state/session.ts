@@ -10,7 +10,7 @@ import { SampleRing } from "../stream/ring";
 
 const CAPACITY = LONGEST_WINDOW_S * RATE_HZ + 1;
 
-/** After a change the whole state; once a second only the fields that move by themselves. */
+/** After a change the whole state; between changes only the fields that move by themselves. */
 type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
 type TextMessage = Hello | { type: "state"; state: Progress };
 
