@@ -37,6 +37,7 @@ from svsa_server.routes import (
     classroom,
     control,
     design,
+    falsifications,
     identification,
     jobs,
     lab,
@@ -63,12 +64,15 @@ _DESCRIPTION = (
 
 
 def build_app(
-    config: Settings | None = None, shared: Session | None = None, keys: ClassKeys | None = None
+    config: Settings | None = None,
+    shared: Session | None = None,
+    keys: ClassKeys | None = None,
+    host: str = "127.0.0.1",
 ) -> FastAPI:
     """The lab as an ASGI application; sessions live as long as it runs.
 
     shared: the session that everyone shares; a simulated one if left out. keys: of a class, if
-    they are open already.
+    they are open already. host: the address that is listened on.
     """
     config = config or Settings()
     door = build_door(config, keys)
@@ -83,6 +87,7 @@ def build_app(
     )
     app.state.door = door
     app.state.config = config
+    app.state.host = host
     app.state.shared = shared
     app.state.design = read_design(config.parameters) if config.parameters else load_prototype()
     app.state.outcomes = Outcomes()
@@ -117,6 +122,7 @@ def build_app(
         jobs,
         tunings,
         studies,
+        falsifications,
         arena,
         outcomes,
     ):
@@ -171,7 +177,13 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     quota = DiskQuota(app.state.catalogue, laboratory, config.quota_mb * 1e6)
     app.state.quota = quota
     app.state.heavy_work = HeavyWork(config.most_exports)
-    app.state.jobs = Jobs({"tuning": config.most_tunings, "study": config.most_studies})
+    app.state.jobs = Jobs(
+        {
+            "tuning": config.most_tunings,
+            "study": config.most_studies,
+            "falsification": config.most_falsifications,
+        }
+    )
     scenes = Scenes(laboratory)
     proxy = ViserProxy(scenes.open)
     routes = list(app.router.routes)

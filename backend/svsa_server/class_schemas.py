@@ -39,6 +39,7 @@ class ClassCode(BaseModel):
 
     code: str
     address: str = Field(description="Where one joins with it; what follows # stays in the browser")
+    is_local: bool = Field(description="Whether only the machine of the lab reaches that address")
     qr: str = Field(description="The address as a QR code: an image as a data URI")
 
 

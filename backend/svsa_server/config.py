@@ -29,6 +29,7 @@ class Settings(BaseSettings):
     has it, s.
     SVSA_MOST_TUNINGS: tunings of laws that are worked at, one at a time, or wait.
     SVSA_MOST_STUDIES: studies that are worked at, one at a time, or wait.
+    SVSA_MOST_FALSIFICATIONS: searches for what hurts a law that are worked at, or wait, likewise.
     SVSA_MOST_EXPORTS: exports, replays, comparisons, maps and laws in the arena that are worked at
     or wait.
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
@@ -52,6 +53,7 @@ class Settings(BaseSettings):
     most_exports: int = Field(default=10, ge=0, le=1000)
     most_tunings: int = Field(default=3, ge=0, le=100)
     most_studies: int = Field(default=3, ge=0, le=100)
+    most_falsifications: int = Field(default=3, ge=0, le=100)
     bench: Path | None = None
     parameters: Path | None = None
     classroom: bool = False

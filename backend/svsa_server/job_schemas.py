@@ -6,7 +6,7 @@ from svsa_server.jobs import Job, Kind, Status
 
 
 class JobState(BaseModel):
-    """A tuning, a study: work of minutes or hours."""
+    """A tuning, a study, a search: work of minutes or hours."""
 
     id: str
     kind: Kind

@@ -22,9 +22,9 @@ from svsa_server.job_progress import JobFolder, Progress, ask_to_stop, read_prog
 
 MAX_KEPT = 50
 
-Kind = Literal["tuning", "study"]
+Kind = Literal["tuning", "study", "falsification"]
 Status = Literal["waiting", "running", "done", "cancelled", "failed"]
-PLURALS: dict[Kind, str] = {"tuning": "tunings", "study": "studies"}
+PLURALS: dict[Kind, str] = {"tuning": "tunings", "study": "studies", "falsification": "searches"}
 
 _log = logging.getLogger("svsa")
 

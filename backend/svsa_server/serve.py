@@ -12,6 +12,7 @@ from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.records.catalogue.runs import find_data_folder
 from svsa.run.configuration import read_design
 from svsa_server.access.class_keys import FILE, ClassKeys, ToldOnce
+from svsa_server.access.origin import EVERYWHERE
 from svsa_server.compiling import compile_laws
 from svsa_server.config import Settings
 from svsa_server.console import HINT, watch_keyboard
@@ -86,7 +87,7 @@ def run_server(
     shared = build_shared_session(bench, design)
     server = AnnouncedServer(
         uvicorn.Config(
-            build_app(config, shared, keys),
+            build_app(config, shared, keys, chosen),
             log_level="warning",
             ws_max_size=65536,
             ws_per_message_deflate=False,
@@ -118,7 +119,7 @@ def describe_class(told: ToldOnce | None) -> str:
 
 def describe_address(asked: str, host: str, port: int) -> str:
     """Where the lab is, and who reaches it there."""
-    everywhere = host in ("0.0.0.0", "::")  # noqa: S104
+    everywhere = host in EVERYWHERE
     name = "localhost" if everywhere else host
     reach = " and on every address of this machine" if everywhere else ""
     text = f"SVSA Lab is at [bold]http://{name}:{port}/[/]{reach}  (stop with Ctrl-C)"

@@ -158,12 +158,11 @@ async def _send(
 ) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         await websocket.send_text(_greet(hosted, cursor, channels))
-        version, told_in = hosted.version, (0.0, 0)
+        version, told_in = hosted.version, _count_periods(hosted, time.monotonic())
         slow = False
         while not hosted.session.closed:
             now = time.monotonic()
-            every_s = FRESH_PROGRESS_PERIOD_S if is_fresh(hosted) else PROGRESS_PERIOD_S
-            news, period = None, (every_s, int(now / every_s))
+            news, period = None, _count_periods(hosted, now)
             if hosted.version != version:
                 version, told_in, news = hosted.version, period, write_news(hosted)
             elif period != told_in:
@@ -177,6 +176,12 @@ async def _send(
             slow = spent > SLOW_AFTER_S
             await asyncio.sleep(max(0.0, BATCH_PERIOD_S - spent))
         await websocket.close(1000, "The session has ended.")
+
+
+def _count_periods(hosted: HostedSession, now: float) -> tuple[float, int]:
+    """In which period it is told what moves by itself: how long one is, s, and its number."""
+    every_s = FRESH_PROGRESS_PERIOD_S if is_fresh(hosted) else PROGRESS_PERIOD_S
+    return every_s, int(now / every_s)
 
 
 def _greet(hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]) -> str:

@@ -114,6 +114,7 @@ def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room:
     expect(find_banner(student, "The instructor has locked control.")).to_be_visible()
     panel.get_by_role("button", name="New class code").click()
     expect(panel.get_by_role("img", name="QR code")).to_be_visible()
+    expect(panel).to_contain_text("Only this machine reaches the lab")
     expect_no_violation(teacher, WIDE, PHONE)
     panel.get_by_role("button", name="Unlock control").click()
     expect(find_banner(student, "The instructor has locked control.")).to_be_hidden()

@@ -14,6 +14,11 @@ from tests.lab import Lab
 
 pytestmark = pytest.mark.browser
 
+HIDE_BANNERS = """() => {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(".banners { display: none; }");
+  document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
+}"""
 SCROLL_MS = 2500
 # Steep strokes, which a blur across widens.
 STEEP = {"kind": "sine", "amplitude_rad": 0.5, "frequency_hz": 0.8}
@@ -97,7 +102,7 @@ def test_what_has_scrolled_is_as_if_drawn_just_now(
     lab.client.post(lab.session + "/start").raise_for_status()
     open_page(page, lab)
     # What is said of the silent stream takes no room from the plots.
-    page.add_style_tag(content=".banners { display: none; }")
+    page.evaluate(HIDE_BANNERS)
     page.wait_for_timeout(SCROLL_MS)
     stream.hold()
     page.wait_for_timeout(400)

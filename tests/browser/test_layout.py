@@ -26,7 +26,11 @@ PLANTS: dict[str, dict[str, Any] | None] = {
 
 @pytest.fixture(scope="module", params=list(PLANTS))
 def visited(request: pytest.FixtureRequest, browser: Browser, shared_lab: Lab) -> Iterator[Page]:
-    """The page of a returning visitor, without the 3D view, on each kind of plant."""
+    """The page of a returning visitor, without the 3D view, on each kind of plant.
+
+    From a figure on: lanes and loads that another module has left take room.
+    """
+    shared_lab.load_figure()
     context = browser.new_context()
     context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
     context.add_init_script("localStorage.setItem('svsa.tour', 'done')")

@@ -73,6 +73,7 @@ MAY_BE_REFUSED = {
     "POST /api/v1/references/csv": "the text must be a CSV of numbers with known columns",
     "PUT /api/v1/sessions/{session}/nominal": "the text must be a TOML parameter file",
     "POST /api/v1/tunings": INSTALLED,
+    "POST /api/v1/falsifications": f"{INSTALLED}; an adversary is one of GET …, or a TOML text",
     "POST /api/v1/studies": STUDY,
     "POST /api/v1/studies/check": STUDY,
     "POST /api/v1/arena/laws/{law}/measurement": INSTALLED,

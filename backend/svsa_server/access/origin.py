@@ -14,6 +14,10 @@ from starlette.types import Scope
 
 from svsa_server.config import is_loopback
 
+EVERYWHERE = ("0.0.0.0", "::")  # noqa: S104
+_ELSEWHERE = ("192.0.2.1", 9)
+"""An address that no machine has (RFC 5737): the way there begins at this machine's own."""
+
 
 def is_same_origin(scope: Scope) -> bool:
     """Whether a request comes from the lab's own page, or not from a page at all."""
@@ -39,6 +43,17 @@ def is_own_name(host: str, told: frozenset[str]) -> bool:
     except ValueError:
         return False
     return True
+
+
+def find_outward_address() -> str | None:
+    """The machine's address in its network; None where it is in none. Nothing is sent."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as door:
+        try:
+            door.connect(_ELSEWHERE)
+        except OSError:
+            return None
+        found = door.getsockname()[0]
+    return None if is_loopback(found) else found
 
 
 def _find_own_names() -> frozenset[str]:

@@ -4,6 +4,7 @@ import asyncio
 
 import segno
 from fastapi import APIRouter, Request
+from starlette.datastructures import URL
 
 from svsa.errors import StateError, SvsaError
 from svsa.run.command import (
@@ -17,6 +18,7 @@ from svsa.run.command import (
 )
 from svsa.run.configuration import Configuration
 from svsa_server.access.doors import ClassDoor
+from svsa_server.access.origin import EVERYWHERE, find_outward_address
 from svsa_server.access.roles import Person
 from svsa_server.class_schemas import (
     BroadcastState,
@@ -25,6 +27,7 @@ from svsa_server.class_schemas import (
     ClassState,
     PersonState,
 )
+from svsa_server.config import is_loopback
 from svsa_server.hosted import HostedSession
 from svsa_server.laboratory import SHARED_SESSION, Laboratory
 from svsa_server.routes.depends import REFUSALS, NamedPerson
@@ -56,8 +59,26 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
 async def renew_code(request: Request) -> ClassCode:
     """A new class code, told once, also as a QR code; who has joined stays."""
     code = await asyncio.to_thread(find_class(request).keys.renew_code)
-    address = f"{str(request.base_url).rstrip('/')}/#join={code}"
-    return ClassCode(code=code, address=address, qr=segno.make(address).svg_data_uri(scale=_SCALE))
+    base = choose_join_address(request.base_url, request.app.state.host)
+    address = f"{str(base).rstrip('/')}/#join={code}"
+    return ClassCode(
+        code=code,
+        address=address,
+        is_local=is_loopback(base.hostname or ""),
+        qr=segno.make(address).svg_data_uri(scale=_SCALE),
+    )
+
+
+def choose_join_address(base: URL, host: str) -> URL:
+    """Where the others of a class reach the page that is seen at `base`.
+
+    A name that means this machine only gives way to the machine's address, if the lab listens
+    there. host: the address that is listened on.
+    """
+    if not is_loopback(base.hostname or ""):
+        return base
+    reached = find_outward_address() if host in EVERYWHERE else host
+    return base.replace(hostname=reached) if reached else base
 
 
 @router.post("/broadcast")

@@ -14,7 +14,7 @@ JobId = Annotated[str, Path(description="Id of a job", examples=["3f2a9c01b7de"]
 
 @router.get("")
 async def list_jobs(request: Request) -> list[JobState]:
-    """The last tunings and studies of this server, the newest first."""
+    """The last tunings, studies and searches of this server, the newest first."""
     return [describe_job(job) for job in find_jobs(request).list_all()]
 
 

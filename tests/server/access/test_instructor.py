@@ -52,6 +52,7 @@ def test_a_new_code_is_told_once_with_a_qr_code_of_where_one_joins(
     assert told["qr"].startswith("data:image/svg+xml")
     keys, _ = ClassKeys.open(tmp_path)
     assert keys.is_code(told["code"])
+    assert told["is_local"]
     old = {"name": "Eve", "code": classroom.told.code}
     assert classroom.lab.client.post("/api/v1/join", json=old).status_code == 401
     assert classroom.lab.client.post("/api/v1/join", json=old | {"code": told["code"]}).is_success

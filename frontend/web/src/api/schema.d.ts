@@ -1459,7 +1459,7 @@ export interface paths {
         };
         /**
          * List Jobs
-         * @description The last tunings and studies of this server, the newest first.
+         * @description The last tunings, studies and searches of this server, the newest first.
          */
         get: operations["list_jobs"];
         put?: never;
@@ -1751,6 +1751,114 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/falsifications/adversaries": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List All Adversaries
+         * @description The adversaries that come with the lab: which loads each may choose, and what it is after.
+         */
+        get: operations["list_all_adversaries"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/falsifications": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Falsifications
+         * @description The last searches of this server, the newest first.
+         */
+        get: operations["list_falsifications"];
+        put?: never;
+        /**
+         * Start Falsification
+         * @description Begin a search: a job, that makes no live session late. It ends at the first fault.
+         */
+        post: operations["start_falsification"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/falsifications/{falsification}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Falsification
+         * @description How far a search is, and what it found.
+         */
+        get: operations["read_falsification"];
+        put?: never;
+        post?: never;
+        /**
+         * Stop Falsification
+         * @description Break a search off; the worst so far is kept, but not made simple.
+         */
+        delete: operations["stop_falsification"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/falsifications/{falsification}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Scenario File
+         * @description The scenario (TOML), through which `svsa falsify run` puts any law.
+         */
+        get: operations["read_scenario_file"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/falsifications/{falsification}/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * See Falsification
+         * @description A private session, running, of the law in what was found, and another law beside it.
+         */
+        post: operations["see_falsification"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/arena": {
         parameters: {
             query?: never;
@@ -1979,6 +2087,21 @@ export interface components {
              * @enum {string}
              */
             reaction_torque?: "energy" | "printed";
+        };
+        /**
+         * AdversaryState
+         * @description An adversary that comes with the lab.
+         */
+        AdversaryState: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /**
+             * Text
+             * @description Its file, to be changed and sent back
+             */
+            text: string;
         };
         /**
          * ApplyLoad
@@ -2345,6 +2468,11 @@ export interface components {
              * @description Where one joins with it; what follows # stays in the browser
              */
             address: string;
+            /**
+             * Is Local
+             * @description Whether only the machine of the lab reaches that address
+             */
+            is_local: boolean;
             /**
              * Qr
              * @description The address as a QR code: an image as a data URI
@@ -2743,6 +2871,116 @@ export interface components {
             effects: components["schemas"]["Effects"];
         };
         /**
+         * FalsificationRequest
+         * @description A search: the adversary of the package, or a text, and the law that is to be hurt.
+         */
+        FalsificationRequest: {
+            /**
+             * Adversary
+             * @description Name of one that comes with the lab
+             */
+            adversary?: string | null;
+            /**
+             * Text
+             * @description An adversary as TOML, in place of a name
+             */
+            text?: string | null;
+            /**
+             * Law
+             * @description Law to be hurt; else the adversary's
+             */
+            law?: string | null;
+            /**
+             * Runs
+             * @description Runs at most
+             * @default 20000
+             */
+            runs: number;
+            /**
+             * Seed
+             * @description Seed of the search
+             * @default 0
+             */
+            seed: number;
+        };
+        /**
+         * FalsificationState
+         * @description A search, and what it found.
+         */
+        FalsificationState: {
+            /** Id */
+            id: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "tuning" | "study" | "falsification";
+            /**
+             * Title
+             * @description What it is about
+             */
+            title: string;
+            /**
+             * Created
+             * @description When it was asked for, ISO 8601 in UTC
+             */
+            created: string;
+            /**
+             * Status
+             * @description cancelled: stopped before its end, what is done is kept
+             * @enum {string}
+             */
+            status: "waiting" | "running" | "done" | "cancelled" | "failed";
+            /**
+             * Done
+             * @description How much is done, in what it counts: candidates, runs
+             */
+            done: number;
+            /**
+             * Total
+             * @description Of how much; 0 before it is begun
+             */
+            total: number;
+            /**
+             * Rate Per S
+             * @description How much a second lately; null while nobody can say
+             */
+            rate_per_s: number | null;
+            /**
+             * Left S
+             * @description How long it still takes at this rate, s; null while nobody can say
+             */
+            left_s: number | null;
+            /**
+             * Problem
+             * @description Why it failed
+             */
+            problem: string | null;
+            /** Law */
+            law: string;
+            /** Harm */
+            harm: string;
+            /** Seed */
+            seed: number;
+            /**
+             * Worst
+             * @description How much the worst run hurts so far, in words
+             */
+            worst: string | null;
+            /**
+             * Scenario
+             * @description The simplest load that still does it; null before the end
+             */
+            scenario: {
+                [key: string]: unknown;
+            } | null;
+            /**
+             * Outcomes
+             * @description Of the law, and of another one beside it
+             */
+            outcomes: components["schemas"]["LawOutcomeState"][];
+        };
+        /**
          * FateState
          * @description What becomes of a start.
          */
@@ -3055,7 +3293,7 @@ export interface components {
         };
         /**
          * JobState
-         * @description A tuning, a study: work of minutes or hours.
+         * @description A tuning, a study, a search: work of minutes or hours.
          */
         JobState: {
             /** Id */
@@ -3064,7 +3302,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "tuning" | "study";
+            kind: "tuning" | "study" | "falsification";
             /**
              * Title
              * @description What it is about
@@ -3250,6 +3488,31 @@ export interface components {
              */
             quantiles: {
                 [key: string]: (number | null)[];
+            };
+        };
+        /**
+         * LawOutcomeState
+         * @description What came of a law in the scenario.
+         */
+        LawOutcomeState: {
+            /** Law */
+            law: string;
+            /**
+             * Fault
+             * @description Code of the fault that the run ended in
+             */
+            fault: string | null;
+            /**
+             * Fault S
+             * @description When, s
+             */
+            fault_s: number | null;
+            /**
+             * Metrics
+             * @description SI; of a fault those until then
+             */
+            metrics: {
+                [key: string]: number | null;
             };
         };
         /**
@@ -12769,6 +13032,444 @@ export interface operations {
             };
             /** @description Too much is being made already: again in 5 s (Retry-After) */
             503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_all_adversaries: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AdversaryState"][];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_falsifications: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FalsificationState"][];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    start_falsification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FalsificationRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FalsificationState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_falsification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a search */
+                falsification: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FalsificationState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    stop_falsification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a search */
+                falsification: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FalsificationState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_scenario_file: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a search */
+                falsification: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/toml": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    see_falsification: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Id of a search */
+                falsification: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -137,6 +137,8 @@ function Code({ code }: { code: ClassCode }) {
         {words.codeOnce} <strong class="class-code">{code.code}</strong>
       </figcaption>
       <img src={code.qr} alt={words.qr(code.code)} />
+      <span class="class-address">{code.address}</span>
+      {code.is_local && <strong>{words.onlyHere}</strong>}
     </figure>
   );
 }

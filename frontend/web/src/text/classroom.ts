@@ -54,6 +54,8 @@ export const classroomText = {
     newCode: "New class code",
     newCodeHint: "The old code lets nobody in any more; who has joined stays",
     codeOnce: "Shown once. Students scan it, or type the code:",
+    onlyHere:
+      "Only this machine reaches the lab: start it with --host auto, so that others can join",
     qr: (code: string) => `QR code of the address to join with the code ${code}`,
     runs: "All runs of the class",
     script: "Token for a script",

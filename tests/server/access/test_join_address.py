@@ -1,0 +1,21 @@
+"""The address that a class joins at is one that others reach."""
+
+import pytest
+from starlette.datastructures import URL
+
+from svsa_server.routes import classroom
+
+
+@pytest.mark.parametrize(
+    ("seen", "host", "outward", "told"),
+    [
+        ("http://lab.example:8000/", "0.0.0.0", "10.0.0.7", "http://lab.example:8000/"),
+        ("http://127.0.0.1:8000/", "0.0.0.0", "10.0.0.7", "http://10.0.0.7:8000/"),
+        ("http://localhost:8000/", "10.0.0.8", "10.0.0.7", "http://10.0.0.8:8000/"),
+        ("http://127.0.0.1:8000/", "0.0.0.0", None, "http://127.0.0.1:8000/"),
+        ("http://127.0.0.1:8000/", "127.0.0.1", "10.0.0.7", "http://127.0.0.1:8000/"),
+    ],
+)
+def test_a_name_of_this_machine_only_gives_way(monkeypatch, seen, host, outward, told):
+    monkeypatch.setattr(classroom, "find_outward_address", lambda: outward)
+    assert classroom.choose_join_address(URL(seen), host) == told
