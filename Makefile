@@ -5,19 +5,25 @@ PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
   frontend/scene/svsa_scene/cameras.json
-# Each module in one of three processes, of which one waits for something most of the time: in the
+# All but the peers of `svsa bench`, which are large and which nothing here needs.
+LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti
+# Each module in one of four processes, of which two wait for something most of the time: in the
 # order of the folders, the browser last, since its driver keeps an event loop running.
-SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
+SIDE_BY_SIDE := -n 4 --dist loadfile --no-loadscope-reorder
+# What computes all the time, and in `make test` what is against the clock and waits for a rig.
+BY_TWO := -n 2 --dist loadfile --no-loadscope-reorder
+# A search at less depth than `make test-all`'s (tests/conftest.py).
+SHOWN := --hypothesis-profile=shown
 SERVED := package rig hardware scene server client browser
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
-# Every process of pytest reads all test files, at half the cost where one has done so before.
-READ_TESTS = { $(BIN)/pytest --collect-only -q > .venv/tests || { cat .venv/tests; false; }; }
+WALL_CLOCK = $$(grep -rl --include='test_*.py' 'mark\.wall_clock' tests)
 export PYTHONDONTWRITEBYTECODE =
 # Neither needs anything compiled: they go beside the compiler.
-COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all & $(WEB) test && $(READ_TESTS); \
+COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all $(COMPILED) & \
+  $(WEB) test && $(MAKE) --no-print-directory .venv/tests; \
   page=$$?; wait $$! && exit $$page
 
-.PHONY: help run dev bench-demo test quick check hooks format page schema lock screenshots arena bench clean
+.PHONY: help run dev bench-demo test test-all quick check hooks format page schema lock screenshots arena bench clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -32,14 +38,20 @@ dev: .venv/installed $(PAGE)  ## the lab, and the page rebuilt as you type (on t
 bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
-test: .venv/installed $(PAGE)  ## every test
+test: .venv/installed $(PAGE)  ## each promise of the lab; further cases of one are left out
+	@$(COMPILE_AND_TEST_PAGE)
+	$(BIN)/pytest $(SIDE_BY_SIDE) $(SHOWN) -m "not wall_clock and not exhaustive"
+	$(BIN)/pytest $(BY_TWO) -m "wall_clock and not exhaustive" $(WALL_CLOCK)
+
+test-all: COMPILED = --exhaustive
+test-all: .venv/installed $(PAGE)  ## every test, as in CI
 	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(SIDE_BY_SIDE) -m "not wall_clock"
-	$(BIN)/pytest -m wall_clock
+	$(BIN)/pytest -m wall_clock $(WALL_CLOCK)
 
 quick: .venv/installed  ## the tests that are soon done and need no server, bench or browser
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(SIDE_BY_SIDE) -q -m "not long" $(SERVED:%=--ignore=tests/%)
+	$(BIN)/pytest $(BY_TWO) $(SHOWN) -q -m "not long and not exhaustive" $(SERVED:%=--ignore=tests/%)
 
 check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated files
 	$(BIN)/ruff format --check .
@@ -73,6 +85,7 @@ screenshots: .venv/installed $(PAGE)  ## the README's pictures
 
 arena: .venv/installed  ## every law measured, and what is written of them: after a change of one
 	$(BIN)/svsa arena run --save svsa/arena/results.json
+	$(BIN)/svsa arena bench ndobc_s ndobc_w --save svsa/arena/bench_results.json
 	$(BIN)/svsa arena publish
 
 bench: .venv/installed  ## what the loop costs, beside a C loop of the same work
@@ -80,7 +93,7 @@ bench: .venv/installed  ## what the loop costs, beside a C loop of the same work
 
 lock: .venv/installed  ## requirements.lock, every package with its hashes, at their newest
 	$(BIN)/uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
-	  --no-annotate --group dev --all-extras pyproject.toml -o requirements.lock --upgrade -q
+	  --no-annotate --group dev $(LOCKED_EXTRAS:%=--extra %) pyproject.toml -o requirements.lock --upgrade -q
 
 .venv/installed: requirements.lock pyproject.toml
 	@echo "Preparing the environment (once; a minute or two) …"
@@ -89,6 +102,11 @@ lock: .venv/installed  ## requirements.lock, every package with its hashes, at t
 	@$(BIN)/uv pip sync --quiet --compile-bytecode --require-hashes requirements.lock
 	@$(BIN)/uv pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
+
+# Every process of pytest reads all test files, at half the cost where one has done so before.
+.venv/tests: .venv/installed $(shell find tests -name '*.py')
+	@$(BIN)/pytest --collect-only -q > $@.read || { cat $@.read; false; }
+	@mv $@.read $@
 
 clean:  ## remove what was installed and built
 	rm -rf .venv backend/svsa_server/page frontend/web/node_modules

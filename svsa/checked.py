@@ -4,8 +4,9 @@ Built on pydantic: a field declares its unit, bounds and meaning once, and the P
 API, the TOML files, the REST schema and every error message speak from that one place.
 """
 
+from collections.abc import Sequence
 from numbers import Real
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, NamedTuple, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Strict, ValidationError
 
@@ -59,17 +60,44 @@ def _is_same(present: Any, new: Any) -> bool:
 
 
 def quantity(
-    unit: str, meaning: str, *, symbol: str = "", searched: bool = True, **bounds: Any
+    unit: str,
+    meaning: str,
+    *,
+    symbol: str = "",
+    parts: Sequence[str] = (),
+    searched: bool = True,
+    **bounds: Any,
 ) -> Any:
     """A field with its unit; bounds are pydantic's gt, ge, lt, le; unit "" has none.
 
-    symbol: what it is called in short, where that is not its name. searched: whether a tuner may
+    symbol: what it is called in short, where that is not its name. parts: what each number of a
+    list is called. searched: whether a tuner may
     choose it; what says which law it is, and not how good, is left as it is.
     """
     text = f"{meaning}, {unit}" if unit else meaning
     extra: dict[str, Any] = {"unit": unit} | ({"symbol": symbol} if symbol else {})
+    extra |= {"parts": [*parts]} if parts else {}
     extra |= {} if searched else {"searched": False}
     return Field(description=text, json_schema_extra=extra, **bounds)
+
+
+class Quantity(NamedTuple):
+    """What `quantity` declared."""
+
+    unit: str
+    meaning: str
+    symbol: str
+    parts: tuple[str, ...]
+
+
+def read_quantity(model: type[BaseModel], name: str) -> Quantity:
+    """What a field was declared with; of one without that its name is the meaning."""
+    field = model.model_fields[name]
+    extra: Any = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
+    unit = extra.get("unit", "")
+    meaning = (field.description or name.replace("_", " ")).removesuffix(f", {unit}")
+    symbol, parts = extra.get("symbol", ""), tuple(extra.get("parts", ()))
+    return Quantity(unit, meaning, symbol, parts)
 
 
 def check_number(name: str, value: Any, unit: str, least: float, most: float) -> None:

@@ -17,16 +17,21 @@ from rich.progress import Progress
 from rich.table import Table
 
 import svsa
+from svsa.arena.against_cli import against
+from svsa.arena.bench_cli import bench as arena_bench
 from svsa.arena.cli import arena
 from svsa.arena.tune_cli import tune
 from svsa.bench.cli import bench_check, bench_home
 from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_title
+from svsa.course.cli import course
 from svsa.design.cli import stability
 from svsa.errors import SvsaError
-from svsa.extras import require_extra
+from svsa.extras import DISTRIBUTION, list_missing, require_extra
 from svsa.falsify.cli import falsify
+from svsa.grading.cli import grade_command
 from svsa.identification.cli import identify
+from svsa.leaderboard.cli import leaderboard_command, submit_command
 from svsa.result.cli import compare
 from svsa.rig.cli import rig
 from svsa.study.cli import study
@@ -94,10 +99,16 @@ def reproduce(
     Console().print("Pictures: " + ", ".join(str(path) for path in paths))
 
 
+arena.command("against")(against)
+arena.command("bench")(arena_bench)
+arena.command("submit")(submit_command)
+arena.command("leaderboard")(leaderboard_command)
 app.add_typer(arena, name="arena")
 app.command("tune")(tune)
 app.add_typer(study, name="study")
 app.add_typer(falsify, name="falsify")
+app.add_typer(course, name="course")
+app.command("grade")(grade_command)
 app.command("compare")(compare)
 app.command("rig")(rig)
 app.command("identify")(identify)
@@ -132,6 +143,8 @@ def measure_costs(
             "No C loop to compare with: it needs a C compiler (cc) and tests/bench/loop.c of the"
             " source tree, which an installed package has not. Ratios are null."
         )
+    if not laws and (missing := list_missing("peers")):
+        _messages.print(f"No peers: {', '.join(missing)}, of the extra `{DISTRIBUTION}[peers]`.")
     if as_json:
         each = {law: cost._asdict() for law, cost in ticks.items()}
         print(json.dumps(each or costs, indent=2))
@@ -142,6 +155,8 @@ def measure_costs(
         table.add_row(law, *(f"{value:.4g}" for value in cost))
     by_effects = costs.pop("runs_per_second_1_core_by_effects", {})
     costs |= {f"runs_per_second_1_core: {name}": rate for name, rate in by_effects.items()}
+    for name, peer in costs.pop("peers", {}).items():
+        costs |= {f"peer {name}: {key}": value for key, value in peer.items()}
     for name, value in costs.items():
         table.add_row(name, f"{value:.4g}" if isinstance(value, float) else str(value))
     Console().print(table)

@@ -11,7 +11,7 @@ from typing import Literal
 from svsa.errors import SvsaError
 
 DISTRIBUTION = "svsa-lab"
-Extra = Literal["server", "client", "bench", "plot", "nidaqmx", "xarray"]
+Extra = Literal["server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti", "peers"]
 MODULES: dict[Extra, tuple[str, ...]] = {
     "server": (
         *("fastapi", "pydantic_settings", "uvicorn", "websockets", "httpx"),
@@ -22,6 +22,9 @@ MODULES: dict[Extra, tuple[str, ...]] = {
     "plot": ("matplotlib",),
     "nidaqmx": ("nidaqmx",),
     "xarray": ("xarray",),
+    "cluster": ("distributed",),
+    "lti": ("joserfc",),
+    "peers": ("casadi", "mujoco"),
 }
 
 

@@ -50,6 +50,18 @@ class Measurement(NamedTuple):
     dtheta2: float
 
 
+class Positions(NamedTuple):
+    """What the encoders said of this tick, as the loop really got it: rad, at the gear outputs.
+
+    q: link, θ1 + φ. On a bench counts are brought to the tick by the velocities of x̂, and one too
+    old for that is x̂ itself. A bench's record has all of it, and so a law's torques follow from it.
+    """
+
+    q: float
+    theta1: float
+    theta2: float
+
+
 class Disturbance(NamedTuple):
     """w of Eq 9 on link, principal motor and stiffness motor, N·m (w1, w3, w5 are zero)."""
 

@@ -44,7 +44,7 @@ def find_lines(text: str, names: Iterable[str]) -> list[int]:
     table = ""
     for number, line in enumerate(text.splitlines(), 1):
         if found := _TABLE.match(line):
-            table = _strip(found[2])
+            table = _follow(_strip(found[2]), counts)
             if found[1] == "[[":
                 counts[table] += 1
                 table = f"{table}[{counts[table] - 1}]"
@@ -53,6 +53,16 @@ def find_lines(text: str, names: Iterable[str]) -> list[int]:
             key = _strip(found[1])
             lines.setdefault(f"{table}.{key}" if table else key, number)
     return [line for name in names if (line := _find_nearest(lines, name)) is not None]
+
+
+def _follow(table: str, counts: Counter[str]) -> str:
+    """A table's path, within the last item of each list that it lies in."""
+    *outer, last = table.split(".")
+    path = ""
+    for part in outer:
+        path += part
+        path += f"[{counts[path] - 1}]." if counts[path] else "."
+    return path + last
 
 
 def tell_place(place: str, text: str, names: Iterable[str]) -> str:

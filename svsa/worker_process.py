@@ -12,10 +12,13 @@ would not get on for minutes."""
 
 
 def give_way() -> None:
-    """Leave the processor to others and Ctrl-C to the parent, and end with it, however it ends."""
+    """Leave the processor to others and Ctrl-C to the parent, and end with it, however it ends.
+
+    A worker's own workers have its priority, and no lower one.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform != "win32":
-        os.nice(NICENESS)
+        os.nice(max(0, NICENESS - os.nice(0)))
     parent = multiprocessing.parent_process()
 
     def end_with_parent() -> None:

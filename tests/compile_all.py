@@ -1,15 +1,21 @@
-"""Compile what the tests use, before they begin: `python -m tests.compile_all`.
+"""Compile what the tests use, before they begin: `python -m tests.compile_all [--exhaustive]`.
 
 A compiler inside a test takes seconds that the test, or a rig beside it, may not have. What is
-still compiled inside a test is told at the end of the tests.
+still compiled inside a test is told at the end of the tests; what is compiled inside a server is
+not. --exhaustive: for `make test-all`, too: the batches of each law, and the loop for a processor
+without any extension.
 """
 
 import os
 import subprocess
 import sys
+from collections.abc import Iterable
 
 import svsa
+from svsa.benchmark.peers.comparison import measure_peers
 from svsa.cli import prepare
+from svsa.control.installed import list_law_names
+from svsa.design.prediction import predict
 from svsa.identification.identify import identify
 from svsa.paper import FIGURES
 from svsa.plant.disturbances import ConstantLoad
@@ -18,23 +24,22 @@ from svsa.run.batch import run_configurations
 from tests.identification.excited_run import build_configuration, build_run, play
 from tests.paper.golden import GENERIC
 from tests.rig.in_process_rig import start_in_process
-from tests.session.sessions import EVERY_EFFECT
+from tests.session.sessions import EVERY_EFFECT, SHOWN_IN_BATCHES
 
-TICKS = 10
-
-
-BATCHES = "batches"
+TICKS, STIFFNESS = 10, 15.0
+BATCHES, EXHAUSTIVE = "batches", "--exhaustive"
 
 
 def main() -> None:
     """On two cores: the loop and what goes through it here, what shares nothing with it beside."""
-    beside = [
-        start("tests.compile_all", BATCHES),
-        start("tests.paper.golden", "--figures", **GENERIC),
-    ]
+    beside = [start("tests.compile_all", BATCHES, *sys.argv[1:])]
+    if EXHAUSTIVE in sys.argv:
+        beside.append(start("tests.paper.golden", "--figures", **GENERIC))
     prepare()
     compile_bench()
     compile_identification()
+    predict(FIGURES["4a"].build_configuration("ndobc"), STIFFNESS)
+    measure_peers(repeats=1, duration_s=0.02)
     for process in beside:
         assert process.wait() == 0, process.args
 
@@ -66,19 +71,20 @@ def compile_identification() -> None:
     identify(build_run(configuration, play(configuration, [], 6.5)[0]))
 
 
-def compile_batches() -> None:
-    """Runs of a law side by side with every effect, with a rig's, and without any."""
+def compile_batches(laws: Iterable[str]) -> None:
+    """Runs side by side of a law with every effect and without any, of these with a rig's."""
     for law, effects in (
         ("ndobc", EVERY_EFFECT),
         ("ndobc", svsa.IDEAL),
+        ("fl", svsa.IDEAL),
         ("fl_integral", svsa.IDEAL),
         ("ilc", svsa.IDEAL),
-        ("lqi", svsa.RIG),
-        ("ndobc_w", svsa.RIG),
+        *((law, svsa.RIG) for law in laws),
     ):
         configuration = FIGURES["4a"].build_configuration(law).changed(effects=effects, seed=7)
         run_configurations([configuration], TICKS * configuration.sampling.period_s)
 
 
 if __name__ == "__main__":
-    compile_batches() if sys.argv[1:] == [BATCHES] else main()
+    laws = list_law_names() if EXHAUSTIVE in sys.argv else SHOWN_IN_BATCHES
+    compile_batches(laws) if BATCHES in sys.argv else main()

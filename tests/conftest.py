@@ -4,33 +4,51 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
+from xdist.remote import Producer
 
 from svsa.compilation import watch_compilation
 from tests.lab import Lab, run_lab
+from tests.side_by_side import SideBySide
+
+SEARCHED = settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+"""Of what hypothesis draws: the same cases each time, however slow the machine."""
+settings.register_profile("every", SEARCHED)
+settings.register_profile("shown", SEARCHED, max_examples=25)
 
 TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
-    *("package", "", "simd", "model", "reference", "control", "observer", "plant", "loop", "run"),
+    *(
+        "package",
+        "",
+        "simd",
+        "model",
+        "reference",
+        "control",
+        "observer",
+        "plant",
+        "isolation",
+        "loop",
+        "run",
+    ),
     *("session", "records", "export", "design", "identification", "result", "paper", "benchmark"),
-    *("arena", "study", "falsify", "rig", "hardware", "scene", "server", "client", "browser"),
+    *(
+        "arena",
+        "study",
+        "falsify",
+        "course",
+        "grading",
+        "leaderboard",
+        "rig",
+        "hardware",
+        "scene",
+        "server",
+        "client",
+    ),
+    "browser",
 )
 """Of the folders; what stands in none is \"\"."""
-
-
-LONGEST = (
-    "test_accessibility",
-    "test_runs",
-    "test_memory",
-    "test_view",
-    "test_life",
-    "test_layout",
-    "test_plots",
-    "test_crispness",
-    "test_replay_files",
-    "test_replay",
-)
-"""Of the browser tests, so that no process is left with one of them while the others are done."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -38,11 +56,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=rank)
 
 
-def rank(item: pytest.Item) -> tuple[int, int]:
-    name = item.path.stem
+def rank(item: pytest.Item) -> int:
     folders = item.path.relative_to(TESTS).parts[:-1]
-    folder = ORDER.index(folders[0] if folders else "")
-    return folder, LONGEST.index(name) if name in LONGEST else len(LONGEST)
+    return ORDER.index(folders[0] if folders else "")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> SideBySide | None:
+    return SideBySide(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 @pytest.hookimpl(hookwrapper=True)

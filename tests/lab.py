@@ -13,6 +13,8 @@ from typing import NamedTuple
 import httpx
 
 START_TIMEOUT_S = 300.0
+PATIENCE_S = 120.0
+"""Of a client: an answer that takes a busy machine longer is none."""
 
 
 class Lab(NamedTuple):
@@ -90,7 +92,9 @@ def run_lab(
         guard.cancel()
         url = f"http://127.0.0.1:{found_port}"
         headers = {"Authorization": f"Bearer {secret}"} if secret else None
-        with httpx.Client(base_url=url, headers=headers, timeout=30, trust_env=False) as client:
+        with httpx.Client(
+            base_url=url, headers=headers, timeout=PATIENCE_S, trust_env=False
+        ) as client:
             yield Lab(url, client, process)
     finally:
         guard.cancel()

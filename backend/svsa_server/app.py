@@ -3,10 +3,16 @@
 import asyncio
 import contextlib
 from collections.abc import AsyncIterator
+from functools import partial
+from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, FastAPI
 
 import svsa
+from svsa.course.file import read_course
+from svsa.course.progress import ProgressStore
+from svsa.errors import ParameterError, Violation
+from svsa.extras import require_extra
 from svsa.records.catalogue.runs import find_data_folder
 from svsa.run.configuration import load_prototype, read_design
 from svsa.session.session import Session
@@ -14,48 +20,60 @@ from svsa_server.access.audit import AuditLog, Auditor
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.doors import ClassDoor, Door, OpenDoor, SecretDoor
 from svsa_server.access.guard import AccessGuard
+from svsa_server.access.memberships import FILE, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.rates import Rates
 from svsa_server.access.roles import INSTRUCTOR
-from svsa_server.bench_start import open_bench
 from svsa_server.config import Settings
-from svsa_server.control_queue import ControlQueue
+from svsa_server.control.outcomes import OutcomeKeeper, Outcomes
+from svsa_server.control.queue import ControlQueue
 from svsa_server.errors import install_error_handlers
-from svsa_server.heavy_work import HeavyWork
-from svsa_server.jobs import Jobs
-from svsa_server.laboratory import SHARED_SESSION, Laboratory, build_shared_session
+from svsa_server.jobs.heavy_work import HeavyWork
+from svsa_server.jobs.queue import Jobs
 from svsa_server.openapi import install_openapi
-from svsa_server.outcomes import OutcomeKeeper, Outcomes
-from svsa_server.ownership import is_visible
 from svsa_server.page import build_page_routes
-from svsa_server.quota import DiskQuota
-from svsa_server.recording import Recordings, open_catalogue
 from svsa_server.routes import (
     access,
     arena,
+    audit,
     bench,
     classroom,
     control,
+    course,
     design,
     falsifications,
+    grades,
     identification,
     jobs,
     lab,
+    leaderboard,
     loads,
+    lti,
     outcomes,
     recordings,
     references,
     runs,
+    scenarios,
     sessions,
     settings,
     stability,
     studies,
     tunings,
 )
-from svsa_server.scenes import Scenes
-from svsa_server.turn import take_turn
-from svsa_server.viser_proxy import ViserProxy
+from svsa_server.scene.scenes import Scenes
+from svsa_server.scene.viser_proxy import ViserProxy
+from svsa_server.sessions.bench_start import open_bench
+from svsa_server.sessions.control_log import note_settled
+from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
+from svsa_server.sessions.ownership import is_visible
+from svsa_server.sessions.quota import DiskQuota
+from svsa_server.sessions.recording import Recordings, open_catalogue
+from svsa_server.sessions.turn import take_turn
 
+if TYPE_CHECKING:
+    from svsa_server.lti.tool import LtiTool
+
+MAX_GRADINGS = 2
 _DESCRIPTION = (
     "Position and stiffness control of a serial variable stiffness actuator. SI units; every"
     " field ends in its unit. A refused request changes nothing and says name, value, unit and"
@@ -90,6 +108,9 @@ def build_app(
     app.state.host = host
     app.state.shared = shared
     app.state.design = read_design(config.parameters) if config.parameters else load_prototype()
+    app.state.course = {one.name: one for one in read_course(config.course)}
+    app.state.course_progress = ProgressStore(find_data_folder())
+    app.state.lti = open_lti(config)
     app.state.outcomes = Outcomes()
     app.add_middleware(OutcomeKeeper, outcomes=app.state.outcomes)
     app.add_middleware(
@@ -108,6 +129,7 @@ def build_app(
         lab,
         access,
         classroom,
+        audit,
         sessions,
         control,
         bench,
@@ -117,17 +139,22 @@ def build_app(
         identification,
         loads,
         recordings,
+        course,
+        grades,
         references,
         runs,
         jobs,
         tunings,
         studies,
         falsifications,
+        scenarios,
         arena,
+        leaderboard,
         outcomes,
     ):
         api.include_router(part.router)
     app.include_router(api)
+    app.include_router(lti.router)
     app.router.routes.extend(build_page_routes())
     install_openapi(app, needs_secret=door.kind != "open")
     return app
@@ -136,8 +163,25 @@ def build_app(
 def build_door(config: Settings, keys: ClassKeys | None = None) -> Door:
     """How people come in, as it is configured."""
     if config.classroom:
-        return ClassDoor(keys or ClassKeys.open(find_data_folder())[0], People())
+        folder = find_data_folder()
+        keys = keys or ClassKeys.open(folder)[0]
+        return ClassDoor(keys, People(), Memberships(folder / FILE))
     return SecretDoor(config.secret_text) if config.secret_text else OpenDoor()
+
+
+def open_lti(config: Settings) -> "LtiTool | None":
+    """What takes launches of learning platforms, where it is told of any.
+
+    Raises `ParameterError` for a wrong file, or without a class that one could be launched into.
+    """
+    if config.lti is None:
+        return None
+    if not config.classroom:
+        raise ParameterError(Violation("SVSA_LTI", config.lti, "", "left out without --class"))
+    require_extra("lti")
+    from svsa_server.lti.tool import LtiTool
+
+    return LtiTool.open(config.lti, find_data_folder())
 
 
 def build_rates(config: Settings) -> Rates:
@@ -166,22 +210,26 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     shared = app.state.shared or build_shared_session(None, design=app.state.design)
     laboratory = Laboratory(
         shared,
-        config.most_sessions,
+        config.max_sessions,
         config.idle_s,
         config.control_s,
         build_queue(config) if config.classroom else None,
+        config.max_sessions_each if config.classroom else None,
+        *([partial(note_settled, app.state.audit)] if config.classroom else []),
     )
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
     app.state.recordings = Recordings(app.state.catalogue)
     quota = DiskQuota(app.state.catalogue, laboratory, config.quota_mb * 1e6)
     app.state.quota = quota
-    app.state.heavy_work = HeavyWork(config.most_exports)
+    app.state.heavy_work = HeavyWork(config.max_exports)
     app.state.jobs = Jobs(
         {
-            "tuning": config.most_tunings,
-            "study": config.most_studies,
-            "falsification": config.most_falsifications,
+            "tuning": config.max_tunings,
+            "study": config.max_studies,
+            "falsification": config.max_falsifications,
+            "submission": config.max_submissions,
+            "grading": MAX_GRADINGS,
         }
     )
     scenes = Scenes(laboratory)
@@ -194,6 +242,11 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         asyncio.create_task(open_bench(shared)),
         asyncio.create_task(quota.run()),
     ]
+    if app.state.lti is not None:
+        from svsa_server.lti.scores import ScoreSender
+
+        sender = ScoreSender(app.state.lti, app.state.course_progress, app.state.audit)
+        tasks.append(asyncio.create_task(sender.run()))
     try:
         yield
     finally:
@@ -207,5 +260,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         await app.state.recordings.close()
         await proxy.close()
         await scenes.close()
+        if app.state.lti is not None:
+            await app.state.lti.client.aclose()
         if config.classroom:
             app.state.audit.close()

@@ -10,18 +10,22 @@ from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
-from svsa.errors import ParameterError, StateError, SvsaError
+from svsa.errors import ParameterError, SecurityError, StateError, SvsaError
 from svsa.explanation import explain_problems
+from svsa.isolation.refusal import NotIsolatedError
 from svsa.records.catalogue.entry import CatalogueError, ChangedRunError, UnknownRunError
 from svsa.records.header import RecordError
 from svsa.study.store import StudyError
-from svsa_server.control import HeldError
-from svsa_server.heavy_work import RETRY_AFTER_S, BusyError
-from svsa_server.problems import LONGEST_ECHO, answer_problem, answer_violations
-
-
-class UnknownError(SvsaError):
-    """Something was named that does not exist here."""
+from svsa_server.control.hand import HeldError
+from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError
+from svsa_server.problems import (
+    LONGEST_ECHO,
+    ChangedError,
+    TooManyError,
+    UnknownError,
+    answer_problem,
+    answer_violations,
+)
 
 
 def install_error_handlers(app: FastAPI) -> None:
@@ -43,6 +47,10 @@ def install_error_handlers(app: FastAPI) -> None:
     def refuse_state(_: Request, error: StateError) -> JSONResponse:
         return answer_problem(409, "not_now", str(error))
 
+    @app.exception_handler(NotIsolatedError)
+    def refuse_law(_: Request, error: NotIsolatedError) -> JSONResponse:
+        return answer_problem(409, "not_isolated", str(error))
+
     @app.exception_handler(HeldError)
     def refuse_other(_: Request, error: HeldError) -> JSONResponse:
         return answer_problem(409, "held", str(error))
@@ -56,15 +64,21 @@ def install_error_handlers(app: FastAPI) -> None:
         return answer_problem(409, "study", str(error))
 
     @app.exception_handler(CatalogueError)
-    def refuse_storage(_: Request, error: CatalogueError) -> JSONResponse:
+    @app.exception_handler(SecurityError)
+    def refuse_storage(_: Request, error: SvsaError) -> JSONResponse:
         return answer_problem(507, "storage", str(error))
 
     @app.exception_handler(BusyError)
     def refuse_work(_: Request, error: BusyError) -> JSONResponse:
         return answer_problem(503, "busy", str(error), {"Retry-After": str(RETRY_AFTER_S)})
 
+    @app.exception_handler(TooManyError)
+    def refuse_more(_: Request, error: TooManyError) -> JSONResponse:
+        return answer_problem(429, "too_many", str(error))
+
     @app.exception_handler(ChangedRunError)
-    def refuse_change(_: Request, error: ChangedRunError) -> JSONResponse:
+    @app.exception_handler(ChangedError)
+    def refuse_change(_: Request, error: SvsaError) -> JSONResponse:
         return answer_problem(412, "changed", str(error))
 
     @app.exception_handler(UnknownRunError)
@@ -117,7 +131,7 @@ def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
         status, kind = 422, "malformed_json"
         message = "The body is no JSON that can be read: it is not UTF-8, or nested too deeply."
     else:
-        kind, message = "refused", str(error.detail)
+        kind, message = "too_large" if status == 413 else "refused", str(error.detail)
     return answer_problem(status, kind, message, headers)
 
 

@@ -1,13 +1,16 @@
 """The built page at `/`, and the documentation of REST and stream at `/docs`."""
 
 from pathlib import Path
+from urllib.parse import quote
 
 from starlette.requests import Request
-from starlette.responses import FileResponse, PlainTextResponse, Response
+from starlette.responses import FileResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
 PAGE = Path(__file__).parent / "page"
+PLACES = ("arena", "falsifier", "grades", "leaderboard", "learn", "runs", "studies")
+"""What of the page has an address that people type; the page itself keeps it in its query."""
 
 _HEADERS = {
     "Cache-Control": "no-cache",
@@ -26,12 +29,27 @@ def build_page_routes() -> list[BaseRoute]:
         Route("/", _serve_index),
         Route("/icon.svg", _serve_icon),
         Route("/docs", _serve_docs),
+        *(Route(f"/{place}", _lead_to_place) for place in PLACES),
+        Route("/learn/{exercise}", _lead_to_exercise),
+        Route("/learn/{exercise}/{step}", _lead_to_exercise),
         Mount("/assets", StaticFiles(directory=PAGE / "assets", check_dir=False)),
     ]
 
 
 async def _serve_index(_: Request) -> Response:
     return _serve_page("index.html")
+
+
+async def _lead_to_place(request: Request) -> Response:
+    here = request.url.path
+    return RedirectResponse(f"{here.rpartition('/')[0]}/?{here.rpartition('/')[2]}=all")
+
+
+async def _lead_to_exercise(request: Request) -> Response:
+    parts = request.path_params
+    start = "../" * len(parts)
+    named = "/".join(quote(part, safe="") for part in parts.values())
+    return RedirectResponse(f"{start}?learn={named}")
 
 
 async def _serve_docs(_: Request) -> Response:

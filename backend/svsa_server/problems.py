@@ -7,7 +7,7 @@ from typing import Any
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 
-from svsa.errors import Violation
+from svsa.errors import SvsaError, Violation
 
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:svsa:problem:"
@@ -20,6 +20,7 @@ TITLES = {
     "not_found": "It does not exist",
     "method_not_allowed": "The method is not possible there",
     "not_now": "It does not fit what the session is doing",
+    "not_isolated": "This machine cannot hold a law that nobody has read",
     "changed": "Somebody else has changed it meanwhile",
     "held": "Somebody else is in control",
     "record": "The record cannot be read",
@@ -31,6 +32,7 @@ TITLES = {
     "secret_needed": "The secret is needed",
     "wrong_code": "The class code is wrong",
     "join_needed": "The class has to be joined",
+    "removed": "Removed from the class",
     "too_many": "Too much at once",
     "not_allowed": "The role does not suffice",
     "not_yours": "It belongs to somebody else",
@@ -40,6 +42,18 @@ TITLES = {
     "refused": "Refused",
 }
 """What every kind of problem is called, in a few words that never change."""
+
+
+class UnknownError(SvsaError):
+    """Something was named that does not exist here."""
+
+
+class ChangedError(SvsaError):
+    """What was to be changed has been changed meanwhile; it stays as somebody else left it."""
+
+
+class TooManyError(SvsaError):
+    """Somebody has as many of something as each person may have; nothing was made."""
 
 
 class ViolationModel(BaseModel):

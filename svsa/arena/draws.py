@@ -24,15 +24,16 @@ def build_draw(number: int, seed: int = PUBLIC_SEED) -> Scenario:
     random = start_generator(seed, number)
     plant = tuple((name, float(random.uniform(0.5, 1.5))) for name in INERTIAS)
     sigma = MIN_SIGMA * (MAX_SIGMA / MIN_SIGMA) ** float(random.uniform())
-    rubs, shakes = float(random.uniform(0.0, 2.0)), float(random.uniform(0.0, 2.0))
+    coulomb_share, noise_share = float(random.uniform(0.0, 2.0)), float(random.uniform(0.0, 2.0))
     friction, noise = Friction(), SensorNoise()
     effects = RIG.changed(
         friction=Friction(
-            coulomb1_nm=rubs * friction.coulomb1_nm, coulomb2_nm=rubs * friction.coulomb2_nm
+            coulomb1_nm=coulomb_share * friction.coulomb1_nm,
+            coulomb2_nm=coulomb_share * friction.coulomb2_nm,
         ),
         noise=SensorNoise(
-            motor_std_rad=shakes * noise.motor_std_rad,
-            deflection_std_rad=shakes * noise.deflection_std_rad,
+            motor_std_rad=noise_share * noise.motor_std_rad,
+            deflection_std_rad=noise_share * noise.deflection_std_rad,
         ),
         delay_samples=int(random.integers(1, 3)),
     )

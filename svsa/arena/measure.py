@@ -30,11 +30,13 @@ from svsa.arena.sweeps import Sweep, build_sweeps
 from svsa.control.parameters import LawParameters
 from svsa.paper import STEADY_S
 from svsa.paper.reproduce import compute_table_row
+from svsa.release import __version__
 from svsa.result.result import Result
 from svsa.result.simulate import simulate
 
 SETTLED_DEG = 1.0
 LAST_S = 1.0
+REST_LAST_S = 2.0
 _FIGURE = {
     "before_deg": "rms_position_before_deg",
     "peak_deg": "peak_position_deg",
@@ -64,26 +66,35 @@ def measure_law(entry: Entry, tell: Tell = lambda done: None, seed: int = PUBLIC
     """The row of a law. tell: is given the share that is done. seed: of the draws' season."""
     results = {scenario.name: run_scenario(scenario, entry) for scenario in SINGLE}
     tell(0.15)
-    unloadings = [one.name for one in UNLOADINGS if run_scenario(one, entry).fault is not None]
+    unloaded = {one.name: measure_rest(run_scenario(one, entry)) for one in UNLOADINGS}
+    worst = max(unloaded, key=lambda name: _or_infinite(unloaded[name]))
     tell(0.3)
     largest_step = find_largest_step(entry)
     tell(0.4)
     draws = [(one, run_scenario(one, entry)) for one in build_draws(seed)]
     errors = [measure_rms(result, one.measured_s, one.duration_s) for one, result in draws]
-    middle = median(math.inf if error is None else error for error in errors)
+    middle = median(map(_or_infinite, errors))
     failed = tuple(one.name for one, result in draws if not has_held(result, one))
     tell(0.65)
-    sweeps = tuple(run_sweep(sweep, entry) for sweep in build_sweeps())
+    sweeps = tuple(
+        tally_sweep(
+            sweep,
+            [[has_held(run_scenario(run, entry), run) for run in runs] for runs in sweep.runs],
+        )
+        for sweep in build_sweeps()
+    )
     tell(0.95)
     outcomes = tuple(build_outcome(scenario, results[scenario.name]) for scenario in SINGLE)
-    parts = build_parts(sweeps, len(draws), len(failed), outcomes)
+    parts = build_parts(sweeps, len(draws), len(failed), [one.rms_deg for one in outcomes])
     ideal, rig = results[IDEAL_4A.name], results[RIG_4A.name]
     return Row(
         law=entry.law,
+        version=__version__,
         ideal_4a=FigureErrors(**_measure_figure(ideal)),
-        rig_4a=RigErrors(**_measure_figure(rig), recovery_s=_find_recovery(rig)),
+        rig_4a=build_rig_errors(rig),
         unloading_peak_deg=measure_peak(results[UNLOADING.name], OFF_S, UNLOADING.duration_s),
-        unloading_faults_of_48=len(unloadings),
+        unloading_faults_of_48=sum(error is None for error in unloaded.values()),
+        unloading_settled_deg=unloaded[worst],
         sine_2hz_rms_deg=measure_rms(results[SINE_2HZ.name], *STEADY_S),
         mass_rms_deg=measure_rms(results[MASS.name], *STEADY_S),
         draws_median_deg=middle if math.isfinite(middle) else None,
@@ -94,10 +105,22 @@ def measure_law(entry: Entry, tell: Tell = lambda done: None, seed: int = PUBLIC
         parts=parts,
         sweeps=sweeps,
         outcomes=outcomes,
-        unloadings_failed=tuple(unloadings),
+        unloadings_failed=tuple(name for name, error in unloaded.items() if error is None),
+        unloading_worst=worst,
         draws_failed=failed,
         corners_fails_of_8=sum(not has_held(run_scenario(one, entry), one) for one in CORNERS),
     )
+
+
+def build_rig_errors(result: Result) -> RigErrors:
+    """The errors of a figure's run of 20 s with its load at 5 s; None where it ended early."""
+    return RigErrors(**_measure_figure(result), recovery_s=_find_recovery(result))
+
+
+def measure_rest(result: Result) -> float | None:
+    """The rms position error of the last 2 s of a run, degrees; None where it ended early."""
+    end_s = len(result.samples) * result.configuration.sampling.period_s
+    return measure_rms(result, end_s - REST_LAST_S, end_s)
 
 
 def has_held(result: Result, scenario: Scenario) -> bool:
@@ -107,9 +130,8 @@ def has_held(result: Result, scenario: Scenario) -> bool:
     return error is not None and error <= SETTLED_DEG
 
 
-def run_sweep(sweep: Sweep, entry: Entry) -> SweepOutcome:
-    """How far a law holds as one thing gets worse."""
-    held = [[has_held(run_scenario(run, entry), run) for run in runs] for runs in sweep.runs]
+def tally_sweep(sweep: Sweep, held: Sequence[Sequence[bool]]) -> SweepOutcome:
+    """How far a law holds as one thing gets worse. held: whether each of `sweep.runs` has."""
     passed = tuple(sum(one) / len(one) for one in held)
     return SweepOutcome(
         sweep=sweep.name,
@@ -162,6 +184,10 @@ def measure_peak(result: Result, start_s: float, end_s: float) -> float | None:
     if result.fault is not None:
         return None
     return math.degrees(result.measure(start_s, end_s).peak_position_error_rad)
+
+
+def _or_infinite(error: float | None) -> float:
+    return math.inf if error is None else error
 
 
 def _measure_torque_change(torque: np.ndarray, result: Result, window: Sequence[float]) -> float:

@@ -37,6 +37,7 @@ PANELS = (
     Panel("… settled [°]", lambda row: row.rig_4a.steady_deg, "rig_4a"),
     Panel("unloading: peak [°]", lambda row: row.unloading_peak_deg, "unloading"),
     Panel("faults of 48 unloadings", lambda row: row.unloading_faults_of_48, is_log=False),
+    Panel("… settled, worst [°]", lambda row: row.unloading_settled_deg),
     Panel("2 Hz: rms [°]", lambda row: row.sine_2hz_rms_deg, "sine_2hz"),
     Panel("3 kg: rms [°]", lambda row: row.mass_rms_deg, "mass"),
     Panel("draws that fail, of 100", lambda row: row.draws_fails, is_log=False),
@@ -48,8 +49,10 @@ def save_comparison(results: Results, path: Path) -> None:
     """Every law's score with its parts, and the columns of the table, a bar a law."""
     rows = sorted(results.rows, key=lambda row: row.score)
     height = 1.4 + 0.24 * len(rows)
-    picture = Picture(figsize=(15.0, height), layout="constrained")
-    first, *others = picture.subplots(1, 1 + len(PANELS), sharey=True, width_ratios=[1.5] + [1] * 8)
+    picture = Picture(figsize=(16.5, height), layout="constrained")
+    first, *others = picture.subplots(
+        1, 1 + len(PANELS), sharey=True, width_ratios=[1.5] + [1] * len(PANELS)
+    )
     left = np.zeros(len(rows))
     for name, color, weight in PARTS:
         widths = np.array([weight * getattr(row.parts, name) for row in rows])
@@ -74,7 +77,7 @@ def _draw_panel(axes: Axes, panel: Panel, rows: Sequence[Row]) -> None:
     for at, row in enumerate(rows):
         value, fault = panel.read(row), row.faults.get(panel.scenario, "")
         if value is None:
-            told = label_fault(fault).lower() if fault else "never"
+            told = label_fault(fault).lower() if fault else "never" if panel.scenario else "fault"
             axes.text(0.03, at, told, va="center", fontsize=7.5, color="#a8201a",
                       transform=axes.get_yaxis_transform())  # fmt: skip
             continue

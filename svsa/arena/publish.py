@@ -4,13 +4,16 @@ Every number comes from the results, and idea, equation and source from the law'
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from svsa.arena.bench_runs import BenchRuns
+from svsa.arena.bench_table import build_section, format_bench
 from svsa.arena.results import Results
 from svsa.arena.row import Row
 from svsa.arena.table import format_markdown
+from svsa.control.call import is_measuring
 from svsa.control.gains import Gains
 from svsa.control.installed import PAPERS_LAW, get_law, get_notes, get_title
 from svsa.control.law import Law, Nothing
@@ -20,7 +23,8 @@ FOLDER = Path("docs") / "laws"
 README = Path("README.md")
 LOSSES = Path("docs") / "laws" / "pictures" / "losses.png"
 _BLOCK = re.compile(r"(<!-- arena -->\n).*?(<!-- /arena -->)", re.DOTALL)
-_DOI = re.compile(r"10\.\d{4,}/")
+_DOI = re.compile(r"doi:(10\.\d{4,}/\S+)")
+_EQUATION = re.compile(r"Eq \d+")
 _ESTIMATES = {
     "none": "No estimate of the load.",
     "observer": "ŵ of the loop's disturbance observer.",
@@ -69,6 +73,7 @@ COLUMNS = (
     Column("Figure 4A on the rig: recovery", " s", lambda row: row.rig_4a.recovery_s, "rig_4a"),
     Column("Unloading: peak", "°", lambda row: row.unloading_peak_deg, "unloading"),
     Column("Faults of 48 unloadings", "", lambda row: row.unloading_faults_of_48),
+    Column("Worst of 48 unloadings: settled", "°", lambda row: row.unloading_settled_deg),
     Column("1.5 N·m at 2 Hz: rms", "°", lambda row: row.sine_2hz_rms_deg, "sine_2hz"),
     Column("3 kg on the arm: rms", "°", lambda row: row.mass_rms_deg, "mass"),
     Column("Blows of 3 N·m: rms", "°", _read_rms("pulses"), "pulses"),
@@ -83,8 +88,8 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def build_law_page(results: Results, name: str) -> str:
-    """The page of a law, Markdown."""
+def build_law_page(results: Results, bench: BenchRuns, name: str) -> str:
+    """The page of a law, Markdown. bench: runs on the emulated rig, where it has some."""
     law, row, papers = get_law(name), results.get_row(name), results.get_row(PAPERS_LAW)
     count = len(results.rows)
     lines = [
@@ -114,20 +119,29 @@ def build_law_page(results: Results, name: str) -> str:
     lines += ["", "| sweep | held | NDOBC |", "| --- | --- | --- |"]
     for one, other in zip(row.sweeps, papers.sweeps, strict=True):
         lines.append(f"| {one.title} | {one.share:.0%} | {other.share:.0%} |")
-    lines += ["", _tell_provenance(results), "", "[All laws](README.md)", ""]
+    lines += [
+        "",
+        _tell_provenance(results, [row]),
+        *build_section(bench, name),
+        "",
+        "[All laws](README.md)",
+        "",
+    ]
     return "\n".join(lines)
 
 
 def _cite(law: Law) -> list[str]:
-    if _DOI.match(law.source):
-        return [f"Source: [doi:{law.source}](https://doi.org/{law.source})", ""]
-    return [f"Source: {law.source} of the paper", ""] if law.source else []
+    if _EQUATION.fullmatch(law.source):
+        return [f"Source: {law.source} of the paper", ""]
+    linked = _DOI.sub(r"[doi:\1](https://doi.org/\1)", law.source)
+    return [f"Source: {linked}", ""] if linked else []
 
 
 def _list_needs(law: Law) -> list[str]:
     size = len(law.start_memory())
     memory = "Nothing of the past." if law.memory is Nothing else f"A memory of {size} numbers."
-    return [_ESTIMATES[law.estimate], memory]
+    measured = ["The positions that the encoders say."] if is_measuring(law.control) else []
+    return [_ESTIMATES[law.estimate], *measured, memory]
 
 
 def _build_parameters(law: Law) -> list[str]:
@@ -158,16 +172,17 @@ def _judge(results: Results, row: Row) -> list[str]:
     ]
 
 
-def _tell_provenance(results: Results) -> str:
+def _tell_provenance(results: Results, rows: Sequence[Row]) -> str:
+    versions = " and ".join(sorted({row.version for row in rows}))
     return (
-        f"Simulated with the law's defaults; suite {results.suite}, draws of the"
-        f" {'public seed' if results.is_public else 'seed ' + results.seed}. The same again:"
+        f"Simulated by SVSA Lab {versions} with the law's defaults; suite {results.suite}, draws of"
+        f" the {'public seed' if results.is_public else 'seed ' + results.seed}. The same again:"
         " `svsa arena run`."
     )
 
 
-def build_index(results: Results) -> str:
-    """The list of laws, best score first."""
+def build_index(results: Results, bench: BenchRuns) -> str:
+    """The list of laws, best score first, and those that ran on the emulated rig."""
     rows = sorted(results.rows, key=lambda row: -row.score)
     lines = [
         "# The laws",
@@ -182,7 +197,17 @@ def build_index(results: Results) -> str:
     for row in rows:
         summary = get_law(row.law).summary
         lines.append(f"| [{get_title(row.law)}]({row.law}.md) | {row.score:.2f} | {summary} |")
-    return "\n".join([*lines, "", _tell_provenance(results), ""])
+    lines += ["", _tell_provenance(results, rows), "", "## On the emulated rig", ""]
+    lines += [
+        "The paper's bench figures through CAN, frame by frame, in lockstep: position errors in"
+        " degrees as the bench measures them (rms 1–5 s, peak after the cable's 2 N·m at 5 s, rms"
+        " 8–20 s), recovery in seconds. The same again, for any law:"
+        f" `svsa arena bench {' '.join(bench.laws)}`.",
+        "",
+        format_bench(bench, PAPERS_LAW),
+        "",
+    ]
+    return "\n".join(lines)
 
 
 def fill_readme(text: str, results: Results) -> str:
@@ -190,17 +215,17 @@ def fill_readme(text: str, results: Results) -> str:
     return _BLOCK.sub(lambda m: f"{m[1]}{format_markdown(results.rows)}\n{m[2]}", text)
 
 
-def publish(root: Path, results: Results) -> None:
+def publish(root: Path, results: Results, bench: BenchRuns) -> None:
     """Write pages, index, pictures and the README's table into a source tree."""
     from svsa.arena.picture import save_law, save_losses
 
     pictures = root / FOLDER / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
     for row in results.rows:
-        page = build_law_page(results, row.law)
+        page = build_law_page(results, bench, row.law)
         (root / FOLDER / f"{row.law}.md").write_text(page, encoding="utf-8")
         save_law(results, row.law, pictures / f"{row.law}.png")
-    (root / FOLDER / "README.md").write_text(build_index(results), encoding="utf-8")
+    (root / FOLDER / "README.md").write_text(build_index(results, bench), encoding="utf-8")
     save_losses(root / LOSSES)
     readme = (root / README).read_text(encoding="utf-8")
     (root / README).write_text(fill_readme(readme, results), encoding="utf-8")

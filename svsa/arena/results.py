@@ -15,26 +15,23 @@ from svsa.arena.row import Row
 from svsa.arena.seeds import PUBLIC_SEED, SUITE_VERSION
 from svsa.checked import Checked, quantity
 from svsa.errors import ParameterError, Violation
-from svsa.release import __version__
 
 PUBLISHED = Path(__file__).parent / "results.json"
 
 
 class Results(Checked):
-    """Rows, and what they were measured with."""
+    """Rows, and the suite and the draws that they were measured on."""
 
     suite: str = quantity("", "Version of the suite")
-    version: str = quantity("", "Version of the lab")
     is_public: bool = quantity("", "Whether the draws are those of the public seed")
     seed: str = quantity("", "Seed of the draws, in hexadecimal")
     rows: tuple[Row, ...] = quantity("", "A row a law")
 
     @classmethod
     def build(cls, rows: Sequence[Row], seed: int) -> Self:
-        """Of rows that were measured here and now."""
+        """Of rows that were measured with this suite and draws of this seed."""
         return cls(
             suite=SUITE_VERSION,
-            version=__version__,
             is_public=seed == PUBLIC_SEED,
             seed=f"{seed:016x}",
             rows=tuple(rows),
@@ -47,6 +44,20 @@ class Results(Checked):
                 return row
         bound = "one of " + ", ".join(row.law for row in self.rows)
         raise ParameterError(Violation("law", law, "", bound))
+
+    def renew(self, newer: Self) -> Self:
+        """With the rows of `newer` in place of those of the same laws, others behind them.
+
+        Raises `ParameterError` where one of them has another suite or other draws: numbers of
+        different runs do not stand in one table.
+        """
+        for name in ("suite", "seed"):
+            kept, found = getattr(self, name), getattr(newer, name)
+            if kept != found:
+                bound = f"{kept}, as the rows that stay were measured with"
+                raise ParameterError(Violation(name, found, "", bound))
+        rows = {row.law: row for row in (*self.rows, *newer.rows)}
+        return self.changed(rows=tuple(rows.values()))
 
 
 def write_results(path: Path, results: Results) -> None:

@@ -8,6 +8,7 @@ import math
 from itertools import product
 from typing import NamedTuple
 
+from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.paper import FIGURES, LOAD_TIME_S
 from svsa.plant.disturbances import (
     PAPER_TORQUE_NM,
@@ -30,10 +31,11 @@ from svsa.plant.effects import (
 from svsa.reference.sine import ConstantStiffness
 from svsa.reference.steps import StepsPosition
 from svsa.reference.trajectories import PositionReference
-from svsa.run.configuration import Configuration
+from svsa.run.configuration import Configuration, Lane
 
 LOADED_S = 3.0
-AFTER_S = 2.0
+PEAK_S, REST_S = 2.0, 5.0
+"""How long a run goes on without the load: until its peak is over, until what stays is seen."""
 
 TrueOverNominal = tuple[tuple[str, float], ...]
 """Names of `ActuatorParameters`, each with the true value over the nominal one."""
@@ -75,6 +77,11 @@ class Scenario(NamedTuple):
             seed=self.seed,
         )
 
+    def build_compared(self, law: str) -> Configuration:
+        """The same beside NDOBC, and NDOBC beside FL."""
+        beside = BASELINE if law == PAPERS_LAW else PAPERS_LAW
+        return self.build_configuration(law).changed(rivals=(Lane(law=beside),))
+
 
 PAPER = PaperLoad(start_s=LOAD_TIME_S)
 INERTIAS = ("link_inertia_kg_m2", "motor1_inertia_kg_m2", "motor2_inertia_kg_m2")
@@ -85,8 +92,10 @@ RIG_4B = Scenario("rig_4b", "Figure 4B on the rig", (PAPER,), figure="4b")
 RIG_5 = Scenario("rig_5", "Figure 5 on the rig", (PAPER,), figure="5")
 
 
-def _build_unloading(name: str, title: str, stiffness: float, off_s: float) -> Scenario:
-    """The paper's load, taken off at a time, s."""
+def _build_unloading(
+    name: str, title: str, stiffness: float, off_s: float, after_s: float
+) -> Scenario:
+    """The paper's load, taken off at a time, s. after_s: how long the run then goes on."""
     torque = (PAPER_TORQUE_NM, PAPER_TORQUE_NM, PAPER_TORQUE_NM)
     load = PulseLoad(torque_nm=torque, start_s=off_s - LOADED_S, duration_s=LOADED_S)
     return Scenario(
@@ -94,19 +103,20 @@ def _build_unloading(name: str, title: str, stiffness: float, off_s: float) -> S
         title,
         (load,),
         stiffness_nm_per_rad=stiffness,
-        duration_s=off_s + AFTER_S,
+        duration_s=off_s + after_s,
         measured_s=off_s,
     )
 
 
 OFF_S = 8.0
-UNLOADING = _build_unloading("unloading", "The paper's load taken off at 8 s", 15.0, OFF_S)
+UNLOADING = _build_unloading("unloading", "The paper's load taken off at 8 s", 15.0, OFF_S, PEAK_S)
 UNLOADINGS = tuple(
     _build_unloading(
         f"unloading_{stiffness:g}_{phase}",
         f"Load taken off at σ = {stiffness:g}, {phase}/16 of the period",
         stiffness,
         OFF_S + phase * 5.0 / 16.0,
+        REST_S,
     )
     for stiffness in (12.0, 15.0, 18.0)
     for phase in range(16)

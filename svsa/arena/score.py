@@ -8,28 +8,28 @@ import math
 from collections.abc import Iterable, Sequence
 from statistics import mean
 
-from svsa.arena.row import Outcome, ScoreParts, SweepOutcome
+from svsa.arena.row import ScoreParts, SweepOutcome
 
 ROBUSTNESS, DRAWS, ACCURACY = 0.5, 0.3, 0.2
 REFERENCE_DEG = 1.0
 
 
-def compute_accuracy(outcomes: Iterable[Outcome]) -> float:
-    """The mean of 1 − tanh(rms / 1°) over scenarios; a run that ended early counts 0."""
-    return mean(
-        0.0 if one.rms_deg is None else 1.0 - math.tanh(one.rms_deg / REFERENCE_DEG)
-        for one in outcomes
-    )
+def compute_accuracy(errors_deg: Iterable[float | None]) -> float:
+    """The mean of 1 − tanh(rms / 1°) over runs; one that ended early has None and counts 0."""
+    return mean(0.0 if rms is None else 1.0 - math.tanh(rms / REFERENCE_DEG) for rms in errors_deg)
 
 
 def build_parts(
-    sweeps: Sequence[SweepOutcome], draws: int, fails: int, outcomes: Iterable[Outcome]
+    sweeps: Sequence[SweepOutcome], draws: int, fails: int, errors_deg: Iterable[float | None]
 ) -> ScoreParts:
-    """The parts of a law's score. draws: how many were made, fails: of them did not hold."""
+    """The parts of a law's score. draws: how many were made, fails: of them did not hold.
+
+    errors_deg: rms in the scenarios that are told one by one.
+    """
     return ScoreParts(
         robustness=mean(sweep.share for sweep in sweeps),
         draws=1.0 - fails / draws,
-        accuracy=compute_accuracy(outcomes),
+        accuracy=compute_accuracy(errors_deg),
     )
 
 

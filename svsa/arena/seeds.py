@@ -6,7 +6,8 @@ import hmac
 import numpy as np
 
 SUITE_VERSION = "1"
-"""Changes with every scenario, draw, sweep or weight of the score: scores compare within one."""
+"""Changes with all that the score counts, draws, sweeps, scenarios, weights: scores compare within
+one."""
 
 
 def derive_seed(secret: bytes, version: str = SUITE_VERSION) -> int:

@@ -12,6 +12,7 @@ HEADINGS = (
     "4A rig: peak / steady / recovery s",
     "unloading",
     "faults of 48",
+    "settled, worst of 48",
     "2 Hz",
     "3 kg",
     "draws: median / faults / fails",
@@ -31,7 +32,6 @@ def build_cells(row: Row) -> tuple[str, ...]:
             return faults[name]
         return " / ".join("never" if number is None else f"{number:.3g}" for number in numbers)
 
-    middle = row.draws_median_deg
     return (
         get_title(row.law),
         f"{row.score:.2f}",
@@ -39,17 +39,21 @@ def build_cells(row: Row) -> tuple[str, ...]:
         tell("rig_4a", (rig.peak_deg, rig.steady_deg, rig.recovery_s)),
         tell("unloading", (row.unloading_peak_deg,)),
         str(row.unloading_faults_of_48),
+        _tell_or_fault(row.unloading_settled_deg),
         tell("sine_2hz", (row.sine_2hz_rms_deg,)),
         tell("mass", (row.mass_rms_deg,)),
-        f"{'fault' if middle is None else format(middle, '.3g')}"
-        f" / {row.draws_faults} / {row.draws_fails}",
+        f"{_tell_or_fault(row.draws_median_deg)} / {row.draws_faults} / {row.draws_fails}",
         f"{row.largest_link_step_nm:g}",
     )
 
 
+def _tell_or_fault(number: float | None) -> str:
+    return "fault" if number is None else f"{number:.3g}"
+
+
 SHORT = (
-    "law", "score", "ideal", "peak", "settled", "recov.", "unload", "of 48", "2 Hz", "3 kg",
-    "draws", "fails", "step",
+    "law", "score", "ideal", "peak", "settled", "recov.", "unload", "of 48", "worst", "2 Hz",
+    "3 kg", "draws", "fails", "step",
 )  # fmt: skip
 """Of the table on a terminal: 4A ideal settled; on the rig peak, settled, recovery in s."""
 
@@ -71,6 +75,7 @@ def build_short_cells(row: Row) -> tuple[str, ...]:
         tell(row.rig_4a.recovery_s, "rig_4a"),
         tell(row.unloading_peak_deg, "unloading"),
         str(row.unloading_faults_of_48),
+        tell(row.unloading_settled_deg),
         tell(row.sine_2hz_rms_deg, "sine_2hz"),
         tell(row.mass_rms_deg, "mass"),
         tell(row.draws_median_deg),

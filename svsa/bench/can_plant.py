@@ -14,11 +14,12 @@ from svsa.bench.drives.drive import Drive, build_broadcast_resets
 from svsa.bench.drives.phase import Phase
 from svsa.bench.file import BenchFile
 from svsa.bench.homing import Axis
+from svsa.bench.reading import Reading
 from svsa.bench.safety.faults import Alarm
-from svsa.bench.safety.guard import Guard
+from svsa.bench.safety.guard import Guard, MotorGuard
 from svsa.bench.safety.heartbeat import Heartbeats, Slot
 from svsa.bench.safety.machine import NO_TORQUE, BenchStatus, Conditions, Machine
-from svsa.bench.sensing import Reading, Sensing
+from svsa.bench.sensing import Sensing
 from svsa.errors import Fault, StateError, SvsaError
 from svsa.signals import Disturbance, State, Torque
 
@@ -83,6 +84,11 @@ class CanPlant:
     def emulated(self) -> bool:
         """Whether the bus said that there is no machine behind it."""
         return self._sensing.emulated
+
+    @property
+    def motors(self) -> tuple[MotorGuard, MotorGuard]:
+        """Heat and limits of both motors."""
+        return self._guard.motors
 
     def open(self) -> None:
         """Open bus and encoder, and reset the drives, which may hold an old current for ever.
@@ -155,6 +161,10 @@ class CanPlant:
     def fail(self, code: str, message: str, values: dict[str, float]) -> None:
         """Latch a fault that was found elsewhere."""
         self._machine.fail(Alarm(code, message, values))
+
+    def catch_up(self) -> None:
+        """Take what has come since `open`: thousands of frames where the loop took long to load."""
+        self._sensing.catch_up(self._get_bus(), self._clock.now())
 
     def listen(self) -> None:
         """Fetch the frames that have come before a tick is due: less is left to do in it."""

@@ -2,7 +2,6 @@
 
 import contextlib
 import math
-from typing import NamedTuple
 
 import can
 
@@ -17,29 +16,18 @@ from svsa.bench.emulation import EMULATED_ID
 from svsa.bench.encoders import read_source
 from svsa.bench.encoders.source import EncoderError
 from svsa.bench.file import BenchFile
+from svsa.bench.reading import Reading
 from svsa.bench.safety.faults import Alarm
 from svsa.bench.safety.standstill import NewCounts
 from svsa.signals import Measurement, State
 
 MAX_FRAMES_A_TICK = 200
+MAX_FRAMES_UNHEARD = 100_000
+"""Some seconds of a bus that never rests."""
 NEW_PERIODS = 2
 FRESH_PERIODS = 5
 """What is older says nothing of the present: x̂ goes on by its model alone."""
 UNHEARD = (math.inf, math.inf, math.inf)
-
-
-class Reading(NamedTuple):
-    """What a tick found. measurement: angles moved on to now; None until all three are known,
-    and where one has not been heard of for `stale_fault_s`.
-
-    current_a: of both motors, as their drives say, and 0 where they have not for that long.
-    ages_s: of motor 1, motor 2, deflection. counts: the same three.
-    """
-
-    measurement: Measurement | None
-    current_a: tuple[float, float]
-    ages_s: tuple[float, float, float]
-    counts: tuple[int, int, int]
 
 
 class Sensing:
@@ -83,6 +71,12 @@ class Sensing:
     def forget_alarm(self) -> None:
         """What went wrong before counts no longer."""
         self._alarm = None
+
+    def catch_up(self, bus: can.BusABC, now: float) -> None:
+        """Take what has come while nobody listened, for which a tick has no time."""
+        with contextlib.suppress(*BUS_TROUBLE):
+            for message in take_waiting(bus, self._settings, MAX_FRAMES_UNHEARD):
+                self._take(message, now)
 
     def listen(self, bus: can.BusABC) -> None:
         """Fetch what has come so far, for the next `read`; trouble is left for it to find."""

@@ -7,7 +7,6 @@ their ratio speaks: it is hardly moved by what else the machine does, nor by how
 import ctypes
 import os
 import resource
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -19,6 +18,8 @@ import numpy as np
 
 from svsa.benchmark.batch_rates import measure_effects, measure_two_cores
 from svsa.benchmark.bench_tick import measure_bench_tick
+from svsa.benchmark.c_compiler import FLAGS, find_c_compiler
+from svsa.benchmark.peers.comparison import measure_peers
 from svsa.benchmark.turns import measure_in_turns
 from svsa.control.feedback_linearization import build_gains
 from svsa.control.installed import BASELINE, PAPERS_LAW
@@ -33,7 +34,6 @@ from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
 C_LOOP = Path(__file__).parents[2] / "tests" / "bench" / "loop.c"
-FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC")
 LANES = 32
 REPEATS = 15
 FIGURE, LAW = "4a", "ndobc"
@@ -54,12 +54,12 @@ def build_c_loop(folder: Path) -> CLoop | None:
 
     The source is a file of the tests: an installed package has none.
     """
-    compiler = os.environ.get("CC") or shutil.which("cc")
+    compiler = find_c_compiler()
     if compiler is None or not C_LOOP.exists():
         return None
     library = folder / "loop.so"
     subprocess.run(  # noqa: S603  the machine's own compiler on a file of this project
-        [compiler, *FLAGS, "-o", str(library), str(C_LOOP), "-lm"], check=True
+        [compiler, *FLAGS, "-shared", "-fPIC", "-o", str(library), str(C_LOOP), "-lm"], check=True
     )
     loaded = ctypes.CDLL(str(library))
     loaded.run_one.restype = loaded.run_lanes.restype = ctypes.c_long
@@ -141,6 +141,7 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
         "two_cores_over_one": measure_two_cores(batch, ticks, repeats),
         "load_average": os.getloadavg()[0],
         "bench_tick_cpu_us": 1e6 * measure_bench_tick(run, repeats),
+        "peers": {name: each._asdict() for name, each in measure_peers(repeats).items()},
     }
 
 

@@ -51,10 +51,10 @@ class Settings(TypedDict, total=False):
 
 
 async def connect_async(
-    url: str = "http://127.0.0.1:8000", secret: str | None = None, **options: Any
+    url: str = "http://127.0.0.1:8000", token: str | None = None, **options: Any
 ) -> "AsyncLab":
     """A running lab; options: those of `svsa.connect`. Raises `LabError` where none answers."""
-    return AsyncLab(await asyncio.to_thread(connect, url, secret, **options))
+    return AsyncLab(await asyncio.to_thread(connect, url, token, **options))
 
 
 class AsyncLab:
@@ -130,6 +130,14 @@ class AsyncSession:
         """
         for name, value in settings.items():
             await asyncio.to_thread(setattr, self.session, name, value)
+
+    async def repeat_position(self) -> None:
+        """Begin the position reference again, faded over."""
+        await asyncio.to_thread(self.session.repeat_position)
+
+    async def repeat_stiffness(self) -> None:
+        """Begin the stiffness reference again, faded over."""
+        await asyncio.to_thread(self.session.repeat_stiffness)
 
     async def set_parameters(self, law: str, **values: float) -> None:
         """Parameters of a law that has its own; what is left out stays."""

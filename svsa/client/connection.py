@@ -4,6 +4,7 @@ A changing call has a name of its own (`SVSA-Request`). Where its answer is lost
 asked by that name whether it was carried out; it is sent again only where it never came.
 """
 
+import ssl
 import time
 import uuid
 from typing import Any, Self
@@ -23,23 +24,27 @@ _NOT_SENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
 class Connection:
     """An address of a lab, and how a script shows itself there.
 
-    secret: the lab's, or a token of its class, or None where it has neither. client: what the
+    token: of its class, or the lab's secret, or None where it has neither. client: what the
     script is known by; the lab gives control to it. patience_s: for how long a lab that does not
     answer, is busy or starts again is asked anew, s.
     """
 
     def __init__(
-        self, url: str, secret: str | None = None, client: str = "", patience_s: float = 30.0
+        self, url: str, token: str | None = None, client: str = "", patience_s: float = 30.0
     ) -> None:
         self.url = url.rstrip("/")
         self.client = client or f"script-{uuid.uuid4().hex}"
         self.patience_s = patience_s
         self.headers = {"SVSA-Client": quote(self.client)}
-        if secret:
-            self.headers["Authorization"] = f"Bearer {secret}"
+        if token:
+            self.headers["Authorization"] = f"Bearer {token}"
         timeout = httpx.Timeout(ANSWER_S, connect=CONNECT_S)
         self._http = httpx.Client(
-            base_url=self.url + API, headers=self.headers, timeout=timeout, trust_env=False
+            base_url=self.url + API,
+            headers=self.headers,
+            timeout=timeout,
+            trust_env=False,
+            verify=ssl.create_default_context(),  # what the machine trusts, as its streams do
         )
 
     def __enter__(self) -> Self:
@@ -102,29 +107,40 @@ class Connection:
     def _was_carried_out(self, name: str, what: str, sent_at: float, until: float) -> bool:
         """Whether the lab has carried out the call of this name; False: it never came there."""
         while time.monotonic() < until:
-            try:
-                told = self._http.get(f"/requests/{name}").json()
-            except (httpx.TransportError, ValueError):
-                time.sleep(PAUSE_S)
-                continue
-            if told["outcome"] == "carried_out":
-                return True
-            if told["outcome"] == "refused":
-                raise LostAnswerError(
-                    f"{what} was refused with {told['status']}; the reason was lost on the way."
-                )
-            if told["outcome"] == "unknown":
-                if told["age_s"] > time.monotonic() - sent_at:
-                    return False
-                raise LostAnswerError(
-                    f"The lab began anew while {what} was under way:"
-                    " nobody knows whether it was carried out."
-                )
+            match self._read_outcome(name):
+                case {"outcome": "carried_out"}:
+                    return True
+                case {"outcome": "refused", "status": status}:
+                    raise LostAnswerError(
+                        f"{what} was refused with {status}; the reason was lost on the way."
+                    )
+                case {"outcome": "unknown", "age_s": float() | int() as age_s}:
+                    if age_s > time.monotonic() - sent_at:
+                        return False
+                    raise LostAnswerError(
+                        f"The lab began anew while {what} was under way:"
+                        " nobody knows whether it was carried out."
+                    )
             time.sleep(PAUSE_S)
         raise LostAnswerError(
             f"{what} was sent, and its answer did not come within {self.patience_s:g} s:"
             " whether it was carried out is not known."
         )
+
+    def _read_outcome(self, name: str) -> Any:
+        """What the lab says of the call of this name; None where it says nothing of it now.
+
+        A lab that is too busy for it, starts again or has a proxy before it may answer otherwise;
+        one that refuses who asks is not asked again.
+        """
+        try:
+            answer = self._http.get(f"/requests/{name}")
+        except httpx.TransportError:
+            return None
+        told = _read_json(answer)
+        if answer.status_code in (401, 403):
+            raise build_refusal(answer.status_code, told)
+        return told if answer.is_success else None
 
 
 def _read_json(answer: httpx.Response) -> Any:

@@ -2,13 +2,14 @@
 
 import os
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any, Self
 
 from svsa.checked import check_number
 from svsa.client.connection import Connection
 from svsa.client.runs import RemoteRuns
 from svsa.client.session import RemoteSession, dump_lane
+from svsa.client.studies import RemoteStudies
 from svsa.errors import FaultError, ParameterError, Violation
 from svsa.paper import DURATION_S, Figure, get_figure
 from svsa.result.result import Result
@@ -22,19 +23,18 @@ SETTINGS = ("position", "stiffness", "gains", "observer", "actuator", "nominal",
 
 def connect(
     url: str = "http://127.0.0.1:8000",
-    secret: str | None = None,
+    token: str | None = None,
     *,
     client: str = "",
     patience_s: float = 30.0,
 ) -> "Lab":
     """A running lab; a context closes it. Raises `LabError` where none answers.
 
-    secret: the lab's, or a token of its class; left out, that of the environment (SVSA_SECRET).
-    client: what the lab knows
-    this script by, drawn at random if left out. patience_s: for how long a lab that does not
-    answer, or is busy, is asked again, s.
+    token: of its class, or the lab's secret; left out, that of the environment (SVSA_SECRET).
+    client: what the lab knows this script by, drawn at random if left out. patience_s: for how
+    long a lab that does not answer, or is busy, is asked again, s.
     """
-    connection = Connection(url, secret or os.environ.get("SVSA_SECRET"), client, patience_s)
+    connection = Connection(url, token or os.environ.get("SVSA_SECRET"), client, patience_s)
     try:
         connection.read("/laws")
     except BaseException:
@@ -47,12 +47,13 @@ class Lab:
     """A running lab over its public API.
 
     session: the one that everybody shares, with the bench where there is one. runs: what was
-    recorded there.
+    recorded there. studies: those that were begun there.
     """
 
     def __init__(self, connection: Connection) -> None:
         self.connection = connection
         self.runs = RemoteRuns(connection)
+        self.studies = RemoteStudies(connection)
         self.session = self.open_session(SHARED)
 
     def __enter__(self) -> Self:
@@ -98,6 +99,35 @@ class Lab:
             yield session
         finally:
             session.end()
+
+    @contextmanager
+    def operate(
+        self, figure: str = "4a", law: str = "ndobc", **settings: Any
+    ) -> Iterator[RemoteSession]:
+        """The shared session, set as a private one would be, at rest at t = 0; then given back.
+
+        Asks for control of it, and in a class waits for its turn as a person does. A bench stays
+        armed and at home, is watched by this script while the block lasts, and moves from the first
+        `run_until` on: somebody has to stand beside it. settings: load, rivals, effects.
+        """
+        session = self.session
+        session.take_control()
+        try:
+            session.come_to_rest()
+            wanted = {"figure": figure, "law": law, "start": False} | settings
+            session.call("POST", "/experiment", wanted)
+            with session.watch():
+                yield session
+                session.come_to_rest()
+        finally:
+            session.pause()
+            session.give_control_back()
+
+    def experiment(
+        self, shared: bool, seed: int = 0, **settings: Any
+    ) -> AbstractContextManager[RemoteSession]:
+        """`operate`, or `private` with this seed; the noise of the shared session is its own."""
+        return self.operate(**settings) if shared else self.private(seed=seed, **settings)
 
     def run(
         self,
@@ -163,11 +193,15 @@ def _check_fixed(session: RemoteSession, wanted: Configuration) -> None:
 
 
 def _give(session: RemoteSession, change: Change) -> None:
-    """What a change gives, as calls."""
+    """What a change gives, as calls; of a run, what is followed already begins again."""
     if change.load is not None:
         session.loads.add(change.load)
     for law, parameters in (change.parameters or {}).items():
         session.set_parameters(law, **parameters.model_dump(mode="json"))
     for kind, value in change.list_given().items():
-        if kind not in ("load", "parameters"):
+        if kind == "position" and value == session.position:
+            session.repeat_position()
+        elif kind == "stiffness" and value == session.stiffness:
+            session.repeat_stiffness()
+        elif kind not in ("load", "parameters"):
             setattr(session, kind, value)

@@ -1,19 +1,19 @@
 """A session of a lab: shared or private, simulated or a bench, by the same words."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from typing import Any, Literal
 
 from pydantic import TypeAdapter
 
 from svsa.client.connection import Connection
-from svsa.client.control import ControlledDoor
 from svsa.client.door import SessionDoor
 from svsa.client.loads import Loads
+from svsa.client.motion import MovingDoor
 from svsa.client.recording import Recording
 from svsa.client.runs import RemoteRuns
 from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
-from svsa.errors import Fault, FaultError
 from svsa.observer.disturbance import ObserverBandwidth
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import Effects
@@ -21,16 +21,16 @@ from svsa.reference.trajectories import PositionReference, StiffnessReference
 from svsa.result.channels import ChannelName
 from svsa.run.configuration import Lane
 
-MAX_STEP_TICKS = 10_000
 _POSITION: TypeAdapter[PositionReference] = TypeAdapter(PositionReference)
 _STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)
 
 
-class RemoteSession(ControlledDoor):
+class RemoteSession(MovingDoor):
     """A session by its name; every property is asked of the lab when it is read.
 
-    Setting one returns when the lab has taken it, and `acted` says at which tick it holds; what
-    the lab refuses raises `ParameterError` or `StateError` and changes nothing.
+    Setting one returns when the lab has taken it, and `acted` says at which tick it holds; what is
+    set already stays as it is, without a new fade or event. What the lab refuses raises
+    `ParameterError` or `StateError` and changes nothing.
     """
 
     def __init__(self, connection: Connection, runs: RemoteRuns, name: str) -> None:
@@ -66,11 +66,6 @@ class RemoteSession(ControlledDoor):
         """The newest sample by channel, SI; None where a bench does not know it."""
         return self.read_state()["sample"]
 
-    @property
-    def fault(self) -> Fault | None:
-        """What has ended the run, or stopped the bench."""
-        return read_fault(self.read_state())
-
     def _read(self, name: str) -> Any:
         return self.read_state()["configuration"][name]
 
@@ -91,6 +86,14 @@ class RemoteSession(ControlledDoor):
     @stiffness.setter
     def stiffness(self, reference: StiffnessReference) -> None:
         self.call("PUT", "/stiffness", reference.model_dump(mode="json"))
+
+    def repeat_position(self) -> None:
+        """Begin the position reference again, faded over; set to what it is, it just goes on."""
+        self.call("POST", "/position/repeat")
+
+    def repeat_stiffness(self) -> None:
+        """Begin the stiffness reference again, faded over."""
+        self.call("POST", "/stiffness/repeat")
 
     @property
     def law(self) -> str:
@@ -168,39 +171,6 @@ class RemoteSession(ControlledDoor):
         """Parameters of a law that has its own; what is left out stays."""
         self.call("PUT", "/parameters", {law: values})
 
-    def start(self) -> None:
-        """Run on from where it is."""
-        self.call("POST", "/start")
-
-    def pause(self) -> None:
-        """Stop time; on a bench, ramp down."""
-        self.call("POST", "/pause")
-
-    def quick_stop(self) -> None:
-        """Zero current at once on a bench, latched until cleared; a simulation pauses."""
-        self.call("POST", "/quick-stop")
-
-    def reset(self) -> None:
-        """Begin again at t = 0 with everything as it is set now."""
-        self.call("POST", "/reset")
-
-    def set_speed(self, factor: float | Literal["max"]) -> None:
-        """Session seconds a wall second, or as fast as it goes."""
-        self.call("PUT", "/speed", {"factor": factor})
-
-    def run_until(self, time_s: float) -> None:
-        """Run a paused simulation to this session time, as fast as it goes.
-
-        Raises `FaultError` where the run ends before.
-        """
-        state = self.read_state()
-        end = round(time_s * state["rate_hz"])
-        while state["tick"] < end and state["fault"] is None:
-            ticks = min(MAX_STEP_TICKS, end - state["tick"])
-            state = self.call("POST", "/step", {"ticks": ticks})
-        if fault := read_fault(state):
-            raise FaultError(fault)
-
     def record(self, name: str = "", tags: tuple[str, ...] = (), notes: str = "") -> Recording:
         """Record every sample and command from now on; a context ends it."""
         body = {"name": name, "tags": list(tags), "notes": notes}
@@ -230,6 +200,10 @@ class RemoteSession(ControlledDoor):
         if channels:
             query["channels"] = ",".join(channels)
         return BlockStream(self.connection, self.name, query, duration_s)
+
+    def watch(self) -> AbstractContextManager[None]:
+        """While the block lasts a stream of it is open, which a bench asks for before it moves."""
+        return self.stream(rate_hz=1.0).held_open()
 
     def end(self) -> None:
         """End a private session."""
@@ -267,8 +241,3 @@ class RemoteBench:
 def dump_lane(lane: Lane) -> dict[str, Any]:
     """A lane as a request has it."""
     return lane.model_dump(mode="json", exclude_none=True)
-
-
-def read_fault(state: dict[str, Any]) -> Fault | None:
-    """The fault in a session's state."""
-    return None if state["fault"] is None else Fault(**state["fault"])

@@ -2,19 +2,26 @@
 
 import asyncio
 import json
+import threading
 import time
 from collections.abc import AsyncIterator, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import urlencode
 
 import numpy as np
 from websockets.asyncio import client as asynchronous
-from websockets.exceptions import ConnectionClosedError, ConnectionClosedOK, InvalidHandshake
+from websockets.exceptions import (
+    ConnectionClosedError,
+    ConnectionClosedOK,
+    InvalidHandshake,
+    InvalidStatus,
+)
 from websockets.sync import client as synchronous
 
 from svsa.client.connection import API, CONNECT_S, PAUSE_S, Connection
-from svsa.client.refusals import LabError
+from svsa.client.refusals import LabError, build_refusal
 from svsa.errors import ParameterError, Violation
 from svsa.session.batch import unpack_batch
 
@@ -63,7 +70,7 @@ class BlockStream:
 
     Iterate over it with `for` or `async for`. A connection that breaks is made again for as long
     as the patience of `connection`; what came meanwhile is missing, which the ticks show. Raises
-    `LabError` where it cannot be made.
+    `LabError` where it cannot be made, `AccessError` where the lab lets this script in no more.
     """
 
     def __init__(
@@ -120,6 +127,15 @@ class BlockStream:
                 self._check_patience(error)
                 await asyncio.sleep(PAUSE_S)
 
+    @contextmanager
+    def held_open(self) -> Iterator[None]:
+        """While the block lasts the stream is open, and what comes is read and let go."""
+        with synchronous.connect(self._address, **self._options) as socket:
+            reading = threading.Thread(target=_let_go, args=(socket,), daemon=True)
+            reading.start()
+            yield
+        reading.join(CONNECT_S)
+
     def _take(self, reader: "BlockReader", message: str | bytes) -> tuple[Block | None, bool]:
         """What of a message is within the time that was asked for, and whether that is all."""
         block = reader.read(message)
@@ -136,8 +152,17 @@ class BlockStream:
         return replace(block, ticks=block.ticks[inside], values=block.values[inside]), True
 
     def _check_patience(self, error: Exception) -> None:
+        if isinstance(error, InvalidStatus) and error.response.status_code in (401, 403):
+            told = error.response.body or b"null"
+            raise build_refusal(error.response.status_code, json.loads(told)) from None
         if time.monotonic() - self._told_at > self._patience_s:
             raise LabError(f"{self._name} broke off: {error}.") from None
+
+
+def _let_go(socket: synchronous.ClientConnection) -> None:
+    with suppress(ConnectionClosedError):
+        for _ in socket:
+            pass
 
 
 class BlockReader:

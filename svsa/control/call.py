@@ -4,6 +4,7 @@ A law is compiled for itself, once for each layout of its constants and of its m
 by its address: numbers by value, records by address. The loop knows neither.
 """
 
+import inspect
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -14,29 +15,36 @@ from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 from svsa.compilation import compiled
-from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.errors import ParameterError, Violation
+from svsa.signals import Disturbance, Positions, Reference, State, Torque
 
-_SIGNALS = (
+_GIVEN = (
     numba.typeof(State(*[0.0] * 6)),
     numba.typeof(Reference(*[0.0] * 8)),
     numba.typeof(Disturbance(*[0.0] * 3)),
     numba.typeof(Torque(0.0, 0.0)),
     types.float64,
+    numba.typeof(Positions(*[0.0] * 3)),
 )
 _TORQUE = numba.typeof(Torque(0.0, 0.0))
+
+SIGNATURE = "(nominal, constants, memory, x, reference, estimate, applied, period[, measured])"
+COUNT = 8
+"""Of what every law takes; `measured` is the ninth."""
 
 
 class BoundLaw(NamedTuple):
     """A compiled law with its constants.
 
     function: its address. nominal, constants: packed, as words of 64 bits. is_own: whether it
-    brings an estimate of its own.
+    brings an estimate of its own. is_measuring: whether it is told what was measured.
     """
 
     function: int
     nominal: np.ndarray
     constants: np.ndarray
     is_own: bool
+    is_measuring: bool
 
 
 class Call(NamedTuple):
@@ -47,20 +55,35 @@ class Call(NamedTuple):
     constants: int
     memory: int
     is_own: int
+    is_measuring: int
+
+
+def is_measuring(control: Any) -> bool:
+    """Whether a law's function takes the ninth argument, what was measured.
+
+    Raises `ParameterError` where it takes neither eight nor nine.
+    """
+    count = len(inspect.signature(control).parameters)
+    if count not in (COUNT, COUNT + 1):
+        raise ParameterError(Violation("control", f"{count} arguments", "", SIGNATURE))
+    return count > COUNT
 
 
 def bind(
     control: Any, nominal: np.ndarray, constants: np.ndarray, memory: np.ndarray, is_own: bool
 ) -> BoundLaw:
     """A law's function compiled for these packed records. control: see `svsa.control.law.Law`."""
-    address = _compile(control, nominal.dtype, constants.dtype, memory.dtype)
-    return BoundLaw(address, nominal.view(np.float64), constants.view(np.float64), is_own)
+    measuring = is_measuring(control)
+    address = _compile(control, measuring, nominal.dtype, constants.dtype, memory.dtype)
+    words = nominal.view(np.float64), constants.view(np.float64)
+    return BoundLaw(address, *words, is_own, measuring)
 
 
 @cache
-def _compile(control: Any, *records: np.dtype) -> int:
+def _compile(control: Any, measuring: bool, *records: np.dtype) -> int:
     """The address at which C would call the function, compiled for records of these layouts."""
-    signature = _TORQUE(*map(numba.from_dtype, records), *_SIGNALS)
+    given = _GIVEN if measuring else _GIVEN[:-1]
+    signature = _TORQUE(*map(numba.from_dtype, records), *given)
     control.compile(signature)
     compilation = control.get_compile_result(signature)
     name = compilation.fndesc.llvm_cfunc_wrapper_name
@@ -68,30 +91,25 @@ def _compile(control: Any, *records: np.dtype) -> int:
 
 
 def _build_call(
-    typing: Any,
-    function: Any,
-    nominal: Any,
-    constants: Any,
-    memory: Any,
-    x: Any,
-    reference: Any,
-    estimate: Any,
-    applied: Any,
-    period: Any,
+    typing: Any, function: Any, nominal: Any, constants: Any, memory: Any, given: Any
 ) -> Any:
-    """Call the function at an address as C would."""
-    signature = _TORQUE(*[types.int64] * 4, *_SIGNALS)
+    """Call the function at an address as C would. given: a tuple of what comes after the memory."""
+    kinds = _GIVEN[: len(given)]
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        address, *records = arguments[:4]
+        address, *records, values = arguments
         record = ir.IntType(8).as_pointer()
-        values = [context.get_value_type(kind) for kind in _SIGNALS]
-        kind = ir.FunctionType(context.get_value_type(_TORQUE), [record] * 3 + values)
+        types_of_values = [context.get_value_type(kind) for kind in kinds]
+        kind = ir.FunctionType(context.get_value_type(_TORQUE), [record] * 3 + types_of_values)
         function = builder.inttoptr(address, kind.as_pointer())
         pointers = [builder.inttoptr(word, record) for word in records]
-        return builder.call(function, [*pointers, *arguments[4:]])
+        parts = [
+            context.cast(builder, builder.extract_value(values, i), given[i], kind)
+            for i, kind in enumerate(kinds)
+        ]
+        return builder.call(function, [*pointers, *parts])
 
-    return signature, generate
+    return _TORQUE(*[types.int64] * 4, given), generate
 
 
 def _build_read(typing: Any, address: Any, index: Any) -> Any:
@@ -117,6 +135,7 @@ def build_call(law: BoundLaw, memory: np.ndarray) -> Call:
         law.constants.ctypes.data,
         memory.ctypes.data,
         law.is_own,
+        law.is_measuring,
     )
 
 
@@ -128,23 +147,20 @@ def compute_law(
     estimate: Disturbance,
     applied: Torque,
     period: float,
+    measured: Positions,
 ) -> Torque:
     """What the law asks for, `Torque`, N·m, before limits; its memory goes on by a period.
 
     call: `Call`. x: x̂, `State`. reference: `Reference`. estimate: ŵ of the observer,
-    `Disturbance`, N·m. applied: `Torque` of the last period, N·m. period: T, s.
+    `Disturbance`, N·m. applied: `Torque` of the last period, N·m. period: T, s. measured:
+    `Positions`, for a law that takes them.
     """
-    return _call(
-        call.function,
-        call.nominal,
-        call.constants,
-        call.memory,
-        x,
-        reference,
-        estimate,
-        applied,
-        period,
-    )
+    function, nominal = call.function, call.nominal
+    constants, memory = call.constants, call.memory
+    if call.is_measuring:
+        given = x, reference, estimate, applied, period, measured
+        return _call(function, nominal, constants, memory, given)
+    return _call(function, nominal, constants, memory, (x, reference, estimate, applied, period))
 
 
 @compiled

@@ -191,7 +191,7 @@ ESO_SATURATED = Law(
     " with compensation of saturation: the paper's successor, simplified.",
     equation=r"y_1=\dots+\lambda(s-\zeta)-\hat d,\quad"
     r"\dot\zeta=-\kappa\zeta+y_{\mathrm{asked}}-y_{\mathrm{made}}",
-    source="10.1177/1729881420911774",
+    source="Int. J. Adv. Robot. Syst., 2020, doi:10.1177/1729881420911774",
     parameters=Observers,
     build=build,
     control=control,

@@ -131,7 +131,8 @@ ILC = Law(
     summary="Feedback linearization that learns from period to period: what repeats goes, without"
     " an observer.",
     equation=r"c\leftarrow Q\,(c+\gamma\,e(t+t_q)),\quad u=A^{-1}(b-v+c_0c)",
-    source="10.1109/MCS.2006.1636313",
+    source='D. A. Bristow, M. Tharayil, A. G. Alleyne, "A survey of iterative learning '
+    'control", IEEE Control Syst. Mag. 26(3), 2006, doi:10.1109/MCS.2006.1636313',
     parameters=Learning,
     build=build,
     control=control,

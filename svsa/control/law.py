@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from svsa.control.call import BoundLaw, bind
+from svsa.control.call import BoundLaw, bind, is_measuring
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.model.domain import Domain
@@ -53,7 +53,8 @@ class Law:
     """A control law. The loop calls it once a period, after x̂ and ŵ, before the limits.
 
     name: letters, digits and _, as in files and on the wire. title: as in a legend. summary: what
-    it does, in a sentence. equation: KaTeX. source: number of the paper's equation, or a DOI.
+    it does, in a sentence. equation: KaTeX. source: number of the paper's equation, or what
+    to cite: authors, title, journal, year, and doi:… where it has been looked up.
     parameters: see `LawParameters`; a law whose parameters are `Gains` takes those of the run.
     build: the constants of `control` from them, a named tuple of numbers and of tuples of numbers.
     control: a compiled function
@@ -62,7 +63,8 @@ class Law:
 
     of the nominal model (`Actuator`), the constants, the memory, x̂ (`State`), `Reference`, ŵ
     (`Disturbance`, N·m), the mean torque that really acted in the last period (`Torque`, N·m) and
-    T (s); nominal, constants and memory are read by name, and memory is written. It keeps nothing
+    T (s); nominal, constants and memory are read by name, and memory is written. One that takes a
+    ninth argument, `measured`, is told what the encoders said (`Positions`). It keeps nothing
     elsewhere. memory: a named tuple of numbers with defaults, which are what it remembers at the
     start of a run and after another law. estimate: whether it acts on no ŵ, on that of the
     loop's observer, or brings its own, which stands in w2, w4, w6 at the front of its memory and
@@ -84,6 +86,7 @@ class Law:
         if not NAME.fullmatch(self.name):
             bound = "a small letter, then up to 39 small letters, digits or _"
             raise ParameterError(Violation("name", self.name, "", bound))
+        is_measuring(self.control)
         front = _name_front(self._start.dtype)
         if self.estimate == "own" and front[:3] != _ESTIMATE:
             bound = "w2, w4, w6 at the front for a law with an estimate of its own"

@@ -3,6 +3,10 @@
 Ohnishi's observer and pole placement, as in a textbook: F = (−D q̇ − σ_d φ, −D1 θ̇1 + σ_d φ,
 −D2 θ̇2). What the spring does beyond σ_d φ, and its reaction on the stiffness motor, is disturbance
 like any other.
+
+The stiffness' poles decide whether it bears the paper's load where the spring is soft: at 59.7
+rad/s each of the 16 runs at σ = 12 ends at the limit of deflection, the first of them 0.2 s after
+the load has come; at 31.6 none does.
 """
 
 from typing import NamedTuple
@@ -26,16 +30,21 @@ from svsa.signals import Disturbance, Reference, State, Torque
 
 
 class PolesAndFilter(LawParameters):
-    """Poles on the real axis and the corner of the Q-filters."""
+    """Poles on the real axis and the corner of the Q-filters.
+
+    Of 512 Sobol points (a 42–50, p 15–60, β 90–400), 27 hold every column of the prototypes'
+    figures (`python -m tests.bench.prototypes`) with no fault in 48 unloadings: of these the least
+    cost of the training runs, 0.873. `svsa tune`'s 46.5, 59.7, 136 cost 0.878, and 16 faults.
+    """
 
     position_pole_rad_per_s: Number = quantity(
-        "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=46.5
+        "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=45.7
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=59.7
+        "rad/s", "p of (s + p)², the stiffness's", symbol="p", ge=5, le=150, default=31.6
     )
     observer_rad_per_s: Number = quantity(
-        "rad/s", "β of the Q-filters", symbol="β", ge=1, le=500, default=136.0
+        "rad/s", "β of the Q-filters", symbol="β", ge=1, le=500, default=206.0
     )
 
 
@@ -107,7 +116,8 @@ LINEAR_DOB = Law(
     summary="Pole placement on the chain linearized at σ_d, and a Q-filter a body that takes all"
     " else for disturbance.",
     equation=r"u=J\,\ddot\theta^*-F_{\sigma_d}-\hat w,\quad\hat w=Q(s)\,(J\dot v-F_{\sigma_d}-u)",
-    source="10.1109/3516.491410",
+    source='K. Ohnishi, M. Shibata, T. Murakami, "Motion control for advanced '
+    'mechatronics", IEEE/ASME Trans. Mechatron. 1(1), 1996',
     parameters=PolesAndFilter,
     build=build,
     control=control,

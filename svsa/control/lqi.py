@@ -225,7 +225,7 @@ LQI = Law(
     summary="The linear-quadratic regulator with integrals, its gains scheduled over the stiffness,"
     " about the motion that the reference asks for.",
     equation=r"u=u_{\mathrm{ff}}-K(\sigma_d)\,(x-x_d)+K_I(\sigma_d)\textstyle\int e",
-    source="10.1109/TRO.2013.2244787",
+    source="After the gain-scheduling control that the paper names: Sardellitti et al., 2013",
     parameters=Weights,
     build=build,
     control=control,

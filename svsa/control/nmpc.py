@@ -10,6 +10,13 @@ torques have in y at the present state. The reference enters through its derivat
 preview. The Hessian is fixed, so that a fixed number of projected Gauss–Seidel sweeps from the last
 plan is all that a tick does: no tick costs more than another. ŵ of an observer of its own is
 compensated.
+
+What stands in the way of greater steps of load is the bound of each chain by itself: from 2.5 N·m
+on the link on, motor 2 is at its limit for more than half of the time until the deflection is at
+its own. With the position first where motor 2 is at its limit, u1 = (y1 − a12 u2)/a11, it holds
+2.5 N·m in place of 2, recovers in 0.24 s in place of 0.21, and scores less; and of 1024 settings
+none that comes through Figure 4A on the rig holds 3.5 (a slower prototype held 4, with a peak of
+8.0° there in place of 6.4°). The limit of deflection is no part of the plan.
 """
 
 from functools import lru_cache
@@ -201,7 +208,9 @@ NMPC = Law(
     " compensates ŵ of an observer of its own.",
     equation=r"\min_y\sum\tfrac{e^2}{e_q^2}+\tfrac{\dot e^2}{e_v^2}+\tfrac{\Delta y^2}{y_n^2},"
     r"\quad |A^{-1}(y-\mathcal L|_{\hat w})|\le u_{\max}",
-    source="10.1016/S0005-1098(99)00214-9",
+    source='D. Q. Mayne, J. B. Rawlings, C. V. Rao, P. O. M. Scokaert, "Constrained model '
+    'predictive control: stability and optimality", Automatica 36(6), 2000, '
+    "doi:10.1016/S0005-1098(99)00214-9",
     parameters=Horizon,
     build=build,
     control=control,

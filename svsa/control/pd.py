@@ -41,7 +41,8 @@ PD = Law(
     " spring, and stays.",
     equation=r"u_i=u_{i,\mathrm{ff}}+B_i\,[\omega_i^2(\theta_{id}-\theta_i)"
     r"+2\zeta_i\omega_i(\dot\theta_{id}-\dot\theta_i)]",
-    source="10.1109/9.90238",
+    source='P. Tomei, "A simple PD controller for robots with elastic joints", '
+    "https://ieeexplore.ieee.org/document/90238",
     parameters=MotorPoles,
     build=build,
     control=control,

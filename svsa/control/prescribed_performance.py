@@ -129,7 +129,9 @@ PRESCRIBED_PERFORMANCE = Law(
     " only: on the rig it swings.",
     equation=r"u=-k\rho\,\varepsilon(\tfrac e\rho),\quad"
     r"\varepsilon(x)=\tfrac12\ln\tfrac{1+x}{1-x}",
-    source="10.1109/TAC.2008.929402",
+    source='C. P. Bechlioulis, G. A. Rovithakis, "Robust adaptive control of feedback '
+    'linearizable MIMO nonlinear systems with prescribed performance", IEEE Trans. '
+    "Autom. Control 53(9), 2008",
     parameters=Funnels,
     build=build,
     control=control,

@@ -145,7 +145,8 @@ RBF_NETWORK = Law(
     " compensates what they say.",
     equation=r"u=A^{-1}(b-v-\Gamma\hat W^\top\varphi(q,\dot q)),\quad"
     r"\dot{\hat W}=\omega^2J\,\varphi\,(v-\hat v)/|\varphi|^2",
-    source="10.1109/72.165588",
+    source='R. M. Sanner, J.-J. E. Slotine, "Gaussian networks for direct adaptive '
+    'control", IEEE Trans. Neural Netw. 3(6), 1992, doi:10.1109/72.165588',
     parameters=Network,
     build=build,
     control=control,

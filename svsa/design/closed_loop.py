@@ -23,6 +23,7 @@ from svsa.loop.loop import decide
 from svsa.model.lever import compute_lever_ratio_for_stiffness
 from svsa.parameters import ActuatorParameters
 from svsa.plant.effects import IDEAL
+from svsa.plant.sensors import build_positions
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
@@ -144,8 +145,9 @@ def linearize_law(configuration: Configuration, sigma: float) -> LawDerivatives:
         memory = z[11:].copy()
         values = z.tolist()
         known, estimate = State(*values[:6]), Disturbance(*values[6:9])
+        measured, applied = build_positions(known), Torque(*values[9:11])
         call = build_call(law, memory)
-        _, torque = decide(b, call, run.inputs, known, estimate, Torque(*values[9:11]), 0)
+        _, torque = decide(b, call, run.inputs, known, estimate, applied, measured, 0)
         return np.concatenate([torque, (memory - z[11:]) / _INSTANT_S])
 
     jacobian = differentiate(respond, np.concatenate([np.zeros(11), start]))

@@ -16,13 +16,19 @@ _NYQUIST_SHARE = 0.98
 class FrequencyResponse(NamedTuple):
     """e/w2 of the sampled loop about rest. frequency: Hz. magnitude: rad per N·m. phase: rad.
 
-    is_stable: where not, nothing settles and the numbers have no meaning.
+    radius: the largest |z| of the loop's poles, 1; where it is not below 1, nothing settles and the
+    numbers have no meaning.
     """
 
     frequency: np.ndarray
     magnitude: np.ndarray
     phase: np.ndarray
-    is_stable: bool
+    radius: float
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether the loop settles."""
+        return self.radius < 1.0
 
 
 def compute_disturbance_response(
@@ -40,4 +46,4 @@ def compute_disturbance_response(
     shifts = np.exp(2j * math.pi * period * frequency)
     unit = np.eye(len(loop.A))
     q = np.array([np.linalg.solve(shift * unit - loop.A, loop.W)[0] for shift in shifts])
-    return FrequencyResponse(frequency, np.abs(q), np.unwrap(np.angle(-q)), bool(loop.radius < 1.0))
+    return FrequencyResponse(frequency, np.abs(q), np.unwrap(np.angle(-q)), loop.radius)

@@ -1,5 +1,6 @@
 """The discrete loop, linearised about rest: one tick as a matrix."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from svsa.plant.effects import MAX_DELAY_SAMPLES
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
-from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
+from svsa.signals import CHANNELS, Disturbance, Measurement, Positions, State, Torque
 
 TORQUES = slice(15, 17)
 _PUSH_NM = 1e-3
@@ -24,9 +25,9 @@ _BEGINNING_S = 0.05
 class SampledLoop(NamedTuple):
     """z' = A z + B n + W w2, a tick of the loop about rest.
 
-    z = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law),
-    without what never changes; it begins with q. n: noise on θ1, θ2, φ, rad. w2: a torque on the
-    link during the tick, N·m.
+    z = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law, what was
+    heard last beside x), without what never changes; it begins with q. n: noise on θ1, θ2, φ, rad.
+    w2: a torque on the link during the tick, N·m.
     """
 
     A: np.ndarray
@@ -61,9 +62,12 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
     rest, sample = find_rest(run), np.empty(len(CHANNELS))
 
     def tick(z: np.ndarray, inputs: Inputs = run.inputs) -> np.ndarray:
-        lane = _unpack(z)
-        call = build_call(law, lane.memory)
-        reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, 0)
+        lane, heard = _unpack(z[:-3]), z[-3:].tolist()
+        call, x = build_call(law, lane.memory), lane.x
+        measured = Positions(x.q + heard[0], x.theta1 + heard[1], x.theta2 + heard[2])
+        reference, torque = decide(
+            blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, 0
+        )
         estimate = read_estimate(call, lane.estimate)
         F = compute_internal_torque(blocks.nominal, lane.known)
         lane, _ = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, 0, sample)
@@ -72,7 +76,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
     def hear(n: np.ndarray) -> np.ndarray:
         heard = Measurement(n[0], n[1], n[2], 0.0, 0.0, 0.0)
         known, estimate = observe(blocks, rest.known, rest.estimate, rest.torque, heard)
-        return _pack(rest._replace(known=known, estimate=estimate))
+        return _pack(rest._replace(known=known, estimate=estimate), (n[0] + n[2], n[0], n[1]))
 
     def push(torque: float) -> np.ndarray:
         load = ConstantLoad(torque_nm=(torque, 0.0, 0.0))
@@ -83,6 +87,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
     W = (push(_PUSH_NM) - push(-_PUSH_NM)) / (2.0 * _PUSH_NM)
     is_same = np.isclose(A, np.eye(len(A)), rtol=0.0, atol=1e-7)
     is_fixed = np.all(is_same, axis=1) & np.all(B == 0.0, axis=1)
+    is_fixed[-3:] |= np.all(A[:, -3:] == 0.0, axis=0)
     moving = np.flatnonzero(~is_fixed)
     return SampledLoop(A[np.ix_(moving, moving)], B[moving], W[moving])
 
@@ -93,9 +98,9 @@ def find_rest(run: Run) -> LaneState:
     return run.lanes[0]
 
 
-def _pack(lane: LaneState) -> np.ndarray:
+def _pack(lane: LaneState, heard: Sequence[float] = (0.0, 0.0, 0.0)) -> np.ndarray:
     parts = (lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, lane.memory)
-    return np.concatenate(parts)
+    return np.concatenate((*parts, heard))
 
 
 def _unpack(z: np.ndarray) -> LaneState:

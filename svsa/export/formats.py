@@ -25,7 +25,8 @@ class ExportKind(NamedTuple):
 
 def _write_parquet(record: Record, stream: IO[bytes]) -> None:
     batches = record.iterate_batches()
-    write_parquet(stream, record.header, record.commands, batches, record.fault)
+    told = record.fault, record.start, record.events
+    write_parquet(stream, record.header, record.commands, batches, *told)
 
 
 EXPORT_KINDS: dict[str, ExportKind] = {

@@ -6,6 +6,7 @@ Texts are ASCII, since Octave cuts others short: a unit reads N*m/rad, a letter 
 
 import json
 from collections.abc import Iterable
+from dataclasses import asdict
 from typing import IO, Any
 
 import numpy as np
@@ -76,6 +77,7 @@ def _describe(record: Record) -> dict[str, Any]:
         "lanes": ", ".join(header.lanes),
         "header_json": json.dumps(header.model_dump(mode="json")),
         "commands_json": json.dumps(commands),
+        "events_json": json.dumps([asdict(event) for event in record.events]),
     }
     numbers = {"period_s": header.period_s, "seed": np.int64(header.seed)}
     return {name: _spell(text) for name, text in texts.items()} | numbers

@@ -14,7 +14,7 @@ from typing import IO, Any, NamedTuple
 import msgspec
 from mcap.writer import Writer
 
-from svsa.export.mcap_schemas import COMMAND, JOINT_STATES, build_sample_schema
+from svsa.export.mcap_schemas import COMMAND, EVENT, JOINT_STATES, build_sample_schema
 from svsa.records.header import RecordHeader
 from svsa.records.reader import Record
 from svsa.release import __version__
@@ -40,7 +40,7 @@ JOINTS = (
 
 
 def write_mcap(record: Record, stream: IO[bytes]) -> None:
-    """Write a record as MCAP: /<lane>/samples, /<lane>/joint_states, /commands, and metadata."""
+    """Write a record as MCAP: /<lane>/samples, /<lane>/joint_states, /commands, /events, header."""
     header, names = record.header, record.header.channel_names
     joints = [joint for joint in JOINTS if joint.position in names]
     began_ns = round(datetime.fromisoformat(header.created).timestamp() * NANOSECONDS)
@@ -49,6 +49,7 @@ def write_mcap(record: Record, stream: IO[bytes]) -> None:
     writer.start(library=f"svsa {__version__}")
     topics = _add_topics(writer, header)
     _write_commands(writer, record, began_ns, period_ns)
+    _write_events(writer, record, began_ns, period_ns)
     for tick, lanes in _iterate_rows(record):
         time_ns = began_ns + round(tick * period_ns)
         stamp = {"sec": time_ns // NANOSECONDS, "nsec": time_ns % NANOSECONDS}
@@ -97,6 +98,15 @@ def _write_commands(writer: Writer, record: Record, began_ns: int, period_ns: fl
         message = msgspec.json.encode({"tick": tick, "command": command})
         time_ns = began_ns + round(tick * period_ns)
         writer.add_message(topic, time_ns, message, time_ns)
+
+
+def _write_events(writer: Writer, record: Record, began_ns: int, period_ns: float) -> None:
+    if not record.events:
+        return
+    topic = writer.register_channel("/events", "json", _add_schema(writer, EVENT))
+    for event in record.events:
+        time_ns = began_ns + round(event.tick * period_ns)
+        writer.add_message(topic, time_ns, msgspec.json.encode(event), time_ns)
 
 
 def _add_schema(writer: Writer, schema: dict[str, Any]) -> int:

@@ -43,6 +43,18 @@ COMMAND: dict[str, Any] = {
     "required": ["tick", "command"],
 }
 
+EVENT: dict[str, Any] = {
+    "title": "svsa.Event",
+    "type": "object",
+    "properties": {
+        "tick": {"type": "integer"},
+        "time_s": {"type": "number"},
+        "kind": {"type": "string"},
+        "label": {"type": "string"},
+    },
+    "required": ["tick", "time_s", "kind", "label"],
+}
+
 
 def build_sample_schema(header: RecordHeader) -> dict[str, Any]:
     """Every channel of a sample with its label and unit; null stands for no finite number."""

@@ -1,6 +1,5 @@
 """`svsa falsify`: find the load that hurts a law most, keep it, put other laws through it."""
 
-import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -91,7 +90,9 @@ def search_command(
 
 @falsify.command("run")
 def run_command(
-    file: Annotated[Path, typer.Argument(help="Scenario that was kept (TOML).")],
+    source: Annotated[
+        str, typer.Argument(metavar="SCENARIO", help="A file (.toml), or one kept by its name.")
+    ],
     laws: Annotated[
         str | None, typer.Option(help="Names joined by commas, or all; else that it was found for.")
     ] = None,
@@ -99,13 +100,13 @@ def run_command(
     as_json: _Json = False,
 ) -> None:
     """Put laws through a scenario that was kept."""
-    from svsa.falsify.file import read_scenario
+    from svsa.falsify.kept import open_scenario
     from svsa.falsify.measure import run_scenario
     from svsa.study.tables import write_json
 
     if picture is not None:
         require_extra("plot")
-    scenario = read_scenario(file)
+    scenario = open_scenario(source)
     if laws is None:
         names = _list_beside(scenario.found.law if scenario.found else PAPERS_LAW)
     else:
@@ -228,7 +229,7 @@ def _show_progress(
     adversary: "Adversary", runs: int, known: int = 0
 ) -> Iterator[Callable[[int, float], None]]:
     """A bar with rate and time left. known: runs of before, which do not count in the rate."""
-    from svsa.falsify.wording import tell_severity
+    from svsa.falsify.wording import tell_worst
 
     columns = (
         TextColumn("{task.description}"),
@@ -241,8 +242,7 @@ def _show_progress(
         task = bar.add_task(f"{get_title(adversary.law)}: compiling …", total=runs, completed=known)
 
         def tell(done: int, worst: float) -> None:
-            told = tell_severity(adversary.harm, worst) if math.isfinite(worst) else "a fault"
-            text = f"{get_title(adversary.law)}: {told}"
+            text = f"{get_title(adversary.law)}: {tell_worst(adversary.harm, worst)}"
             bar.update(task, completed=max(done, known), description=text)
 
         yield tell

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from svsa.falsify.measure import Measured, measure_attacks
 from svsa.falsify.scenario import Attack, Finding, LoadScenario
 from svsa.falsify.search import Method, search
 from svsa.falsify.shrink import Shrunk, shrink
-from svsa.falsify.wording import tell_outcome
+from svsa.falsify.wording import tell_outcome, tell_worst
 from svsa.release import __version__
 
 RUNS, MAX_RUNS = 20_000, 1_000_000
@@ -59,27 +59,51 @@ class Falsified:
     @property
     def scenario(self) -> LoadScenario:
         """The simplest of it as a scenario."""
-        a, simple = self.adversary, self.shrunk
-        attack = simple.attack if simple else self.attack
-        return LoadScenario(
-            title=f"{a.title}: {self.outcome}"[:200],
-            base=a.base,
-            duration_s=simple.duration_s if simple else a.duration_s,
-            measure_from_s=a.measure_from_s,
-            settings=dict(attack.settings),
-            loads=attack.loads,
-            found=Finding(
-                law=a.law,
-                harm=a.harm,
-                outcome=simple.outcome if simple else self.outcome,
-                adversary=a.title,
-                method=self.method,
-                seed=self.seed,
-                run=self.run,
-                runs=len(self.severities),
-                version=__version__,
-            ),
+        simple = self.shrunk
+        return _describe(
+            self.adversary,
+            simple.attack if simple else self.attack,
+            simple.duration_s if simple else self.adversary.duration_s,
+            (self.outcome, simple.outcome if simple else self.outcome),
+            (self.method, self.seed, self.run, len(self.severities)),
         )
+
+    @property
+    def as_found(self) -> LoadScenario:
+        """The worst as it was found, before it was made simple."""
+        return replace(self, shrunk=None).scenario
+
+
+def _describe(
+    adversary: Adversary,
+    attack: Attack,
+    duration_s: float,
+    outcomes: tuple[str, str],
+    search: tuple[Method, int, int, int],
+) -> LoadScenario:
+    """outcomes: what came of the law as it was found, and as it is. search: method, seed, number of
+    the run that showed it, runs.
+    """
+    method, seed, run, runs = search
+    return LoadScenario(
+        title=f"{adversary.title}: {outcomes[0]}"[:200],
+        base=adversary.base,
+        duration_s=duration_s,
+        measure_from_s=adversary.measure_from_s,
+        settings=dict(attack.settings),
+        loads=attack.loads,
+        found=Finding(
+            law=adversary.law,
+            harm=adversary.harm,
+            outcome=outcomes[1],
+            adversary=adversary.title,
+            method=method,
+            seed=seed,
+            at_run=run,
+            runs=runs,
+            version=__version__,
+        ),
+    )
 
 
 class _EndedError(Exception):
@@ -87,15 +111,23 @@ class _EndedError(Exception):
 
 
 class _Search:
-    """The runs of a search, counted against its bound; those known from before are not run."""
+    """The runs of a search, counted against its bound; those known from before are not run.
+
+    on_worse: told of each run that hurts more than all before it: its number, and what it did.
+    """
 
     def __init__(
-        self, adversary: Adversary, runs: int, known: Sequence[float] | np.ndarray
+        self,
+        adversary: Adversary,
+        runs: int,
+        known: Sequence[float] | np.ndarray,
+        on_worse: Callable[[int, Attack, float], None],
     ) -> None:
         self.adversary, self.base = adversary, adversary.build_base()
         self.severities: list[float] = []
         self.worst: tuple[int, Attack] | None = None
         self._runs, self._known = runs, np.asarray(known, dtype=float)
+        self._on_worse = on_worse
 
     def judge(self, shares: np.ndarray) -> np.ndarray:
         """How much each of a generation hurts; raises `_EndedError` where that ends the search."""
@@ -110,6 +142,7 @@ class _Search:
         worst = int(np.argmax(severity))
         if self.worst is None or severity[worst] > self.severities[self.worst[0]]:
             self.worst = done + worst, attacks[worst]
+            self._on_worse(done + worst + 1, attacks[worst], float(severity[worst]))
         is_fault = bool(np.isposinf(severity[worst]))
         self.severities += severity.tolist()[: worst + 1 if is_fault else None]
         if is_fault or len(self.severities) >= self._runs:
@@ -128,6 +161,7 @@ def falsify(
     method: Method = "cma",
     known: Sequence[float] | np.ndarray = (),
     on_generation: Callable[[int, float], None] = lambda done, worst: None,
+    on_worse: Callable[[LoadScenario], None] = lambda scenario: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     is_shrunk: bool = True,
 ) -> Falsified:
@@ -136,16 +170,23 @@ def falsify(
     runs: at most, those of shrinking besides. The search ends at the first fault, than which
     nothing is worse. The same arguments give the same result. method: "random" is there to be
     compared with. known: `Falsified.severities` of the same search broken off. on_generation: told
-    after each how many runs there were, and the greatest severity. is_cancelled: asked before
-    each; where it says so, and at Ctrl-C, the worst so far is returned as it is. is_shrunk: whether
-    it is made simple.
+    after each how many runs there were, and the greatest severity. on_worse: told of each attack
+    that is worse than all before it, as a scenario. is_cancelled: asked before each generation;
+    where it says so, and at Ctrl-C, the worst so far is returned as it is. is_shrunk: whether it is
+    made simple.
 
     Raises `ParameterError` for numbers out of range, `FalsifierError` where the law ends in a fault
     by itself, `KeyboardInterrupt` before the first generation.
     """
     check_number("runs", runs, "", 1, MAX_RUNS)
     check_number("seed", seed, "", 0, 2**63 - 1)
-    one = _Search(adversary, runs, known)
+
+    def tell_worse(number: int, attack: Attack, severity: float) -> None:
+        told = tell_worst(adversary.harm, severity)
+        search = method, seed, number, number
+        on_worse(_describe(adversary, attack, adversary.duration_s, (told, told), search))
+
+    one = _Search(adversary, runs, known, tell_worse)
     nothing = one.measure([Attack((), {})])
     if not np.isfinite(nothing.severity[0]):
         told = tell_outcome(nothing, 0, adversary.harm)

@@ -11,8 +11,9 @@ from svsa.falsify.adversary import Adversary, Harm
 from svsa.falsify.scenario import Attack, LoadScenario
 from svsa.parameters import Limits
 from svsa.run.configuration import Configuration
-from svsa.study.metrics import METRICS, RECOVERY, REFUSED
-from svsa.study.study import Success
+from svsa.study.metrics import METRICS, RECOVERY
+from svsa.study.outcome import REFUSED
+from svsa.study.success import Success
 from svsa.study.work import measure_runs
 
 METRIC: dict[Harm, str] = {"peak": "peak_position_error_rad", "recovery": RECOVERY}

@@ -36,7 +36,7 @@ class Finding(Checked):
     adversary: str = quantity("", "Among what was searched", max_length=200)
     method: str = quantity("", "How", max_length=40)
     seed: Whole = quantity("", "Seed of the search", ge=0)
-    run: Whole = quantity("", "Which run of the search showed it", ge=1)
+    at_run: Whole = quantity("", "Which run of the search showed it", ge=1)
     runs: Whole = quantity("", "Runs of the search", ge=1)
     version: str = quantity("", "Version that found it", max_length=40)
 

@@ -19,6 +19,11 @@ NUMBERS = {
 }
 
 
+def tell_number(template: str, value: float) -> str:
+    """The number in its words, with a minus sign and no hyphen."""
+    return template.format(value).replace("-", "−")
+
+
 class Step(NamedTuple):
     """An attack, and in words what makes it simpler than the one before."""
 
@@ -102,12 +107,12 @@ def _set(attack: Attack, place: Place, value: float) -> Step:
         settings = {**attack.settings, place.name: value}
         return Step(attack._replace(settings=settings), f"{place.name} = {value:g}")
     load, new = attack.loads[place.load], value
-    told = NUMBERS.get(place.name, "from {:g} s").format(value)
+    told = tell_number(NUMBERS.get(place.name, "from {:g} s"), value)
     if place.body is not None:
         torque = list(getattr(load, place.name))
         torque[place.body] = value
         new: Any = tuple(torque)
-        told = f"{value:g} N·m on {BODIES[place.body]}"
+        told = tell_number("{:g} N·m on ", value) + BODIES[place.body]
     loads = list(attack.loads)
     loads[place.load] = load.changed(**{place.name: new})
     return Step(attack._replace(loads=tuple(loads)), f"{load.kind}: {told}")

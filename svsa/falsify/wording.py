@@ -1,14 +1,15 @@
 """What came of a run, in a few words."""
 
+import math
 from typing import Any
 
 from svsa.falsify.adversary import Harm
 from svsa.falsify.measure import METRIC, Measured
 from svsa.falsify.scenario import Attack
-from svsa.falsify.simpler import BODIES, NUMBERS
+from svsa.falsify.simpler import BODIES, NUMBERS, tell_number
 from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load
-from svsa.study.metrics import REFUSED
+from svsa.study.outcome import REFUSED
 from svsa.study.tables import tell_metric, tell_unit, tell_value
 
 
@@ -18,6 +19,13 @@ def tell_outcome(measured: Measured, row: int, harm: Harm) -> str:
     if fault == REFUSED:
         return "refused: its settings do not go together"
     return label_fault(fault) if fault else tell_severity(harm, float(measured.severity[row]))
+
+
+def tell_worst(harm: Harm, severity: float) -> str:
+    """How much the worst run of a search hurts so far, which fault it is not yet known."""
+    if math.isinf(severity):
+        return "a fault" if severity > 0.0 else "settings that do not go together"
+    return tell_severity(harm, severity)
 
 
 def tell_severity(harm: Harm, severity: float) -> str:
@@ -30,20 +38,27 @@ def tell_severity(harm: Harm, severity: float) -> str:
 
 def tell_attack(attack: Attack) -> str:
     """Loads and settings in one line."""
+    return "; ".join(list_attack(attack)) or "nothing"
+
+
+def list_attack(attack: Attack) -> list[str]:
+    """Each of its loads, and each of its settings, in words."""
     loads = [_tell_load(load) for load in attack.loads]
     settings = [f"{path} = {_tell_value(value)}" for path, value in attack.settings.items()]
-    return "; ".join((*loads, *settings)) or "nothing"
+    return [*loads, *settings]
 
 
 def _tell_load(load: Load) -> str:
     torque = getattr(load, "torque_nm", ())
     sizes = [
-        f"{size:g} N·m on {body}" for size, body in zip(torque, BODIES, strict=False) if size != 0.0
+        tell_number("{:g} N·m on ", size) + body
+        for size, body in zip(torque, BODIES, strict=False)
+        if size != 0.0
     ]
     told = [f"{load.kind} of {' and '.join(sizes)}" if sizes else load.kind]
     told += [] if load.start_s is None else [f"from {load.start_s:g} s"]
     told += [
-        template.format(value)
+        tell_number(template, value)
         for name, template in NUMBERS.items()
         if (value := getattr(load, name, None)) is not None
     ]
@@ -51,4 +66,4 @@ def _tell_load(load: Load) -> str:
 
 
 def _tell_value(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return tell_number("{:g}", value) if isinstance(value, float) else str(value)

@@ -7,7 +7,6 @@ Bortz 2021). What is left is linear in the parameters.
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
-from scipy.signal import savgol_filter
 
 from svsa.identification.kernel import STATES, Parameters, compute_unit_torques
 from svsa.identification.record import Evidence
@@ -35,6 +34,8 @@ def guess_states(evidence: Evidence) -> np.ndarray:
 
 def guess_noise(evidence: Evidence) -> np.ndarray:
     """Rms of what of θ1, θ2, φ no smooth motion explains, (3,), rad."""
+    from scipy.signal import savgol_filter  # late: it takes a while
+
     rough = evidence.angles - savgol_filter(evidence.angles, _SMOOTH_ROWS, 3, axis=0)
     return np.sqrt(np.mean(rough**2, axis=0))
 

@@ -3,7 +3,6 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import t as student
 
 from svsa.identification.fit import Progress, fit
 from svsa.identification.guess import guess_noise, guess_states
@@ -124,6 +123,8 @@ def identify(record: Record, progress: Progress = lambda _: None) -> Identificat
             f"The model leaves {misfit:.0f} times the noise of the sensors unexplained in run"
             f" {record.header.run_id}: was there a load, a contact or a wrong geometry?"
         )
+    from scipy.stats import t as student  # late: it takes a while
+
     factor = float(student.ppf(0.5 + 0.5 * CONFIDENCE, max(found.used - len(found.values), 1)))
     values = dict(zip(Parameters._fields, found.values.tolist(), strict=True))
     deviations = dict(zip(Parameters._fields, found.deviations.tolist(), strict=True))

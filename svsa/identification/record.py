@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import lfilter
 
 from svsa.errors import SvsaError
 from svsa.identification.kernel import UNLOADED, Setting, Torques, measure
@@ -114,6 +113,8 @@ def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: f
     """
     rest = exp(-period / lag) if lag > 0.0 else 0.0
     if is_measured:
+        from scipy.signal import lfilter  # late: it takes a while
+
         made = lfilter([0.0, 1.0 - rest], [1.0, -rest], recorded, axis=0)
         return Torques(np.ascontiguousarray(made), recorded)
     following = np.concatenate([recorded[1:], recorded[-1:]])

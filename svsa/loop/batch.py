@@ -16,7 +16,7 @@ import numpy as np
 
 from svsa.borrowed import borrow
 from svsa.compilation import compiled, find_fingerprint, specialize
-from svsa.control.call import BoundLaw
+from svsa.control.call import BoundLaw, is_measuring
 from svsa.control.law import Law
 from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
@@ -153,7 +153,8 @@ def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     name = f"advance_groups_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     compute, view = compute_one_by_one, borrow
     if control:
-        compute = specialize(compute_side_by_side, f"compute_{name}", law=control)
+        told = is_measuring(control)
+        compute = specialize(compute_side_by_side, f"compute_{name}", law=control, is_told=told)
         view = build_record(memory)
     return specialize(advance_groups, name, compute=compute, read=build_reader(layout), view=view)
 
@@ -196,6 +197,9 @@ def advance_groups(
                 lane.estimate,
                 lane.applied,
                 blocks.period,
+                blocks.bench,
+                lane.x,
+                tick,
             )
             torque = limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
             is_torque = abs(torque.u1 + torque.u2) < math.inf

@@ -12,9 +12,11 @@ import numpy as np
 from numba.core.errors import NumbaError
 
 from svsa.compilation import compiled
-from svsa.control.call import BoundLaw, Call, compute_law
-from svsa.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED
+from svsa.control.call import BoundLaw, Call, compute_law, is_measuring
+from svsa.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, UNMOVED
 from svsa.model.dynamics import Actuator
+from svsa.plant.effects import Bench
+from svsa.plant.sensors import build_positions, read_positions
 from svsa.signals import Disturbance, Reference, State, Torque
 from svsa.simd.choice import choose
 from svsa.simd.each import put, take
@@ -45,7 +47,8 @@ _SIGNALS = (AT_REST, NO_REFERENCE, UNDISTURBED, NO_TORQUE)
 @cache
 def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
     signals = [find_kind(_lay_out(signal)) for signal in _SIGNALS]
-    kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64
+    told = [find_kind(_lay_out(UNMOVED))] if is_measuring(control) else []
+    kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64, *told
     try:
         control.get_call_template(kinds, {})
     except NumbaError:
@@ -59,11 +62,13 @@ class Addresses(NamedTuple):
     function_address: int
     nominal_address: int
     constants_address: int
+    is_measuring: int
 
 
 def find_addresses(law: BoundLaw) -> Addresses:
     """`Addresses` of a law whose arrays somebody keeps."""
-    return Addresses(law.function, law.nominal.ctypes.data, law.constants.ctypes.data)
+    words = law.nominal.ctypes.data, law.constants.ctypes.data
+    return Addresses(law.function, *words, int(law.is_measuring))
 
 
 @compiled
@@ -77,14 +82,18 @@ def compute_one_by_one(
     estimate: Disturbance,
     applied: Torque,
     period: float,
+    bench: Bench,
+    state: State,
+    tick: int,
 ) -> Torque:
     """u of those that run, `Torque`, N·m; 0 of the others, whose law is not called.
 
     constants: `Addresses` of every run's law, which has the nominal model, too. memories: (8,
-    words), written. Else as `Law` says.
+    words), written. bench, state: what is measured is read of, at `tick`. Else as `Law` says.
     """
     nothing = Torque(0.0, 0.0)
     torque = choose(runs, nothing, nothing)
+    measured = read_positions(bench, state, tick) if constants.is_measuring else build_positions(x)
     for i in range(WIDTH):
         if take(runs, i):
             law = take(constants, i)
@@ -94,6 +103,7 @@ def compute_one_by_one(
                 law.constants_address,
                 memories[i].ctypes.data,
                 0,
+                constants.is_measuring,
             )
             asked = compute_law(
                 call,
@@ -102,13 +112,15 @@ def compute_one_by_one(
                 take(estimate, i),
                 take(applied, i),
                 period,
+                take(measured, i),
             )
             torque = put(torque, i, asked)
     return torque
 
 
 law: Any = None
-"""Of `compute_side_by_side`: a law's function."""
+is_told: Any = None
+"""Of `compute_side_by_side`: a law's function, and whether it is told what was measured."""
 
 
 def compute_side_by_side(
@@ -121,6 +133,12 @@ def compute_side_by_side(
     estimate: Disturbance,
     applied: Torque,
     period: float,
+    bench: Bench,
+    state: State,
+    tick: int,
 ) -> Torque:
     """u of all eight at once, `Torque`, N·m: `law` compiled for vectors."""
+    if is_told:
+        measured = read_positions(bench, state, tick)
+        return law(nominal, constants, memory, x, reference, estimate, applied, period, measured)
     return law(nominal, constants, memory, x, reference, estimate, applied, period)

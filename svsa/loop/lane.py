@@ -12,11 +12,12 @@ from svsa.model.dynamics import Actuator, ExternalLoad
 from svsa.plant.disturbances import LoadTable
 from svsa.plant.effects import MAX_DELAY_SAMPLES, Bench
 from svsa.reference.transition import Stack
-from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.signals import Disturbance, Positions, Reference, State, Torque
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
 NO_TORQUE = Torque(0.0, 0.0)
+UNMOVED = Positions(0.0, 0.0, 0.0)
 NO_REFERENCE = Reference(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -100,7 +101,8 @@ def borrow_inputs(inputs: Inputs) -> Inputs:
 @compiled
 def borrow_law(law: BoundLaw) -> BoundLaw:
     """The same `BoundLaw` without owning its arrays."""
-    return BoundLaw(law.function, borrow(law.nominal), borrow(law.constants), law.is_own)
+    nominal, constants = borrow(law.nominal), borrow(law.constants)
+    return BoundLaw(law.function, nominal, constants, law.is_own, law.is_measuring)
 
 
 @compiled

@@ -31,9 +31,9 @@ from svsa.plant.disturbances import compute_load
 from svsa.plant.drive import compute_lagged_torque, compute_mean_torque
 from svsa.plant.effects import Bench
 from svsa.plant.integration import compute_plant_rate, integrate_from
-from svsa.plant.sensors import are_inexact, read_sensors
+from svsa.plant.sensors import are_inexact, build_positions, read_positions, read_sensors
 from svsa.reference.transition import compute_trajectory
-from svsa.signals import Disturbance, Measurement, Reference, State, Torque
+from svsa.signals import Disturbance, Measurement, Positions, Reference, State, Torque
 from svsa.simd.choice import choose, some
 
 
@@ -53,9 +53,10 @@ def compute_control(
     reference: Reference,
     estimate: Disturbance,
     applied: Torque,
+    measured: Positions,
 ) -> Torque:
     """The torque that the law of this `Call` asks for, after the limits, N·m."""
-    asked = compute_law(call, x, reference, estimate, applied, blocks.period)
+    asked = compute_law(call, x, reference, estimate, applied, blocks.period, measured)
     return limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
 
 
@@ -78,15 +79,18 @@ def decide(
     known: State,
     estimate: Disturbance,
     applied: Torque,
+    measured: Positions,
     tick: int,
 ) -> tuple[Reference, Torque]:
     """The first half of a tick: reference and controller.
 
     call: the law, `Call`. known: x̂, `State`. estimate: ŵ, `Disturbance`. applied: mean `Torque`
-    of the last period. Returns (`Reference`, `Torque` after the limits, N·m).
+    of the last period. measured: `Positions` of this tick. Returns (`Reference`, `Torque` after
+    the limits, N·m).
     """
     reference = read_reference(inputs, tick * blocks.period)
-    return reference, compute_control(blocks, call, known, reference, estimate, applied)
+    torque = compute_control(blocks, call, known, reference, estimate, applied, measured)
+    return reference, torque
 
 
 @compiled
@@ -131,6 +135,14 @@ def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int)
 
 
 @compiled
+def measure(blocks: Blocks, call: Call, x: State, tick: int) -> Positions:
+    """`Positions` that a law is told which takes them; what another one is not told is x itself."""
+    if call.is_measuring:
+        return read_positions(blocks.bench, x, tick)
+    return build_positions(x)
+
+
+@compiled
 def advance_tick(
     blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, tick: int, sample: np.ndarray
 ) -> tuple[LaneState, int]:
@@ -160,7 +172,10 @@ def advance_from(
     if code != INSIDE:
         return lane, F, code
     call = build_call(law, lane.memory)
-    reference, torque = decide(blocks, call, inputs, lane.known, lane.estimate, lane.applied, tick)
+    measured = measure(blocks, call, lane.x, tick)
+    reference, torque = decide(
+        blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, tick
+    )
     if not math.isfinite(torque.u1 + torque.u2):
         return lane, F, NOT_FINITE
     estimate = read_estimate(call, lane.estimate)

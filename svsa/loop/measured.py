@@ -20,7 +20,7 @@ from svsa.model.lever import compute_lever_ratio
 from svsa.model.spring import compute_stiffness
 from svsa.observer.state import predict_state
 from svsa.plant.drive import compute_late_torque
-from svsa.signals import Disturbance, Measurement, Reference, Sample, State, Torque
+from svsa.signals import Disturbance, Measurement, Positions, Reference, Sample, State, Torque
 
 
 class Actuation(NamedTuple):
@@ -120,7 +120,8 @@ def follow_and_decide(
     measured = Measurement(y.theta1, y.theta2, y.phi, y.dq, y.dtheta1, y.dtheta2)
     known, estimate = read_state(c.known), read_disturbance(c.estimate)
     x, w = observe(k.blocks, known, estimate, applied, measured)
-    r, asked = decide(k.blocks, k.call, inputs, x, w, applied, tick)
+    positions = Positions(y.theta1 + y.phi, y.theta1, y.theta2)
+    r, asked = decide(k.blocks, k.call, inputs, x, w, applied, positions, tick)
     store_state(c.known, x)
     store_disturbance(c.estimate, w)
     store_disturbance(c.believed, read_estimate(k.call, w))

@@ -1,22 +1,105 @@
-"""The same loop tick by tick from Python, for a controller that is not compiled.
+"""The same loop with a controller that is not compiled: it is asked once a tick, from within.
 
-The pieces are those of `svsa.loop.loop`, and so are the samples.
+To the compiled loop the controller is a law as any other, whose memory is what it is told, and
+which calls Python. Hence the samples are the same.
 """
 
-import math
+import ctypes
 from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
+from llvmlite import ir
+from numba.core import types
+from numba.extending import intrinsic
 
-from svsa.control.limits import limit_torque
+from svsa.compilation import compiled
+from svsa.control.call import BoundLaw, bind
 from svsa.errors import ParameterError, Violation
-from svsa.loop.lane import Blocks, Inputs, LaneState
-from svsa.loop.loop import apply_torque, read_reference
-from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
-from svsa.model.dynamics import compute_internal_torque
-from svsa.signals import Disturbance, Reference, State, Torque
+from svsa.isolation.asking import SIGNATURE, find_named
+from svsa.loop.lane import (
+    AT_REST,
+    NO_REFERENCE,
+    NO_TORQUE,
+    UNDISTURBED,
+    UNMOVED,
+    Blocks,
+    Inputs,
+    LaneState,
+)
+from svsa.loop.loop import advance
+from svsa.packed import pack
+from svsa.signals import Disturbance, Positions, Reference, State, Torque
 
-Controller = Callable[[float, Reference, State, Disturbance], tuple[float, float]]
+Controller = Callable[..., tuple[float, float]]
+"""Time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`) → (u1, u2), N·m.
+
+By name, where it takes them: `applied`, the mean `Torque` that acted in the last period, and
+`measured`, `Positions`.
+"""
+
+_Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+
+
+class _Told(NamedTuple):
+    """What the controller is told, and its answer."""
+
+    reference: Reference
+    x: State
+    estimate: Disturbance
+    applied: Torque
+    measured: Positions
+    answer: Torque
+
+
+_ZEROS = _Told(NO_REFERENCE, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED, NO_TORQUE)
+_WORDS = sum(map(len, _ZEROS))
+
+
+class _Address(NamedTuple):
+    function: int
+
+
+def _build_ask(typing: Any, address: Any, told: Any) -> Any:
+    """Call the function at an address with that of a record."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        record = ir.IntType(8).as_pointer()
+        function = ir.FunctionType(ir.VoidType(), [record]).as_pointer()
+        asked = builder.inttoptr(arguments[0], function)
+        builder.call(asked, [builder.bitcast(arguments[1], record)])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, told), generate
+
+
+_ask: Any = intrinsic(_build_ask)
+
+
+@compiled
+def _compute_asked(
+    nominal: Any,
+    address: Any,
+    told: Any,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+    measured: Positions,
+) -> Torque:
+    """What the controller answers, as `svsa.control.law.Law.control`."""
+    to = told.reference
+    to.q, to.dq, to.ddq, to.dddq, to.ddddq = reference[:5]
+    to.sigma, to.dsigma, to.ddsigma = reference[5:]
+    at = told.x
+    at.q, at.dq, at.theta1, at.dtheta1, at.theta2, at.dtheta2 = x
+    told.estimate.w2, told.estimate.w4, told.estimate.w6 = estimate
+    told.applied.u1, told.applied.u2 = applied
+    y = told.measured
+    y.q, y.theta1, y.theta2 = measured
+    _ask(address.function, told)
+    return Torque(told.answer.u1, told.answer.u2)
 
 
 def advance_stepwise(
@@ -29,24 +112,44 @@ def advance_stepwise(
 ) -> tuple[LaneState, int, int]:
     """As `svsa.loop.loop.advance`, with the torque from `controller`.
 
-    controller: time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`) → (u1, u2), N·m. Raises
-    `ParameterError` where it returns anything but two numbers.
+    What the controller raises is raised. Raises `ParameterError` where it returns anything but two
+    numbers, or takes something that it is not told.
     """
-    F = compute_internal_torque(blocks.nominal, lane.known)
-    for k, sample in enumerate(samples):
-        tick = first + k
-        code = check_domain(blocks.domain, blocks.plant, lane.x)
-        if code != INSIDE:
-            return lane, k, code
-        time = tick * blocks.period
-        reference = read_reference(inputs, time)
-        asked = _read_torque(controller(time, reference, lane.known, lane.estimate))
-        torque = limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
-        if not math.isfinite(torque.u1 + torque.u2):
-            return lane, k, NOT_FINITE
-        estimate = lane.estimate
-        lane, F = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sample)
-    return lane, len(samples), INSIDE
+    tick, raised, named = first, list[BaseException](), _find_named(controller)
+
+    def ask(address: int) -> None:
+        nonlocal tick
+        words = (ctypes.c_double * _WORDS).from_address(address)
+        try:
+            time = tick * blocks.period
+            given = Reference(*words[:8]), State(*words[8:14]), Disturbance(*words[14:17])
+            torque, positions = Torque(*words[17:19]), Positions(*words[19:22])
+            told: dict[str, tuple[float, ...]] = {"applied": torque, "measured": positions}
+            answer = controller(time, *given, **{name: told[name] for name in named})
+            words[22:] = _read_torque(answer)
+        except BaseException as error:
+            raised.append(error)
+            words[22:] = (np.nan, np.nan)
+        tick += 1
+
+    called = _Call(ask)
+    address = ctypes.cast(called, ctypes.c_void_p).value or 0
+    nominal, constants, told = pack(blocks.nominal), pack(_Address(address)), pack(_ZEROS)
+    law: BoundLaw = bind(_compute_asked, nominal, constants, told, False)
+    begun = lane._replace(memory=told.view(np.float64))
+    ended, done, code = advance(blocks, law, inputs, begun, first, samples)
+    if raised:
+        raise raised[0]
+    return ended._replace(memory=lane.memory), done, code
+
+
+def _find_named(controller: Controller) -> tuple[str, ...]:
+    try:
+        return find_named(controller)
+    except TypeError as error:
+        raise ParameterError(
+            Violation("controller", None, "", SIGNATURE, finding=str(error))
+        ) from None
 
 
 def _read_torque(answer: object) -> Torque:

@@ -11,12 +11,11 @@ exact values.
 
 import math
 
-import numpy as np
-
 from svsa.compilation import compiled
 from svsa.fused import fma
 from svsa.simd.choice import choose, greatest, least
 from svsa.simd.power import raise_two, take_exponent, take_fraction
+from svsa.simd.rounding import floor
 
 LOG2_E = 1.4426950408889634
 LN_2 = (0.6931471805599453, 2.3190468138462996e-17)
@@ -55,7 +54,7 @@ L = (
 def split_exponent(x: float) -> tuple[float, float]:
     """(2^k, e^r − 1) with x = k ln 2 + r, |r| ≤ ½ ln 2; x held between `LEAST` and `GREATEST`."""
     x = least(greatest(x, LEAST), GREATEST)
-    k = np.floor(x * LOG2_E + 0.5)
+    k = floor(x * LOG2_E + 0.5)
     exact = fma(-k, LN_2[0], x)
     y = -k * LN_2[1]
     r = exact + y

@@ -13,11 +13,10 @@ exact values: within 1 ulp.
 
 import math
 
-import numpy as np
-
 from svsa.compilation import compiled
 from svsa.fused import fma
 from svsa.simd.choice import choose, greatest
+from svsa.simd.rounding import floor
 
 TWO_OVER_PI = 2.0 / math.pi
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33)
@@ -75,7 +74,7 @@ def sin_cos(x: float) -> tuple[float, float]:
     x = k π/2 + r + y with |r| ≤ π/4 and y what does not fit into r (Cody and Waite, with a
     fused product, so that r is exact before its last part); k tells the quadrant.
     """
-    k = np.floor(x * TWO_OVER_PI + 0.5)
+    k = floor(x * TWO_OVER_PI + 0.5)
     exact = fma(-k, HALF_PI[0], x)
     part = k * HALF_PI[1]
     r = exact - part
@@ -87,8 +86,8 @@ def sin_cos(x: float) -> tuple[float, float]:
     high = fma(-0.5, z, 1.0)
     low = fma(-0.5, z, 1.0 - high)
     cosine = high + (low + fma(z * z, rest, -r * y))
-    half = np.floor(0.5 * k)
-    sign = 1.0 - 2.0 * (half - 2.0 * np.floor(0.5 * half))
+    half = floor(0.5 * k)
+    sign = 1.0 - 2.0 * (half - 2.0 * floor(0.5 * half))
     even = k == 2.0 * half
     return sign * choose(even, sine, cosine), sign * choose(even, cosine, -sine)
 

@@ -17,7 +17,10 @@ class ObserverBandwidth(Checked):
     """β_i = k_i/J_i: how fast the estimation error decays (Eq 12) on channels 2, 4, 6."""
 
     bandwidth_rad_per_s: tuple[Bandwidth, Bandwidth, Bandwidth] = quantity(
-        "rad/s", "β of link, motor 1 and motor 2, each from 0.1 to 1000"
+        "rad/s",
+        "β of link, motor 1 and motor 2, each from 0.1 to 1000",
+        symbol="Observer bandwidth β",
+        parts=tuple(f"Observer bandwidth β of {body}" for body in ("link", "motor 1", "motor 2")),
     )
 
 

@@ -84,17 +84,48 @@ def observe_unexplained(
     period: float,
 ) -> Disturbance:
     """`observe_disturbance` with F at both ends by a model of one's own, `InternalTorque`, N·m."""
+    r = compute_residual(nominal, memory, x, F_old, F_new, torque, period)
+    return correct_observed(memory, share, rate_share, x, r, period)
+
+
+@compiled
+def compute_residual(
+    nominal: Actuator,
+    memory: np.record,
+    x: State,
+    F_old: InternalTorque,
+    F_new: InternalTorque,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
+    """r of `observe_disturbance`, `Disturbance`, N·m; 0 where there was no period before."""
     seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
-    g = choose(memory.is_started > 0.0, share, 0.0)
-    h = choose(memory.is_started > 0.0, rate_share, 0.0) / period
-    w2, w4, w6 = (
-        memory.w2 + period * memory.dw2,
-        memory.w4 + period * memory.dw4,
-        memory.w6 + period * memory.dw6,
+    is_started = memory.is_started > 0.0
+    return Disturbance(
+        choose(is_started, seen.w2 - (memory.w2 + period * memory.dw2), 0.0),
+        choose(is_started, seen.w4 - (memory.w4 + period * memory.dw4), 0.0),
+        choose(is_started, seen.w6 - (memory.w6 + period * memory.dw6), 0.0),
     )
-    r2, r4, r6 = seen.w2 - w2, seen.w4 - w4, seen.w6 - w6
-    memory.w2, memory.dw2 = w2 + g * r2, memory.dw2 + h * r2
-    memory.w4, memory.dw4 = w4 + g * r4, memory.dw4 + h * r4
-    memory.w6, memory.dw6 = w6 + g * r6, memory.dw6 + h * r6
+
+
+@compiled
+def correct_observed(
+    memory: np.record,
+    share: float,
+    rate_share: float,
+    x: State,
+    residual: Disturbance,
+    period: float,
+) -> Disturbance:
+    """ŵ += T ŵ̇ + g r and ŵ̇ += h r/T, and x̂ kept; see `observe_disturbance`. residual: r."""
+    r, h = residual, rate_share / period
+    memory.w2 = memory.w2 + period * memory.dw2 + share * r.w2
+    memory.w4 = memory.w4 + period * memory.dw4 + share * r.w4
+    memory.w6 = memory.w6 + period * memory.dw6 + share * r.w6
+    memory.dw2, memory.dw4, memory.dw6 = (
+        memory.dw2 + h * r.w2,
+        memory.dw4 + h * r.w4,
+        memory.dw6 + h * r.w6,
+    )
     remember_state(memory, x)
     return get_observed(memory)

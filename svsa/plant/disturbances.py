@@ -25,6 +25,7 @@ MAX_SERIES_POINTS = 20_000
 _Torque = Annotated[Number, Field(ge=-50, le=50)]
 TorqueTriple = tuple[_Torque, _Torque, _Torque]
 _TRIPLE = "(w2, w4, w6) on link, motor 1, motor 2, each from −50 to 50"
+_PARTS = ("Load on the link", "Load on motor 1", "Load on motor 2")
 
 
 class _Load(Checked):
@@ -55,14 +56,14 @@ class ConstantLoad(_Load):
     """A torque that stays from its onset on: a step."""
 
     kind: Literal["constant"] = "constant"
-    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE, symbol="Load", parts=_PARTS)
 
 
 class PulseLoad(_Load):
     """A torque for a while."""
 
     kind: Literal["pulse"] = "pulse"
-    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE, symbol="Load", parts=_PARTS)
     duration_s: Number = quantity("s", "Duration", gt=0, le=3600)
 
     def get_duration(self) -> float:
@@ -77,7 +78,7 @@ class PushLoad(_Load):
     """
 
     kind: Literal["push"] = "push"
-    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE, symbol="Load", parts=_PARTS)
     hold_s: Number = quantity("s", "How long it lasts after it was told", gt=0, le=60, default=0.5)
 
     def get_duration(self) -> float:
@@ -89,7 +90,7 @@ class SineLoad(_Load):
     """torque · sin(2π f (t − onset) + phase)."""
 
     kind: Literal["sine"] = "sine"
-    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE)
+    torque_nm: TorqueTriple = quantity("N·m", _TRIPLE, symbol="Load", parts=_PARTS)
     frequency_hz: Number = quantity("Hz", "Frequency f", gt=0, le=100)
     phase_rad: Number = quantity("rad", "Phase", ge=-2 * math.pi, le=2 * math.pi, default=0.0)
 

@@ -26,13 +26,13 @@ def compute_plant_load(
 def add_resistance(bench: Bench, load: ExternalLoad, x: State) -> ExternalLoad:
     """The load of the table and what the plant has of its own: weight of the link, friction."""
     b, w4, w6 = bench, load.w4, load.w6
-    rubs1, rubs2 = b.static1 > 0.0, b.static2 > 0.0
-    if some(rubs1):
+    has_friction1, has_friction2 = b.static1 > 0.0, b.static2 > 0.0
+    if some(has_friction1):
         friction = compute_friction(x.dtheta1, b.coulomb1, b.static1, b.stribeck, b.creep1)
-        w4 = choose(rubs1, w4 - friction, w4)
-    if some(rubs2):
+        w4 = choose(has_friction1, w4 - friction, w4)
+    if some(has_friction2):
         friction = compute_friction(x.dtheta2, b.coulomb2, b.static2, b.stribeck, b.creep2)
-        w6 = choose(rubs2, w6 - friction, w6)
+        w6 = choose(has_friction2, w6 - friction, w6)
     return ExternalLoad(load.w2, w4, w6, load.inertia, load.gravity_moment + bench.gravity_moment)
 
 

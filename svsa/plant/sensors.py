@@ -5,7 +5,7 @@ import numpy as np
 from svsa.compilation import compiled
 from svsa.plant.effects import Bench
 from svsa.plant.noise import draw_normal
-from svsa.signals import Measurement, State
+from svsa.signals import Measurement, Positions, State
 from svsa.simd.choice import choose, some
 
 
@@ -32,6 +32,22 @@ def are_inexact(bench: Bench) -> bool:
     """Whether the sensors have counts or noise; else what is measured is the state itself."""
     counts, noise = bench.motor_step + bench.deflection_step, bench.motor_std + bench.deflection_std
     return counts + noise > 0.0
+
+
+@compiled
+def build_positions(x: State) -> Positions:
+    """What perfect sensors say of x, `Positions`."""
+    return Positions(x.q, x.theta1, x.theta2)
+
+
+@compiled
+def read_positions(bench: Bench, x: State, tick: int) -> Positions:
+    """`Positions` that the encoders say of x, `State` at the start of `tick`. bench: `Bench`."""
+    exact, differs = build_positions(x), are_inexact(bench)
+    if not some(differs):
+        return exact
+    y = read_sensors(bench, x, tick)
+    return choose(differs, Positions(y.theta1 + y.phi, y.theta1, y.theta2), exact)
 
 
 @compiled

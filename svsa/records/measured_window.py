@@ -9,7 +9,7 @@ from svsa.records.reader import Record
 from svsa.records.resimulation import read_origin
 from svsa.run.metrics import Metrics, RunningMetrics
 from svsa.run.replay import list_loads
-from svsa.run.timeline import Timeline, Window, WindowKind, name_stretches, read_timeline
+from svsa.run.timeline import Timeline, Window, WindowKind, read_timeline
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,7 @@ def trace_record(record: Record) -> Timeline | None:
 def find_measured_window(record: Record) -> MeasuredWindow | None:
     """The window of the last load that came on in the record; without one, the last window.
 
+    A bench's ramp to zero torque is measured only where there is nothing else: no law asked for it.
     Where this version cannot read what was changed, the whole record if that was nothing, else
     None. None also for a record without samples.
     """
@@ -59,7 +60,8 @@ def find_measured_window(record: Record) -> MeasuredWindow | None:
     first, end = record.first_tick, record.first_tick + record.tick_count
     there = timeline.list_windows(first, end)
     loads = [window for window in there if window.kind == "load" and window.first_tick >= first]
-    window = (loads or there)[-1]
+    controlled = [window for window in there if window.kind != "stop"]
+    window = (loads or controlled or there)[-1]
     found = _build(record, window, _name_lanes(timeline, max(first, window.first_tick)))
     ends = [load.end_tick for load in list_loads(*read_origin(record))]
     load_ended = any(found.first_tick < tick < found.end_tick for tick in ends)
@@ -94,6 +96,6 @@ def _build(record: Record, window: Window, lanes: tuple[str, ...]) -> MeasuredWi
 def _name_lanes(timeline: Timeline, tick: int) -> tuple[str, ...]:
     """Who controlled each lane at a tick."""
     lanes = timeline.list_stretches()
-    names = name_stretches(lanes)
+    names = timeline.name_stretches(lanes)
     present = [[one for one in lane if one.first_tick <= tick] or lane for lane in lanes]
-    return tuple(names[lane[-1].controller] for lane in present)
+    return tuple(names[lane[-1].number] for lane in present)

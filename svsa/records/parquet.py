@@ -4,7 +4,7 @@ import contextlib
 import io
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any, NamedTuple
 
@@ -12,6 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from svsa.errors import Fault
+from svsa.records.bench_start import START_FILE, BenchStart, dump_start
 from svsa.records.fault import FAULT_FILE, dump_fault
 from svsa.records.header import (
     COMMANDS_FILE,
@@ -24,9 +25,13 @@ from svsa.records.header import (
     write_header,
 )
 from svsa.records.stream import HEADER_KEY, build_schema, read_stream
+from svsa.records.told import EVENTS_FILE, dump_events
+from svsa.run.events import Event
 
 COMMANDS_KEY = b"svsa.commands"
 FAULT_KEY = b"svsa.fault"
+START_KEY = b"svsa.bench_start"
+EVENTS_KEY = b"svsa.events"
 ROWS_A_GROUP = 65_536
 
 FORMER_KINDS = {"controller": "law"}
@@ -80,6 +85,8 @@ def write_parquet(
     commands: Commands,
     batches: Batches,
     fault: Fault | None = None,
+    start: BenchStart | None = None,
+    events: Sequence[Event] = (),
 ) -> None:
     """Write samples as Parquet: float64 exact, zstd, checksums; all else of the record inside."""
     schema = build_schema(header)
@@ -87,6 +94,10 @@ def write_parquet(
     inside = {**schema.metadata, COMMANDS_KEY: json.dumps(lines).encode()}
     if fault is not None:
         inside[FAULT_KEY] = dump_fault(fault)
+    if start is not None:
+        inside[START_KEY] = dump_start(start)
+    if events:
+        inside[EVENTS_KEY] = dump_events(events)
     schema = schema.with_metadata(inside)
     with pq.ParquetWriter(
         sink, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
@@ -112,8 +123,10 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
     write_header(draft, header)
     (draft / COMMANDS_FILE).write_bytes(commands)
     (draft / PARQUET_FILE).write_bytes(content)
-    if FAULT_KEY in inside:
-        (draft / FAULT_FILE).write_bytes(inside[FAULT_KEY])
+    names = {FAULT_KEY: FAULT_FILE, START_KEY: START_FILE, EVENTS_KEY: EVENTS_FILE}
+    for key, name in names.items():
+        if key in inside:
+            (draft / name).write_bytes(inside[key])
     draft.rename(folder)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pyarrow as pa
 
 from svsa.errors import Fault
+from svsa.records.bench_start import BenchStart, read_start
 from svsa.records.fault import read_fault
 from svsa.records.header import (
     PARQUET_FILE,
@@ -34,6 +35,8 @@ from svsa.records.stream import (
     read_batch,
     read_stream,
 )
+from svsa.records.told import read_events
+from svsa.run.events import Event
 
 ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator[pa.RecordBatch]]
 
@@ -43,8 +46,10 @@ class Record:
     """A recorded run. Sample k is that of tick `first_tick` + k.
 
     commands: (tick, command) in the order they were given. fault: what the run ended in; None
-    where it ended otherwise, and where an older version recorded. Samples are read when asked for;
-    reading them raises `RecordError` where they are damaged.
+    where it ended otherwise, and where an older version recorded. start: what a bench's run began
+    from; None where it was simulated, or recorded from later on. events: those that a bench told
+    and no command explains, in the order of time. Samples are read when asked for; reading them
+    raises `RecordError` where they are damaged.
     """
 
     header: RecordHeader
@@ -53,6 +58,8 @@ class Record:
     tick_count: int
     _read: ReadBatches = field(repr=False)
     fault: Fault | None = None
+    start: BenchStart | None = None
+    events: tuple[Event, ...] = ()
 
     @cached_property
     def samples(self) -> np.ndarray:
@@ -122,19 +129,31 @@ def open_record(folder: Path) -> Record:
     """
     if not folder.is_dir():
         raise RecordError(f"There is no record {folder.name}.")
-    header, (commands, _), fault = read_header(folder), read_commands(folder), read_fault(folder)
-    if not (folder / PARQUET_FILE).exists() and (folder / STREAM_FILE).exists():
-        batches = list(_explain(read_stream(folder / STREAM_FILE, header), folder))
+    header, (commands, _) = read_header(folder), read_commands(folder)
+    told = read_fault(folder), read_start(folder), read_events(folder)
+    if (batches := _read_unfinished(folder, header)) is not None:
         first = batches[0].column("tick")[0].as_py() if batches else 0
         count = sum(batch.num_rows for batch in batches)
-        return Record(header, commands, first, count, _read_from(batches), fault)
+        return Record(header, commands, first, count, _read_from(batches), *told)
     with open_parquet(folder) as file:
         count = file.metadata.num_rows
         if not file.schema_arrow.equals(build_schema(header)):
             raise RecordError(f"{PARQUET_FILE} of record {folder.name} has other columns.")
     read = _read_from_parquet(folder)
     ticks = [batch.column("tick")[0].as_py() for batch in read(["tick"], 0, min(1, count))]
-    return Record(header, commands, ticks[0] if ticks else 0, count, read, fault)
+    return Record(header, commands, ticks[0] if ticks else 0, count, read, *told)
+
+
+def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch] | None:
+    """What is whole in the stream of a record; None where its Parquet file has taken its place."""
+    if (folder / PARQUET_FILE).exists() or not (folder / STREAM_FILE).exists():
+        return None
+    try:
+        return list(_explain(read_stream(folder / STREAM_FILE, header), folder))
+    except RecordError:
+        if (folder / PARQUET_FILE).exists():
+            return None  # it was finished between the look and the reading
+        raise
 
 
 def recover(folder: Path) -> Finished | None:

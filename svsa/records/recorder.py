@@ -15,10 +15,13 @@ from typing import Any, Literal
 import numpy as np
 
 from svsa.errors import Fault
+from svsa.records.bench_start import BenchStart, write_start
 from svsa.records.fault import write_fault
 from svsa.records.header import RecordError, RecordHeader
 from svsa.records.parquet import ROWS_A_GROUP, measure_bytes, write_command
+from svsa.records.told import write_events
 from svsa.records.writer import RecordWriter
+from svsa.run.events import Event
 
 FLUSH_PERIOD_S = 0.2
 LONGEST_CLOSE_S = 5.0
@@ -39,8 +42,8 @@ class RecordStatus:
 class Recorder:
     """A recording into a new folder; raises `RecordError` where that cannot be made.
 
-    `write_command`, `write_samples` and `write_fault` never wait and never raise: see `status`.
-    They are for one thread, that of the run.
+    What it is given is taken without waiting, and without raising: see `status`. It is for one
+    thread, that of the run.
     """
 
     def __init__(self, folder: Path, header: RecordHeader) -> None:
@@ -54,6 +57,9 @@ class Recorder:
         self._next_tick: int | None = None
         self._fault: Fault | None = None
         self._written_fault: Fault | None = None
+        self._start: BenchStart | None = None
+        self._events: tuple[Event, ...] = ()
+        self._written_events: tuple[Event, ...] = ()
         self._queue: deque[tuple[int, bytes | np.ndarray, int]] = deque()
         self._bytes_in = 0
         self._bytes_out = 0
@@ -86,6 +92,11 @@ class Recorder:
         else:
             self._hand_over(tick, line, len(line) + _COMMAND_BYTES)
 
+    def write_start(self, start: BenchStart) -> None:
+        """A run of a bench begins from this."""
+        if self._failure is None and not self._close_asked.is_set():
+            self._start = start
+
     def write_samples(self, first_tick: int, samples: np.ndarray) -> None:
         """Samples (ticks, lanes, channels) of first_tick, first_tick + 1, …; copied."""
         if samples.ndim != 3 or samples.shape[1:] != self._shape:
@@ -102,6 +113,11 @@ class Recorder:
         """The run has ended in this fault; None: the fault was cleared before a run began."""
         if self._failure is None and not self._close_asked.is_set():
             self._fault = fault
+
+    def write_event(self, event: Event) -> None:
+        """Something that the bench told of itself; commands and loads tell theirs themselves."""
+        if self._failure is None and not self._close_asked.is_set():
+            self._events = (*self._events, event)
 
     def close(self, wait_s: float = LONGEST_CLOSE_S) -> RecordStatus:
         """End the recording and finish its file; waits at most `wait_s`.
@@ -169,7 +185,14 @@ class Recorder:
                 samples = parts[0] if len(parts) == 1 else np.concatenate(parts)
                 self._bytes += self._writer.write_samples(first, samples)
                 self._ticks += rows
+        if self._start is not None:
+            start, self._start = self._start, None
+            write_start(self.folder, start)
         fault = self._fault
         if fault != self._written_fault:
             write_fault(self.folder, fault)
             self._written_fault = fault
+        events = self._events
+        if events != self._written_events:
+            write_events(self.folder, events)
+            self._written_events = events

@@ -25,13 +25,17 @@ class Tolerance(Checked):
 
 
 EXACT = Tolerance()
+MAX_OUTSIDE = 500
+FROM_THE_FIRST = (0, 0)
 
 
 @dataclass(frozen=True)
 class ChannelVerdict:
     """How a channel of a lane was judged. worst_s: the moment at which it leaves the band furthest,
     or comes nearest to leaving it; there `value`, and the band from `low` to `high`. excess: how
-    far it is outside then, negative inside; NaN where one of both is not known.
+    far it is outside then, negative inside; NaN where one of both is not known. outside: from when
+    to when it is outside, s, in order; stretches nearer to each other than a `MAX_OUTSIDE`-th of
+    what is compared are one. outside_s: how long it is outside in all, every tick counted.
     """
 
     lane: str
@@ -43,6 +47,8 @@ class ChannelVerdict:
     low: float
     high: float
     excess: float
+    outside: tuple[tuple[float, float], ...]
+    outside_s: float
 
 
 @dataclass(frozen=True)
@@ -59,13 +65,18 @@ class Verdict:
 
 
 def judge(
-    run: Record, other: Record, tolerances: Mapping[str, Tolerance], rest: Tolerance | None = EXACT
+    run: Record,
+    other: Record,
+    tolerances: Mapping[str, Tolerance],
+    rest: Tolerance | None = EXACT,
+    begins: tuple[int, int] = FROM_THE_FIRST,
 ) -> Verdict:
-    """Judge a run against another, lane by lane, from the first sample of each.
+    """Judge a run against another, lane by lane.
 
-    tolerances: by channel. rest: of channels that are not among them; None leaves those out. Raises
-    `ParameterError` for a channel that is not there, `RecordError` for runs of other lanes or
-    periods, and where nothing can be compared.
+    tolerances: by channel. rest: of channels that are not among them; None leaves those out.
+    begins: the samples of both that are laid over each other first, and compared from then on.
+    They are as long where as many are left. Raises `ParameterError` for a channel that is not
+    there, `RecordError` for runs of other lanes or periods, and where nothing can be compared.
     """
     own, others = run.header, other.header
     if own.period_s != others.period_s or len(own.lanes) != len(others.lanes):
@@ -78,54 +89,83 @@ def judge(
         if name not in names:
             bound = "a channel of both runs: " + ", ".join(names)
             raise ParameterError(Violation("channel", name, "", bound))
-    ticks = min(run.tick_count, other.tick_count)
+    left, others_left = run.tick_count - begins[0], other.tick_count - begins[1]
+    ticks = max(0, min(left, others_left))
     chosen = {name: tolerances.get(name, rest) for name in names}
     asked = {name: tolerance for name, tolerance in chosen.items() if tolerance is not None}
     if not ticks or not asked:
         raise RecordError(f"Of runs {own.run_id} and {others.run_id} there is nothing to compare.")
-    channels = tuple(_judge_channels(run, other, asked, ticks))
-    is_as_long = run.tick_count == other.tick_count
-    held = is_as_long and all(one.held for one in channels)
+    channels = tuple(_judge_channels(run, other, asked, ticks, begins))
+    held = left == others_left and all(one.held for one in channels)
     return Verdict(held, ticks, run.tick_count, other.tick_count, channels)
 
 
 def _judge_channels(
-    run: Record, other: Record, asked: Mapping[str, Tolerance], ticks: int
+    run: Record,
+    other: Record,
+    asked: Mapping[str, Tolerance],
+    ticks: int,
+    begins: tuple[int, int],
 ) -> Iterator[ChannelVerdict]:
-    header = run.header
+    header, first = run.header, run.first_tick + begins[0]
     units = {channel.name: channel.unit for channel in header.channels}
     for name, tolerance in asked.items():
-        values, wanted = (one.read_channels([name], 0, ticks)[:, :, 0] for one in (run, other))
-        reach = round(tolerance.time_s / header.period_s)
+        values = read_channel(run, name, begins[0], ticks)
+        wanted = read_channel(other, name, begins[1], ticks)
+        low, high = build_band(wanted, tolerance, round(tolerance.time_s / header.period_s))
+        unknown = np.isnan(values) & np.isnan(wanted)
+        excesses = np.where(unknown, -np.inf, np.maximum(low - values, values - high))
         for number, lane in enumerate(header.lanes):
-            value = values[:, number]
-            low, high = build_band(wanted[:, number], tolerance, reach)
-            excess = np.maximum(low - value, value - high)
-            is_same = np.isnan(value) & np.isnan(wanted[:, number])
-            excess = np.where(is_same, -np.inf, excess)
+            excess = excesses[:, number]
             missing = np.flatnonzero(np.isnan(excess))
             worst = int(missing[0]) if len(missing) else int(np.argmax(excess))
+            is_outside = ~(excess <= 0.0)
             yield ChannelVerdict(
                 lane=lane,
                 channel=name,
                 unit=units[name],
                 held=bool(excess[worst] <= 0.0),
-                worst_s=(run.first_tick + worst) * header.period_s,
-                value=float(value[worst]),
-                low=float(low[worst]),
-                high=float(high[worst]),
+                worst_s=(first + worst) * header.period_s,
+                value=float(values[worst, number]),
+                low=float(low[worst, number]),
+                high=float(high[worst, number]),
                 excess=float(excess[worst]),
+                outside=tuple(
+                    ((first + begin) * header.period_s, (first + end) * header.period_s)
+                    for begin, end in _find_stretches(is_outside)
+                ),
+                outside_s=float(is_outside.sum() * header.period_s),
             )
 
 
-def build_band(values: np.ndarray, tolerance: Tolerance, reach: int) -> tuple[np.ndarray, ...]:
-    """Least and greatest value that a run may have beside one of these. reach: in samples."""
+def _find_stretches(is_outside: np.ndarray) -> list[tuple[int, int]]:
+    """First and last tick of each stretch; see `ChannelVerdict.outside`."""
+    ticks = np.flatnonzero(is_outside)
+    if not len(ticks):
+        return []
+    apart = np.flatnonzero(np.diff(ticks) > max(1, len(is_outside) // MAX_OUTSIDE))
+    begins, ends = ticks[[0, *(apart + 1)]], ticks[[*apart, -1]]
+    return list(zip(begins.tolist(), ends.tolist(), strict=True))
+
+
+def read_channel(run: Record, name: str, begin: int, ticks: int) -> np.ndarray:
+    """So many samples of a channel from the sample `begin` on, (ticks, lanes)."""
+    return run.read_channels([name], begin, begin + ticks)[:, :, 0]
+
+
+def build_band(
+    values: np.ndarray, tolerance: Tolerance, reach: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest value that a run may have beside one of these (ticks, …).
+
+    reach: of the tolerance in time, in samples. NaN where within reach nothing is known.
+    """
     room = tolerance.absolute + tolerance.relative * np.abs(values)
     low, high = values - room, values + room
     if not reach:
         return low, high
-    size = 2 * reach + 1
-    return (
-        minimum_filter1d(low, size, mode="nearest"),
-        maximum_filter1d(high, size, mode="nearest"),
-    )
+    is_unknown, size = np.isnan(values), 2 * reach + 1
+    low, high = np.where(is_unknown, np.inf, low), np.where(is_unknown, -np.inf, high)
+    low = minimum_filter1d(low, size, axis=0, mode="nearest")
+    high = maximum_filter1d(high, size, axis=0, mode="nearest")
+    return np.where(low <= high, low, np.nan), np.where(low <= high, high, np.nan)

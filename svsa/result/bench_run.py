@@ -7,14 +7,17 @@ a run gives the same samples every time.
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-
 from svsa.bench.calibration import find_calibration
 from svsa.bench.can_plant import CanPlant
 from svsa.bench.clock import LockstepClock
 from svsa.bench.file import BenchFile, read_bench
-from svsa.bench.realtime.configuration import build_bench_configuration, build_guard
+from svsa.bench.realtime.configuration import (
+    build_bench_configuration,
+    build_guard,
+    read_actuation,
+)
 from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.realtime.sample_array import SampleArray
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import FaultError, StateError
@@ -22,35 +25,10 @@ from svsa.result.result import Result
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.run.configuration import Configuration
 from svsa.run.figure import LOAD_TIME_S, Figure
-from svsa.signals import CHANNELS
 
 RIG_BENCH = Path(__file__).parent.parent / "rig" / "bench.toml"
 ARMING_S = 5.0
 SETTLING_S = 0.2
-
-
-class SampleArray:
-    """Samples kept in memory, all of one run."""
-
-    def __init__(self, ticks: int) -> None:
-        self.samples = np.empty((ticks, len(CHANNELS)))
-        self.done = 0
-
-    def begin_run(self, number: int) -> None:
-        """Begin again at tick 0."""
-        self.done = 0
-
-    def get_row(self, tick: int) -> np.ndarray:
-        """The row of this tick; beyond the end, one that is thrown away."""
-        return self.samples[tick] if tick < len(self.samples) else np.empty(len(CHANNELS))
-
-    def commit(self, tick: int) -> None:
-        """The row of this tick is written."""
-        self.done = min(tick + 1, len(self.samples))
-
-    def skip(self, first: int, ticks: int) -> None:
-        """These ticks, from tick `first` on, were missed: their rows are NaN."""
-        self.samples[first : first + ticks] = np.nan
 
 
 class LockstepBench:
@@ -76,7 +54,8 @@ class LockstepBench:
         self.plant = CanPlant(self.bench, calibration, self._clock, guard, beats)
         self.plant.open()
         self.configuration = build_bench_configuration(self.bench, wanted)
-        self.loop = BenchLoop(self.plant, self.bench, self.configuration, self.sink)
+        actuation, mu0 = read_actuation(self.bench), self.bench.home.lever_ratio
+        self.loop = BenchLoop(self.plant, actuation, mu0, self.configuration, self.sink)
         self._deadline = self.now()
 
     def now(self) -> float:
@@ -148,4 +127,5 @@ def run_on_rig(
             progress(1.0)
         finally:
             bench.close()
-    return Result(bench.configuration, bench.sink.samples[: bench.sink.done], law=law)
+    samples = bench.sink.samples[: bench.sink.done]
+    return Result(bench.configuration, samples, law=law, plant="emulated")

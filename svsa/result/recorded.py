@@ -55,8 +55,9 @@ def open_run(run: str | Path) -> Result:
     samples = record.samples.transpose(1, 0, 2)
     if len(laws) != len(samples):
         laws = header.lanes
+    name = header.name or header.run_id
     return build_results(
-        configuration, samples, laws, record.fault, tuple(commands), header.name or header.run_id
+        configuration, samples, laws, record.fault, tuple(commands), name, header.plant
     )
 
 

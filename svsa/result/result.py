@@ -15,6 +15,7 @@ import numpy as np
 from svsa.checked import check_number
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.extras import list_missing, require_extra
+from svsa.records.header import PlantKind
 from svsa.result.channels import Channels
 from svsa.result.law_style import name_law
 from svsa.run.command import Command, SetLaw, SetLaws
@@ -38,7 +39,7 @@ class Result(Channels):
     `svsa.signals.CHANNELS`. A channel is also an attribute: `result.position_error_rad`. fault:
     why the run ended early, or None. rivals: the results of the controllers that ran beside this
     one. law: what controlled first, "own" for a function of one's own. commands: what was changed
-    of this lane on the way. name: what a recorded run is called.
+    of this lane on the way. name: what a recorded run is called. plant: what the first lane was.
     """
 
     configuration: Configuration
@@ -48,6 +49,7 @@ class Result(Channels):
     law: str = "ndobc"
     commands: tuple[Command, ...] = ()
     name: str = ""
+    plant: PlantKind = "simulated"
 
     @property
     def units(self) -> dict[str, str]:
@@ -183,9 +185,10 @@ def build_results(
     fault: Fault | None = None,
     commands: tuple[Command, ...] = (),
     name: str = "",
+    plant: PlantKind = "simulated",
 ) -> Result:
     """The first lane's result with those of its rivals. samples: (lanes, ticks, channels)."""
     of_all = tuple(command for command in commands if command.kind != "law")
     (rows, law), *others = zip(samples, laws, strict=True)
     rivals = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)
-    return Result(configuration, rows, fault, rivals, law, commands, name)
+    return Result(configuration, rows, fault, rivals, law, commands, name, plant)

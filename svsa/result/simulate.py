@@ -35,12 +35,12 @@ def simulate(
 
     experiment: a figure of the paper ("4a", "4b", "5") or a `Configuration`. law: the name of one
     that is installed ("ndobc", "fl", …), or a function (`Controller`): time in s, `Reference`, x̂
-    as `State`, ŵ as `Disturbance` → (u1, u2) in N·m. duration_s: s. steps: Runge–Kutta steps a
-    control period. commands: what is changed while it runs, such as
-    `svsa.Change(at_s=5.0, law="fl")`. parameters: a parameter file, such as `svsa identify`
-    writes, or its `Design`, instead of the experiment's own. changes: fields of the configuration
-    to replace, e.g. position, stiffness, loads, gains, observer, limits, actuator, nominal,
-    rivals, effects, seed.
+    as `State`, ŵ as `Disturbance` → (u1, u2) in N·m; measured and applied where it names them.
+    duration_s: s. steps: Runge–Kutta steps a control period. commands: what is changed while it
+    runs, such as `svsa.Change(at_s=5.0, law="fl")`. parameters: a parameter file, such as
+    `svsa identify` writes, or its `Design`, instead of the experiment's own. changes: fields of
+    the configuration to replace, e.g. position, stiffness, loads, gains, observer, limits,
+    actuator, nominal, rivals, effects, seed.
 
     Raises `ParameterError` for a value out of range. A run that leaves the domain of the
     model ends early: see `Result.fault`.

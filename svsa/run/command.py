@@ -56,6 +56,10 @@ class _Command(Checked):
         """The configuration with the field that the command is called after."""
         return configuration.changed(**{self.kind: self.argument})
 
+    def is_held_by(self, configuration: Configuration) -> bool:
+        """Whether everything that it sets is so already; raises as `configure`."""
+        return self.configure(configuration) == configuration
+
 
 class SetPosition(_Command):
     """Another position reference, faded over."""
@@ -197,15 +201,19 @@ class SetLane(_Command):
         return configuration.with_lane(self.argument)
 
 
-class _LoadCommand(_Command):
-    """A load is no part of the configuration but for those planned in it."""
+class _PassingCommand(_Command):
+    """What is no part of the configuration: a load, but for those planned in it, and a stop."""
 
     def configure(self, configuration: Configuration) -> Configuration:
         """The configuration as it is."""
         return configuration
 
+    def is_held_by(self, configuration: Configuration) -> bool:
+        """Never: each one is another load, or another stop."""
+        return False
 
-class ApplyLoad(_LoadCommand):
+
+class ApplyLoad(_PassingCommand):
     """A load now, or at its `start_s`; its number in the run is that of its command."""
 
     kind: Literal["load"] = "load"
@@ -216,7 +224,7 @@ class ApplyLoad(_LoadCommand):
         return run.add_load(self.argument)
 
 
-class RemoveLoad(_LoadCommand):
+class RemoveLoad(_PassingCommand):
     """The load of this number off."""
 
     kind: Literal["unload"] = "unload"
@@ -225,6 +233,17 @@ class RemoveLoad(_LoadCommand):
 
     def apply(self, run: Run) -> ScheduledLoad:  # noqa: D102
         return run.remove_load(self.argument)
+
+
+class Stop(_PassingCommand):
+    """A bench's torque goes to zero on a ramp from here on; a simulation knows no such stop."""
+
+    kind: Literal["stop"] = "stop"
+    argument: None = None
+    label: ClassVar[str] = "Stop"
+
+    def apply(self, run: Run) -> None:
+        """Nothing: the bench stops, while its twins go on."""
 
 
 Command = Annotated[
@@ -241,7 +260,8 @@ Command = Annotated[
     | SetRivals
     | SetLane
     | ApplyLoad
-    | RemoveLoad,
+    | RemoveLoad
+    | Stop,
     BY_KIND,
 ]
 COMMANDS: dict[str, type[_Command]] = {

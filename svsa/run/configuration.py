@@ -33,6 +33,7 @@ from svsa.toml_file import parse_toml, read_toml
 MAX_LOADS = 16
 PARAMETER_FILE = "parameter file"
 MAX_LANES = 4
+PROTOTYPE_FILE = Path(__file__).parent.parent / "prototype.toml"
 
 
 class Sampling(Checked):
@@ -101,7 +102,9 @@ class Configuration(Design):
         default=(),
         max_length=MAX_LANES - 1,
     )
-    effects: Effects = quantity("", "What separates the simulation from a bench", default=IDEAL)
+    effects: Effects = quantity(
+        "", "What separates the simulation from a bench", symbol="Effects", default=IDEAL
+    )
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
     position: PositionReference
     stiffness: StiffnessReference
@@ -220,7 +223,7 @@ def format_design(design: Design, tell_source: Callable[[str], str]) -> str:
 @cache
 def load_prototype() -> Design:
     """The paper's prototype with the declared assumptions: `svsa/prototype.toml`."""
-    return read_design(Path(__file__).parent.parent / "prototype.toml")
+    return read_design(PROTOTYPE_FILE)
 
 
 def _add_source(section: dict[str, Any], source: str) -> dict[str, Any]:

@@ -55,12 +55,16 @@ def complete_laws(laws: tuple[str, ...], is_bench: bool) -> tuple[str, ...]:
 
 def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]:
     """A name for each: place and law, and where one law is there twice what tells them apart."""
-    every = list(dict.fromkeys(controllers))
+    described = {one: _describe(one) for one in dict.fromkeys(controllers)}
+    alike: dict[tuple[str, str], list[dict[str, str]]] = {}
+    for one, numbers in described.items():
+        alike.setdefault((one.place, one.law), []).append(numbers)
+    differing = {law: _find_differing(numbers) for law, numbers in alike.items()}
     names: dict[Controller, str] = {}
-    for one in every:
-        alike = [other for other in every if (other.place, other.law) == (one.place, one.law)]
-        words = [one.place, get_title(one.law), *_tell_apart(one, alike)]
-        names[one] = " ".join(filter(None, words))
+    for one, numbers in described.items():
+        told = differing[one.place, one.law]
+        apart = (f"{symbol} {value}" for symbol, value in numbers.items() if symbol in told)
+        names[one] = " ".join(filter(None, (one.place, get_title(one.law), *apart)))
     return _number_doubles(names)
 
 
@@ -77,18 +81,14 @@ def _is_copy_of(held: Controller | None, controller: Controller) -> bool:
     return held is not None and held._replace(copy=1) == controller
 
 
-def _tell_apart(one: Controller, alike: Sequence[Controller]) -> list[str]:
-    """Each number in which these differ, by its symbol; β is the observer's, rad/s."""
-    described = [_describe(controller) for controller in alike]
-    own = _describe(one)
-    return [
-        f"{symbol} {value}"
-        for symbol, value in own.items()
-        if any(other.get(symbol) != value for other in described)
-    ]
+def _find_differing(described: Sequence[dict[str, str]]) -> set[str]:
+    """The symbols of the numbers in which these differ, or that not all of them have."""
+    symbols = {symbol for numbers in described for symbol in numbers}
+    return {symbol for symbol in symbols if len({numbers.get(symbol) for numbers in described}) > 1}
 
 
 def _describe(controller: Controller) -> dict[str, str]:
+    """Its numbers by their symbols; β is the observer's, rad/s."""
     betas = controller.observer.bandwidth_rad_per_s if controller.observer else ()
     shown = betas[:1] if len(set(betas)) == 1 else betas
     beta = {"β": "/".join(f"{beta:.3g}" for beta in shown)} if betas else {}

@@ -7,7 +7,7 @@ from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
 from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load, MassLoad, PaperLoad, PushLoad
-from svsa.run.command import ApplyLoad, Command, RemoveLoad, SetLane, SetLaw, SetLaws
+from svsa.run.command import ApplyLoad, Command, RemoveLoad, SetLane, SetLaw, SetLaws, SetRivals
 from svsa.run.configuration import Configuration
 from svsa.run.replay import list_loads
 
@@ -23,12 +23,16 @@ class Event:
 
 
 def list_events(
-    configuration: Configuration, commands: Iterable[Command], fault: Fault | None = None
+    configuration: Configuration,
+    commands: Iterable[Command],
+    fault: Fault | None = None,
+    told: Iterable[Event] = (),
 ) -> list[Event]:
     """The events of a run that was given these commands, in the order of time.
 
     A load that comes and goes is one event each, whether it was planned or commanded; one that
-    never ends has an end at no tick of the run. fault: what the run ended in, or None.
+    never ends has an end at no tick of the run. fault: what the run ended in, or None. told: what
+    a bench said of itself meanwhile.
     """
     commands, law = list(commands), configuration.law
     found: list[tuple[float, str, str]] = []
@@ -40,6 +44,7 @@ def list_events(
         if start < end:
             found.append((start, "load_on", describe_onset(load)))
             found.append((end, "load_off", describe_end(load)))
+    found += [(event.tick, event.kind, event.label) for event in told]
     if fault is not None:
         found.append((fault.tick, "fault", label_fault(fault.code)))
     period_s = configuration.sampling.period_s
@@ -63,8 +68,13 @@ def describe_change(command: Command, law: LawName) -> str:
     given = find_law(command)
     if given is not None and given != law:
         return f"{get_title(law)} → {get_title(given)}"
-    if isinstance(command, SetLane):
-        return f"{get_title(command.argument.setting.law)} set beside"
+    match command:
+        case SetLane(argument=argument):
+            return f"{get_title(argument.setting.law)} set beside"
+        case SetRivals(argument=()):
+            return "Nothing beside"
+        case SetRivals(argument=rivals):
+            return f"{', '.join(get_title(lane.law) for lane in rivals)} beside"
     return command.label
 
 

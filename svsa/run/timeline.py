@@ -24,6 +24,7 @@ from svsa.run.command import (
     SetObserver,
     SetParameters,
     SetRivals,
+    Stop,
 )
 from svsa.run.configuration import Configuration
 from svsa.run.controllers import (
@@ -38,6 +39,8 @@ from svsa.run.run import find_origins
 
 MAX_WINDOWS = 1000
 MAX_STRETCHES = 1000
+LONGEST_LABEL = 200
+_MORE = " …"
 # An ink's colour and dash are those of its remainders.
 INK_COLORS = 5
 INK_DASHES = 4
@@ -90,6 +93,7 @@ class Timeline:
         self._configuration, self._is_bench = configuration, is_bench
         self.kept_ticks = kept_ticks
         self._numbers: dict[Controller, int] = {}
+        self._names: dict[int, str] = {}
         self.lanes: list[list[Stretch]] = [[] for _ in configuration.lanes]
         self._new_lane_ids = itertools.count(1)
         self.lane_ids = [next(self._new_lane_ids) for _ in self.lanes]
@@ -118,7 +122,11 @@ class Timeline:
                 kept = self.load_numbers
                 self.load_numbers = [None if lane is None else kept[lane] for lane in origins]
         self._follow_controllers(command.tick)
-        if not isinstance(command, ApplyLoad | RemoveLoad) and (origins is None or None in origins):
+        if isinstance(command, Stop):
+            self._begin("stop", command.label, command.tick)
+        elif not isinstance(command, ApplyLoad | RemoveLoad) and (
+            origins is None or None in origins
+        ):
             self._begin("change", describe_change(command, before.law), command.tick)
         return origins
 
@@ -132,10 +140,6 @@ class Timeline:
         """A load that acted was taken off by hand."""
         self._begin("unload", describe_end(load), tick)
 
-    def begin_stop(self, tick: int) -> None:
-        """A bench's torque goes to zero on a ramp, while its twin goes on."""
-        self._begin("stop", "Stop", tick)
-
     def list_stretches(
         self, first_tick: float = 0, most: int = MAX_STRETCHES
     ) -> list[list[Stretch]]:
@@ -144,6 +148,18 @@ class Timeline:
             [one for one in lane if one.end_tick is None or one.end_tick > first_tick][-most:]
             for lane in self.lanes
         ]
+
+    def name_stretches(self, lanes: Sequence[Sequence[Stretch]]) -> dict[int, str]:
+        """By its number, a name for everybody who controlled these lanes in these stretches.
+
+        They are named together, in the order in which they came; kept until others are asked for.
+        """
+        controllers = {one.number: one.controller for lane in lanes for one in lane}
+        if controllers.keys() != self._names.keys():
+            numbers = sorted(controllers)
+            names = name_controllers(controllers[number] for number in numbers)
+            self._names = dict(zip(numbers, names.values(), strict=True))
+        return self._names
 
     def list_windows(self, first_tick: int, end_tick: int) -> list[Window]:
         """Those that reach into the ticks first … end − 1."""
@@ -211,12 +227,6 @@ class Timeline:
         return next(ink for ink in itertools.count() if ink not in kept | owed)
 
 
-def name_stretches(lanes: Sequence[Sequence[Stretch]]) -> dict[Controller, str]:
-    """A name for everybody who controlled a lane, in the order in which they came."""
-    every = sorted((one for lane in lanes for one in lane), key=lambda one: one.number)
-    return name_controllers(one.controller for one in every)
-
-
 def read_timeline(
     configuration: Configuration,
     commands: Iterable[Command],
@@ -256,9 +266,11 @@ def read_timeline(
 
 
 def _join(before: str, label: str) -> str:
-    """What happened at one tick in one label, each once."""
-    if label in before:
+    """What happened at one tick in one label, each once; what is too much for one is left out."""
+    if label in before or before.endswith(_MORE):
         return before
+    if len(before) + len(label) > LONGEST_LABEL:
+        return before + _MORE
     return f"{before}, {label}"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from svsa.run.metrics import Metrics, RunningMetrics
 
 Lanes = list[RunningMetrics | None]
-MAX_ENDED = 200
+MAX_ENDED = 50
 
 
 class EndedWindow(NamedTuple):

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from svsa.bench.calibration import find_calibration, list_problems
+from svsa.bench.drives.conversion import build_motor_scale
 from svsa.bench.file import read_bench
 from svsa.bench.homing import STEPS, Axis
 from svsa.bench.realtime.configuration import build_bench_configuration
@@ -14,6 +15,7 @@ from svsa.bench.safety.machine import MOVING, BenchStatus
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
 from svsa.loop.lane import AT_REST
+from svsa.records.bench_start import BenchStart
 from svsa.records.header import PlantKind
 from svsa.records.recorder import Recorder
 from svsa.run.command import Command
@@ -24,6 +26,7 @@ from svsa.session.bench_run import BenchRun
 from svsa.session.clock import Pace
 from svsa.session.fault_latch import FaultLatch
 from svsa.session.hands import Hands
+from svsa.session.heat_events import HeatEvents
 from svsa.session.journal import Journal
 from svsa.session.session import PROGRAM_ERROR, Status
 from svsa.session.supervised_loop import SupervisedLoop
@@ -69,11 +72,12 @@ class BenchSession:
         self.loop.launch(configuration)
         self._told_status, self._latch = BenchStatus.OFF, FaultLatch()
         self.homing_step: Axis | None = STEPS[0].name
+        self._heat = HeatEvents()
 
     def _build_still_run(self, configuration: Configuration) -> BenchRun:
         """A run that stands still until the processes are ready, and after."""
         still = Start(self.bench.home.lever_ratio, AT_REST)
-        return BenchRun(configuration, still, self.loop.memory)
+        return BenchRun(configuration, still, self.loop.memory, is_still=True)
 
     def _begin(self, run: BenchRun) -> None:
         self._run = run
@@ -136,14 +140,17 @@ class BenchSession:
 
     def load(self, configuration: Configuration) -> None:
         """Use its law, references and loads from the next start on; `StateError` in motion."""
-        configuration = build_bench_configuration(self.bench, configuration)
+        self._load(build_bench_configuration(self.bench, configuration))
+
+    def _load(self, configuration: Configuration) -> None:
         self._ask("load", configuration.model_dump(mode="json"))
+        self._hands.hang(())
         self.journal.stop_recording()
         self._begin(self._build_still_run(configuration))
 
     def reset(self) -> None:
         """Begin again at t = 0 at the next start; raises `StateError` in motion."""
-        self.load(self.journal.build_restart())
+        self._load(self.journal.build_restart())
 
     def arm(self) -> None:
         """Bring the drives to READY: reset, configuration, mode."""
@@ -186,11 +193,17 @@ class BenchSession:
         self._launch(configuration)
         self._begin(self._build_still_run(configuration))
 
-    def start_recording(self, recorder: Recorder) -> None:
-        """As `Journal.start_recording`, once it is known whether the bench is emulated."""
+    def prepare_recording(self) -> None:
+        """As `Session.prepare_recording`, once it is known whether the bench is emulated."""
         self.loop.check_started()
         if self.emulated is None:
             raise StateError("It is not known yet whether the bench is emulated: ask again.")
+        self.journal.check_recordable()
+        if not self._is_moving() and self.run.tick:
+            self.reset()
+
+    def start_recording(self, recorder: Recorder) -> None:
+        """As `Journal.start_recording`."""
         self.journal.start_recording(recorder)
 
     def stop_recording(self) -> None:
@@ -209,7 +222,21 @@ class BenchSession:
                 self.journal.stop_recording()
             else:
                 recorder.write_fault(None)
+                recorder.write_start(self._describe_start(answer))
         self._begin(BenchRun(self.run.configuration, start, self.loop.memory))
+
+    def _describe_start(self, answer: dict[str, Any]) -> BenchStart:
+        """What a run begins from, as the loop has told it."""
+        timing, motors = self.bench.timing, (self.bench.motor1, self.bench.motor2)
+        step1, step2 = (abs(build_motor_scale(motor).torque_per_ma) for motor in motors)
+        return BenchStart(
+            mu0=answer["mu0"],
+            latency_s=timing.latency_s,
+            lag_s=timing.current_lag_s,
+            torque_step_nm=(step1, step2),
+            motion=answer["motion"],
+            commands=len(self.journal.commands),
+        )
 
     def pause(self) -> None:
         """Ramp to zero torque."""
@@ -273,6 +300,7 @@ class BenchSession:
     def _take_states(self, states: list[dict[str, Any]]) -> None:
         for told in states:
             self.problems, self.homing_step = told["problems"], told["homing_step"]
+            self._heat.log(told["held_back"], BenchStatus(told["status"]) in MOVING, self.journal)
             if self._latch.take_own(Fault(**told["fault"]) if told["fault"] else None):
                 self._log_fault()
             self._told_status = BenchStatus(told["status"])
@@ -305,8 +333,12 @@ class BenchSession:
         """Give the run a command, at the tick at which the loop has taken it."""
         self._commands.change(command)
 
+    def set(self, command: Command) -> None:
+        """`change`, unless everything is so already."""
+        self._commands.patch(lambda _: command)
+
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`change`, once the loop has answered to every change before."""
+        """`set`, once the loop has answered to every change before."""
         self._commands.patch(build)
 
     def close(self) -> None:

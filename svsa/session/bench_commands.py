@@ -38,21 +38,22 @@ class BenchCommands:
     def change(self, command: Command) -> None:
         """Give the run a command."""
         self._journal.check(command)
-        self._journal.enter(self._give(command))
+        self._journal.enter(self._give(self._complete(command)))
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`change`, once the loop has answered to every change before."""
+        """`change`, once the loop has answered to every change before; unless all is so already."""
         self._wait()
-        self.change(build(self._journal.run.configuration))
+        configuration = self._journal.run.configuration
+        command = self._complete(build(configuration))
+        if not command.is_held_by(configuration):
+            self.change(command)
 
     def _wait(self) -> None:
         while self.is_pending:
             self._rest(CHANGING_S)
 
-    def _give(self, command: Command) -> Command:
-        """The command at the tick at which the loop has taken it."""
-        if isinstance(command, SetPosition | SetStiffness) and self._is_moving():
-            check_takes_no_time(command.argument)
+    def _complete(self, command: Command) -> Command:
+        """The command as a bench takes it: lane 2 is its twin, whatever the others are."""
         if isinstance(command, SetLane) and command.argument.lane == TWIN + 1:
             raise StateError(
                 f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
@@ -62,7 +63,13 @@ class BenchCommands:
             self._wait()
             twin = Lane(law=self._journal.run.configuration.law)
             others = tuple(lane for lane in command.argument if lane != twin)
-            command = command.changed(argument=(twin, *others))
+            return command.changed(argument=(twin, *others))
+        return command
+
+    def _give(self, command: Command) -> Command:
+        """The command at the tick at which the loop has taken it."""
+        if isinstance(command, SetPosition | SetStiffness) and self._is_moving():
+            check_takes_no_time(command.argument)
         self._pending += 1
         try:
             tick = self._ask("change", command.to_json())["tick"]

@@ -1,10 +1,9 @@
 """A run whose first lane is a bench: its samples are read, those of its twins are simulated."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from svsa.bench.realtime.memory import LoopMemory
 from svsa.model.domain import INSIDE
 from svsa.run.configuration import Configuration, Lane
 from svsa.run.controllers import complete_laws
@@ -22,26 +21,48 @@ _RESIDUALS = [
 TWIN = 1
 
 
+class SampleSource(Protocol):
+    """Where the bench's loop leaves its samples, as `LoopMemory`. number: of its present run."""
+
+    @property
+    def number(self) -> int:  # noqa: D102
+        ...
+
+    def count(self, number: int) -> int:
+        """How many samples of run `number` there are."""
+        ...
+
+    def read(self, first: int, rows: np.ndarray) -> None:
+        """Copy the samples from tick `first` on into `rows` (ticks, channels)."""
+        ...
+
+
 class BenchRun(Run):
     """Lane 1 comes from the loop's memory; the other lanes follow it tick for tick.
 
     The first rival is the bench's twin: the same law, commands and loads on the simulated
     plant. A twin that leaves the domain of the model ends, with NaN from there on; the bench
     goes on. Ticks that the bench's loop missed have a time and no numbers in lane 1.
+    is_still: it stands until another run begins, and has none of the samples of the one before.
     fault: the bench's, set by who watches its state.
     """
 
-    def __init__(self, configuration: Configuration, start: Start, memory: LoopMemory) -> None:
+    def __init__(
+        self,
+        configuration: Configuration,
+        start: Start,
+        memory: SampleSource,
+        is_still: bool = False,
+    ) -> None:
         self._memory = memory
-        self._number = int(memory.fields["run"])
+        self._number = None if is_still else memory.number
         self._ended: set[int] = set()
         self.fault: Fault | None = None
         super().__init__(configuration, start=start)
 
     def count_ready(self) -> int:
         """How many samples of the bench wait to be read."""
-        fields = self._memory.fields
-        there = int(fields["end_tick"]) if int(fields["run"]) == self._number else 0
+        there = 0 if self._number is None else self._memory.count(self._number)
         return max(0, there - self.tick)
 
     def advance(self, samples: np.ndarray) -> int:

@@ -9,7 +9,7 @@ from svsa.fault_labels import label_fault
 from svsa.plant.disturbances import Load, ScheduledLoad
 from svsa.records.header import BranchPoint
 from svsa.records.recorder import Recorder
-from svsa.run.command import ApplyLoad, Command, RemoveLoad, SetRivals
+from svsa.run.command import ApplyLoad, Command, RemoveLoad, SetRivals, Stop
 from svsa.run.configuration import MAX_LANES, Configuration
 from svsa.run.events import Event, describe_change, describe_end, describe_onset
 from svsa.run.run import Run
@@ -57,6 +57,7 @@ class Journal:
         self.run_number += 1
         self.history.clear()
         self.events: deque[Event] = deque(maxlen=MAX_EVENTS)
+        self._told: deque[Event] = deque(maxlen=MAX_EVENTS)
         self.timeline = Timeline(run.configuration, self._is_bench, KEPT_S / run.period_s)
         self.metrics = WindowMetrics(len(run.lanes), run.period_s)
         self.version += 1
@@ -65,12 +66,18 @@ class Journal:
         """Everything as it is set now, and no load but those planned at first."""
         return self.run.configuration.changed(loads=self.initial.loads)
 
-    def start_recording(self, recorder: Recorder) -> None:
-        """Give the recorder all commands so far, and every sample from now on."""
+    def check_recordable(self) -> None:
+        """Raise `StateError` where it is being recorded already."""
         if self.recorder is not None:
             raise StateError("The session is being recorded already: stop that recording first.")
+
+    def start_recording(self, recorder: Recorder) -> None:
+        """Give the recorder all commands and what was told so far, and every sample from now on."""
+        self.check_recordable()
         for command in self.commands:
             recorder.write_command(command.tick, command.to_json())
+        for event in self._told:
+            recorder.write_event(event)
         self.recorder = recorder
         self.version += 1
 
@@ -128,13 +135,17 @@ class Journal:
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
         self.version += 1
 
+    def tell(self, kind: str, label: str) -> None:
+        """Enter what a bench says of itself at the present tick: a record keeps it too."""
+        self.log(kind, label)
+        self._told.append(self.events[-1])
+        if self.recorder is not None:
+            self.recorder.write_event(self.events[-1])
+
     def begin_stop(self) -> None:
         """A bench ramps to zero torque: its error from now on is none of the window before."""
-        if self.timeline.window.kind == "stop":
-            return
-        self.log("stop", "Stop")
-        self.timeline.begin_stop(self.run.tick)
-        self.metrics.begin_window(self.run.tick)
+        if self.timeline.window.kind != "stop":
+            self.enter(Stop(tick=self.run.tick))
 
     def log_fault(self, fault: Fault, ends_run: bool = True) -> None:
         """A fault is an event, and the end of the recording of a run that it ends."""

@@ -110,12 +110,24 @@ class Session(Protocol):
     def change(self, command: Command) -> None:
         """Give the run a command now, whatever tick it names; refused, it changes nothing.
 
+        A reference that is followed already begins again, faded over.
         Raises `ParameterError` or `StateError` as the run does.
         """
         ...
 
+    def set(self, command: Command) -> None:
+        """`change`, but nothing at all where everything is so already: no fade, event or window."""
+        ...
+
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`change` by what `build` makes of the configuration as it is then."""
+        """`set` by what `build` makes of the configuration as it is then."""
+        ...
+
+    def prepare_recording(self) -> None:
+        """Before a record is made: raises `StateError` where the session cannot be recorded.
+
+        Of a bench that stands its next run is recorded: the one that has ended is forgotten.
+        """
         ...
 
     def start_recording(self, recorder: Recorder) -> None:

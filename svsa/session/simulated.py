@@ -157,9 +157,19 @@ class SimulatedSession:
         self.journal.check(command)
         self.journal.enter(command.at(self.run.tick))
 
+    def set(self, command: Command) -> None:
+        """`change`, unless everything is so already."""
+        self.patch(lambda _: command)
+
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`change` by what `build` makes of the present configuration."""
-        self.change(build(self.run.configuration))
+        """`set` by what `build` makes of the present configuration."""
+        command = build(self.run.configuration)
+        if not command.is_held_by(self.run.configuration):
+            self.change(command)
+
+    def prepare_recording(self) -> None:
+        """As `Journal.check_recordable`."""
+        self.journal.check_recordable()
 
     def start_recording(self, recorder: Recorder) -> None:
         """As `Journal.start_recording`."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from svsa.bench.emulation import EMULATED_PERIOD_S
 from svsa.bench.file import TimingSettings
-from svsa.bench.realtime.launch import BenchProcesses, Rest, Teller, keep_quiet
+from svsa.bench.realtime.launch import COLD, BenchProcesses, Rest, Teller, keep_quiet
 from svsa.bench.realtime.loss import Loss, find_loss, is_supervised
 from svsa.errors import StateError
 from svsa.run.configuration import Configuration
@@ -28,10 +28,11 @@ class SupervisedLoop:
     def __init__(self, path: Path, timing: TimingSettings, rest: Rest = time.sleep) -> None:
         self._path, self._timing, self._rest = path, timing, rest
         self.starting = True
+        self._heat = COLD
 
     def launch(self, configuration: Configuration) -> None:
         """Start both processes; `open` waits for them."""
-        self.processes = BenchProcesses(self._path, configuration, self._rest)
+        self.processes = BenchProcesses(self._path, configuration, self._rest, self._heat)
         self.memory = self.processes.memory
 
     def open(self, tell: Teller = keep_quiet) -> None:
@@ -45,11 +46,16 @@ class SupervisedLoop:
             self.starting = False
 
     def restart(self, launch: Callable[[], None]) -> None:
-        """End both processes, by force where they do not listen, have them launched, and open."""
+        """End both processes, by force where they do not listen, have them launched, and open.
+
+        The motors are as warm as the loop before left them: how long they cooled nobody has seen.
+        """
         self.starting = True
         try:
             before = self.processes
             before.end()
+            first, second = before.memory.fields["heat"]
+            self._heat = float(first), float(second)
             launch()
             before.free()
             self.open()

@@ -6,7 +6,6 @@ So neither how runs are put together, nor their order, nor the machine or a new 
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import qmc
 
 from svsa.errors import ParameterError
 from svsa.run.configuration import Configuration
@@ -76,6 +75,8 @@ def _make_shares(study: Study, words: np.ndarray, begin: int, end: int) -> np.nd
         shares = (words[:, 1 : 1 + count] >> np.uint64(11)) * 2.0**-53
         return np.stack([shares, shares])
     pairs = 2 if study.sampling == "sensitivity" else 1
+    from scipy.stats import qmc  # late: it takes a while
+
     sequence = qmc.Sobol(pairs * count, rng=np.random.default_rng(study.seed))
     point = sequence.random(1) if begin == 0 else sequence.fast_forward(begin).random(1)
     shares = np.concatenate([point, sequence.random(end - begin - 1)])

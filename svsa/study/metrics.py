@@ -1,12 +1,13 @@
 """What is measured of a run, from what the batch has summed up of it."""
 
-from typing import Any
+from typing import Annotated
 
 import numpy as np
+from pydantic import AfterValidator
 
-from svsa.loop.tally import SETTLED_S, SUMMARY
-from svsa.model.domain import FAULT_CODES, INSIDE
-from svsa.study.study import Success
+from svsa.errors import ParameterError, Violation
+from svsa.loop.tally import SETTLED_S
+from svsa.model.domain import INSIDE
 
 METRICS = {
     "rms_position_error_rad": "rad",
@@ -31,8 +32,15 @@ motor made its limit, to 0.1 %.
 
 RECOVERY = "recovery_time_s"
 
-REFUSED = "refused"
-"""In place of a fault: the drawn settings do not go together, and nothing was run."""
+
+def check_metric(name: str) -> str:
+    """The name; raises `ParameterError` where nothing of that name is measured."""
+    if name not in METRICS:
+        raise ParameterError(Violation("", name, "", f"one of {', '.join(METRICS)}"))
+    return name
+
+
+Metric = Annotated[str, AfterValidator(check_metric)]
 
 
 def compute_metrics(
@@ -65,31 +73,3 @@ def compute_metrics(
         "effort_n2m2_s": squares * periods * measured,
         "limit_share": summaries["limited"] / counts,
     }
-
-
-def build_outcome(
-    summaries: np.ndarray, periods: np.ndarray, begin_s: float, success: Success
-) -> dict[str, Any]:
-    """Of each run its fault with its time, whether it succeeded, and its metrics.
-
-    fault: None without one. fault_tick: None without a fault.
-    """
-    metrics = compute_metrics(summaries, periods, begin_s)
-    faults = [FAULT_CODES.get(int(code)) for code in summaries["code"]]
-    ticks = summaries["ticks"].tolist()
-    succeeded = np.array([fault is None for fault in faults], dtype=bool)
-    for name, most in success.list_bounds().items():
-        succeeded &= metrics[name] <= most
-    return {
-        "fault": faults,
-        "fault_tick": [tick if fault else None for fault, tick in zip(faults, ticks, strict=True)],
-        "succeeded": succeeded,
-        **metrics,
-    }
-
-
-def build_refused(count: int) -> dict[str, Any]:
-    """As `build_outcome`, of runs that were not begun."""
-    nothing = np.zeros(count, dtype=SUMMARY)
-    outcome = build_outcome(nothing, np.ones(count), 0.0, Success())
-    return outcome | {"fault": [REFUSED] * count, "succeeded": np.zeros(count, dtype=bool)}

@@ -1,5 +1,6 @@
 """A study in pictures: distributions, where it succeeds, what decides it, and its worst runs."""
 
+import math
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,20 +16,23 @@ from matplotlib.figure import Figure as Picture
 from svsa.control.installed import get_title
 from svsa.result.law_style import style_law
 from svsa.result.plot import label_axes
-from svsa.study.metrics import REFUSED
+from svsa.study.outcome import REFUSED
 from svsa.study.replay import replay_row
 from svsa.study.store import StoredStudy
 from svsa.study.study import Study
 from svsa.study.summary import SUCCEEDED, Sensitivity
+from svsa.study.tables import convert_shown, tell_metric, tell_unit
 from svsa.study.work import LAW, ROW
 
-DISTRIBUTED = {
-    "rms_position_error_rad": "rms position error [°]",
-    "peak_position_error_rad": "Peak position error [°]",
-    "rms_stiffness_error_nm_per_rad": "rms stiffness error [N·m/rad]",
-    "effort_n2m2_s": "Effort [N²·m²·s]",
-}
-WORST = 3
+DISTRIBUTED = (
+    "rms_position_error_rad",
+    "peak_position_error_rad",
+    "rms_stiffness_error_nm_per_rad",
+    "effort_n2m2_s",
+)
+"""Metrics whose distribution is drawn; of a study that keeps none of them, its first ones."""
+PANELS = 4
+WORST, PEAK = 3, "peak_position_error_rad"
 BINS = 16
 _DPI = 130
 _LETTERS_AN_INCH = 10
@@ -64,19 +68,24 @@ def draw_distributions(study: Study, rows: pa.Table) -> Picture:
     """Which share of all runs lies below a value; what ended in a fault never does."""
     picture = Picture(figsize=(9.0, 7.0), layout="constrained")
     _entitle(picture, study.title)
-    for axes, (name, label) in zip(picture.subplots(2, 2).flat, DISTRIBUTED.items(), strict=True):
+    names = [name for name in DISTRIBUTED if name in study.metrics] or study.metrics[:PANELS]
+    lines = math.ceil(len(names) / 2)
+    panels = picture.subplots(lines, min(len(names), 2), squeeze=False).flat
+    for axes in panels[len(names) :]:
+        axes.remove()
+    for axes, name in zip(panels, names, strict=False):
         for law in study.laws:
             own = rows.filter(pc.field(LAW) == law)
             values = np.sort(own.filter(pc.field("fault").is_null())[name].to_numpy())
             shares = 100.0 * np.arange(1, len(values) + 1) / max(len(own), 1)
             axes.step(
-                np.degrees(values) if name.endswith("_rad") and "nm" not in name else values,
+                convert_shown(name, values),
                 shares,
                 where="post",
                 **style_law(law),
             )
         label_axes(axes, "Runs below [%]")
-        axes.set_xlabel(label)
+        axes.set_xlabel(f"{tell_metric(name)} [{tell_unit(name)}]")
         axes.set_xscale("log")
         axes.set_ylim(0.0, 101.0)
     return picture
@@ -137,7 +146,8 @@ def draw_worst(stored: StoredStudy, rows: pa.Table) -> Picture:
     _entitle(picture, f"{study.title}: the {WORST} worst runs of each law")
     panels = picture.subplots(len(study.laws), 1, squeeze=False, sharex=True)[:, 0]
     for axes, law in zip(panels, study.laws, strict=True):
-        for number, row in enumerate(find_worst(rows.filter(pc.field(LAW) == law))):
+        own = rows.filter(pc.field(LAW) == law)
+        for number, row in enumerate(find_worst(own, study.metrics)):
             result = replay_row(stored, row).result
             style: dict[str, Any] = style_law(law) | {"color": LAWLESS[number], "linestyle": "-"}
             ended = f", ended: {result.fault.code}" if result.fault else ""
@@ -159,13 +169,17 @@ def _entitle(picture: Picture, title: str) -> None:
     )
 
 
-def find_worst(rows: pa.Table, count: int = WORST) -> list[int]:
-    """The worst rows: those that ended in a fault, the earliest first, then the greatest peaks."""
+def find_worst(rows: pa.Table, metrics: Sequence[str], count: int = WORST) -> list[int]:
+    """The worst rows: those that ended in a fault, the earliest first, then the greatest peaks.
+
+    metrics: those of the table; without the peaks the first of them counts.
+    """
+    metric = PEAK if PEAK in metrics else metrics[0]
     order = rows.append_column("whole", rows["fault"].is_null()).sort_by(
         [
             ("whole", "ascending"),
             ("fault_tick", "ascending"),
-            ("peak_position_error_rad", "descending"),
+            (metric, "descending"),
         ]
     )
     return order[ROW].to_pylist()[:count]

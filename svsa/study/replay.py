@@ -22,16 +22,17 @@ from svsa.run.blocks import build_blocks, compute_start_ratio
 from svsa.run.configuration import Configuration
 from svsa.signals import CHANNELS
 from svsa.study.draws import build_configurations, draw
-from svsa.study.metrics import METRICS, build_outcome
+from svsa.study.metrics import METRICS
+from svsa.study.outcome import build_outcome
 from svsa.study.store import StoredStudy, StudyError, read_rows
-from svsa.study.study import Success
+from svsa.study.success import Success
 from svsa.study.work import ROW
 
 _CODES = {name: code for code, name in FAULT_CODES.items()} | {None: INSIDE}
 
 
 class Replay(NamedTuple):
-    """A row and its run. kept: as it stands in the table. metrics: of the run's samples."""
+    """A row and its run. kept: as it stands in the table. metrics: of the run's samples, all."""
 
     row: int
     kept: dict[str, Any]
@@ -42,7 +43,8 @@ class Replay(NamedTuple):
     @property
     def differing(self) -> list[str]:
         """The metrics that are not to the bit those of the table, and the fault where it is."""
-        names = [name for name in METRICS if not _is_same(self.kept[name], self.metrics[name])]
+        kept = [name for name in METRICS if name in self.kept]
+        names = [name for name in kept if not _is_same(self.kept[name], self.metrics[name])]
         fault = self.result.fault
         ended = (fault.code, fault.tick) if fault else (None, None)
         if ended != (self.kept["fault"], self.kept["fault_tick"]):
@@ -91,8 +93,13 @@ def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, f
     return {name: float(outcome[name][0]) for name in METRICS}
 
 
-def record_replay(stored: StoredStudy, replay: Replay, catalogue: Catalogue) -> RunEntry:
-    """Put the run into the catalogue, where the lab shows it as any recorded one."""
+def record_replay(
+    stored: StoredStudy, replay: Replay, catalogue: Catalogue, owner: str = ""
+) -> RunEntry:
+    """Put the run into the catalogue, where the lab shows it as any recorded one.
+
+    owner: id of who asked for it, in a class.
+    """
     varied = {one.column: replay.kept[one.column] for one in stored.study.vary}
     told = [
         f"{name}: {value:g}" if isinstance(value, float) else f"{name}: {value}"
@@ -111,6 +118,7 @@ def record_replay(stored: StoredStudy, replay: Replay, catalogue: Catalogue) -> 
         seed=replay.configuration.seed,
         period_s=replay.configuration.sampling.period_s,
         channels=CHANNELS,
+        owner=owner,
     )
     folder = catalogue.folder / "runs" / header.run_id
     write_record(folder, header, [], 0, replay.result.samples[:, None])

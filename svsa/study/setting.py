@@ -2,7 +2,7 @@
 
 import re
 import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from typing import Any
 
@@ -75,6 +75,15 @@ def read_setting(configuration: Configuration, path: str) -> Any:
 
     An effect that is off is None, and its fields have the values that it has when switched on.
     """
+    *_, (_, _, value) = walk_to_setting(configuration, path)
+    return value
+
+
+def walk_to_setting(configuration: Configuration, path: str) -> Iterator[tuple[Any, Step, Any]]:
+    """Each step of a path, after what it is taken from and before where it leads.
+
+    Raises `ParameterError` as `read_setting`.
+    """
     parent: Any = None
     value: Any = configuration
     last = ""
@@ -82,7 +91,7 @@ def read_setting(configuration: Configuration, path: str) -> Any:
         if value is None:
             value = _switch_on(parent, last)
         parent, last, value = value, str(step), _step_into(configuration, value, step)
-    return value
+        yield parent, step, value
 
 
 def change_settings(configuration: Configuration, changes: Mapping[str, Any]) -> Configuration:

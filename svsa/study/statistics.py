@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import binomtest
 
 CONFIDENCE = 0.95
 RESAMPLES = 2000
@@ -23,6 +22,8 @@ def estimate_share(count: int, total: int) -> Interval:
     """The share of `count` of `total`, by Wilson's score interval; of none at all NaN, 0 to 1."""
     if not total:
         return Interval(np.nan, 0.0, 1.0)
+    from scipy.stats import binomtest  # late: it takes a while
+
     ends = binomtest(count, total).proportion_ci(CONFIDENCE, "wilson")
     return Interval(count / total, float(ends.low), float(ends.high))
 

@@ -6,11 +6,13 @@ goes on where it was left, however it was left, with parts of any size.
 
 import json
 import re
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
+from uuid import uuid4
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -21,7 +23,7 @@ from svsa.records.catalogue.runs import find_data_folder
 from svsa.records.header import replace_file
 from svsa.release import __version__
 from svsa.study.study import Study
-from svsa.study.work import build_schema
+from svsa.study.work import build_schema, list_repeating
 
 STUDY_FILE, TABLE_FILE, PARTS, LOCK_FILE = "study.json", "rows.parquet", "parts", "lock"
 ROWS_A_GROUP = 65_536
@@ -37,13 +39,21 @@ class StudyError(SvsaError):
 
 
 class StoredStudy(NamedTuple):
-    """A study and its folder."""
+    """A study and its folder. owner: id of who began it, in a class; empty elsewhere."""
 
     name: str
     study: Study
     folder: Path
     created: str
     version: str
+    owner: str = ""
+
+
+def check_name(name: str) -> None:
+    """Raise `ParameterError` for a name by which nothing can be kept."""
+    if not _NAME.fullmatch(name):
+        bound = "1 to 64 letters, digits, -, _ or ., the first no sign"
+        raise ParameterError(Violation("name", name, "", bound))
 
 
 def find_studies_folder() -> Path:
@@ -51,14 +61,14 @@ def find_studies_folder() -> Path:
     return find_data_folder() / "studies"
 
 
-def keep_study(name: str, study: Study, root: Path | None = None) -> StoredStudy:
+def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "") -> StoredStudy:
     """The study of this name, begun, or gone on with; more runs may be asked for than before.
+
+    owner: of one that is begun; one that is gone on with keeps its own.
 
     Raises `ParameterError` for a name that is none, `StudyError` where another study has it.
     """
-    if not _NAME.fullmatch(name):
-        bound = "1 to 64 letters, digits, -, _ or ., the first no sign"
-        raise ParameterError(Violation("name", name, "", bound))
+    check_name(name)
     folder = (root or find_studies_folder()) / name
     created, version = datetime.now(UTC).isoformat(timespec="seconds"), __version__
     if is_kept(name, root):
@@ -75,15 +85,15 @@ def keep_study(name: str, study: Study, root: Path | None = None) -> StoredStudy
                 f"Study {name} was begun by version {kept.version} of svsa, and this is"
                 f" {__version__}: its runs might differ. Give this one another name (--name)."
             )
-        created, version = kept.created, kept.version
-    text = {"name": name, "created": created, "version": version}
+        created, version, owner = kept.created, kept.version, kept.owner
+    text = {"name": name, "created": created, "version": version, "owner": owner}
     content = json.dumps(text | {"study": study.model_dump(mode="json")}, indent=1)
     try:
         (folder / PARTS).mkdir(parents=True, exist_ok=True)
         replace_file(folder / STUDY_FILE, content.encode())
     except OSError as error:
         raise StudyError(f"Study {name} cannot be kept in {folder}: {error}.") from None
-    return StoredStudy(name, study, folder, created, version)
+    return StoredStudy(name, study, folder, created, version, owner)
 
 
 def is_kept(name: str, root: Path | None = None) -> bool:
@@ -99,7 +109,8 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
     try:
         written = json.loads((folder / STUDY_FILE).read_text(encoding="utf-8"))
         study = Study(**written["study"])
-        return StoredStudy(name, study, folder, written["created"], written["version"])
+        told = written["created"], written["version"], written.get("owner", "")
+        return StoredStudy(name, study, folder, *told)
     except FileNotFoundError:
         known = ", ".join(one.name for one in list_studies(root)) or "none"
         raise StudyError(f"There is no study {name} in {root}; there: {known}.") from None
@@ -119,6 +130,13 @@ def list_studies(root: Path | None = None) -> list[StoredStudy]:
     return found
 
 
+def measure_bytes(owner: str, root: Path | None = None) -> int:
+    """What the studies of one owner take on the disk."""
+    folders = [one.folder for one in list_studies(root) if one.owner == owner]
+    files = (path for folder in folders for path in folder.rglob("*"))
+    return sum(path.stat().st_size for path in files if path.is_file())
+
+
 @contextmanager
 def claim_study(stored: StoredStudy) -> Iterator[None]:
     """Be the only one who works at a study; raises `StudyError` where somebody does."""
@@ -128,12 +146,21 @@ def claim_study(stored: StoredStudy) -> Iterator[None]:
         yield
 
 
-def write_part(stored: StoredStudy, span: Span, table: pa.Table) -> None:
-    """Keep the rows of these draws."""
-    path = stored.folder / PARTS / f"{span[0]:010d}-{span[1]:010d}.parquet"
-    sink = pa.BufferOutputStream()
-    pq.write_table(table, sink)
-    replace_file(path, sink.getvalue().to_pybytes())
+def delete_study(stored: StoredStudy) -> None:
+    """Delete a study with all its rows; raises `StudyError` where somebody works at it."""
+    gone = stored.folder.with_name(f".{uuid4().hex}")
+    try:
+        with claim_study(stored):
+            stored.folder.rename(gone)
+        (gone / STUDY_FILE).unlink()
+        shutil.rmtree(gone)
+    except OSError as error:
+        raise StudyError(f"Study {stored.name} cannot be deleted: {error}.") from None
+
+
+def write_part(stored: StoredStudy, span: Span, content: bytes) -> None:
+    """Keep the rows of these draws, a Parquet file."""
+    replace_file(stored.folder / PARTS / f"{span[0]:010d}-{span[1]:010d}.parquet", content)
 
 
 def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
@@ -185,7 +212,8 @@ def join_parts(stored: StoredStudy) -> Path | None:
     if not whole or whole == [table]:
         return table if whole else None
     draft = table.with_suffix(".tmp")
-    with pq.ParquetWriter(draft, build_schema(stored.study)) as writer:
+    schema = build_schema(stored.study)
+    with pq.ParquetWriter(draft, schema, use_dictionary=list_repeating(schema)) as writer:
         for group in _regroup(whole):
             writer.write_table(group, row_group_size=ROWS_A_GROUP)
     draft.replace(table)

@@ -11,7 +11,9 @@ from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.errors import ParameterError, Violation
 from svsa.paper import DURATION_S, get_figure
 from svsa.run.configuration import Configuration
+from svsa.study.metrics import METRICS, Metric
 from svsa.study.setting import change_settings, read_setting
+from svsa.study.success import Success
 from svsa.study.variation import DRAWN, Variation, Variations
 
 MAX_RUNS = 10**9
@@ -20,42 +22,15 @@ FIGURE = "figure"
 Sampling = Literal["random", "sobol", "sensitivity"]
 
 
-class Success(Checked):
-    """What a run must keep besides its domain, each at most; what is left out is not asked."""
-
-    rms_position_error_rad: Number | None = quantity("rad", "rms of q_d − q", gt=0, default=None)
-    peak_position_error_rad: Number | None = quantity(
-        "rad", "Largest |q_d − q|", gt=0, default=None
-    )
-    rms_stiffness_error_nm_per_rad: Number | None = quantity(
-        "N·m/rad", "rms of σ_d − σ", gt=0, default=None
-    )
-    peak_stiffness_error_nm_per_rad: Number | None = quantity(
-        "N·m/rad", "Largest |σ_d − σ|", gt=0, default=None
-    )
-    settled_position_error_rad: Number | None = quantity(
-        "rad", "rms of q_d − q over the last 0.5 s", gt=0, default=None
-    )
-    recovery_time_s: Number | None = quantity(
-        "s", "Until |q_d − q| stays within 2 % of its peak for 0.5 s", gt=0, default=None
-    )
-    last_position_error_rad: Number | None = quantity(
-        "rad", "|q_d − q| in the last sample", gt=0, default=None
-    )
-
-    def list_bounds(self) -> dict[str, float]:
-        """The greatest value of each metric that is asked for."""
-        return {name: value for name, value in self if value is not None}
-
-
 class Study(Checked):
     """Runs of one actuator with varied settings, the same draws under each law.
 
     base: the configuration that all begin from: `figure` of the paper, and settings in its place.
     runs: how many draws; where there are grids, of the whole grid; for `sensitivity` how many base
     samples, a power of two. sampling: independent draws, Sobol's sequence, or the pairs of it of
-    which Sobol indices are made. Raises `ParameterError` for every wrong value, those of the base
-    and of what varies among them.
+    which Sobol indices are made. metrics: columns of the table in this order; success may ask for
+    others. Raises `ParameterError` for every wrong value, those of the base and of what varies
+    among them.
     """
 
     title: str = quantity("", "What the study is about", max_length=200)
@@ -69,12 +44,17 @@ class Study(Checked):
     sampling: Sampling = quantity("", "How is drawn", default="random")
     duration_s: Number = quantity("s", "How long a run is", gt=0, le=3600, default=DURATION_S)
     measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
+    metrics: tuple[Metric, ...] = quantity(
+        "", "What its table keeps of each run", min_length=1, default=tuple(METRICS)
+    )
     success: Success = quantity("", "What counts as success, besides no fault", default=Success())
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         check_measured(self.measure_from_s, self.duration_s)
-        self._check_names()
+        self._check_once("laws", self.laws)
+        self._check_once("metrics", self.metrics)
+        self._check_paths()
         if self.sampling == "sensitivity":
             self._check_sensitivity()
         for law in self.laws:
@@ -86,9 +66,11 @@ class Study(Checked):
             raise ParameterError(Violation("runs", self.runs, "", bound))
         return self
 
-    def _check_names(self) -> None:
-        if len(set(self.laws)) < len(self.laws):
-            raise ParameterError(Violation("laws", list(self.laws), "", "names, each once"))
+    def _check_once(self, name: str, listed: tuple[str, ...]) -> None:
+        if len(set(listed)) < len(listed):
+            raise ParameterError(Violation(name, list(listed), "", "names, each once"))
+
+    def _check_paths(self) -> None:
         paths = [variation.path for variation in self.vary]
         for number, path in enumerate(paths):
             if path in paths[:number]:

@@ -4,15 +4,16 @@ A run that ended in a fault has no error that could be set beside that of a whol
 quantiles it stands beyond every value, and in paired differences both runs must be whole.
 """
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
-from scipy.stats import sobol_indices
 
 from svsa.errors import ParameterError, Violation
-from svsa.study.metrics import METRICS, RECOVERY, REFUSED
+from svsa.study.metrics import METRICS, RECOVERY
+from svsa.study.outcome import REFUSED
 from svsa.study.statistics import (
     Interval,
     compute_quantiles,
@@ -43,9 +44,9 @@ class LawSummary(NamedTuple):
 class Pairing(NamedTuple):
     """One law less another on the same draws.
 
-    success: difference of the shares, of all pairs. differences: of each metric the mean
-    difference over the `whole` pairs of which neither ended in a fault, and of which both have it
-    (some never recover). only_one, only_other: how many draws only one of them succeeded on.
+    success: difference of the shares, of all pairs. differences: of each metric that both keep the
+    mean difference over the `whole` pairs of which neither ended in a fault, and of which both have
+    it (some never recover). only_one, only_other: how many draws only one of them succeeded on.
     """
 
     one: str
@@ -72,10 +73,12 @@ class Sensitivity(NamedTuple):
 
 def summarize_laws(study: Study, rows: pa.Table) -> list[LawSummary]:
     """Of each law in the study's order."""
-    return [_summarize_law(law, rows.filter(pc.field(LAW) == law)) for law in study.laws]
+    return [
+        _summarize_law(law, study.metrics, rows.filter(pc.field(LAW) == law)) for law in study.laws
+    ]
 
 
-def _summarize_law(law: str, rows: pa.Table) -> LawSummary:
+def _summarize_law(law: str, metrics: Sequence[str], rows: pa.Table) -> LawSummary:
     faults = rows["fault"].to_pylist()
     counts = {code: faults.count(code) for code in sorted({*faults} - {None})}
     refused = counts.pop(REFUSED, 0)
@@ -83,7 +86,7 @@ def _summarize_law(law: str, rows: pa.Table) -> LawSummary:
     is_run = np.array([fault != REFUSED for fault in faults], dtype=bool)
     ended = np.array([fault is not None for fault in faults], dtype=bool)
     quantiles = {
-        name: compute_quantiles(_rank(name, rows, ended)[is_run], SHARES) for name in METRICS
+        name: compute_quantiles(_rank(name, rows, ended)[is_run], SHARES) for name in metrics
     }
     successes = int(np.sum(rows[SUCCEEDED].to_numpy()))
     return LawSummary(law, runs, refused, estimate_share(successes, runs), counts, quantiles)
@@ -145,7 +148,9 @@ def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pai
         only_one=int(np.sum(a > b)),
         only_other=int(np.sum(b > a)),
         differences={
-            metric: estimate_difference(_subtract(one, other, metric)[~ended]) for metric in METRICS
+            metric: estimate_difference(_subtract(one, other, metric)[~ended])
+            for metric in one.column_names
+            if metric in METRICS and metric in other.column_names
         },
     )
 
@@ -162,8 +167,9 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     """
     if study.sampling != "sensitivity":
         raise StudyError("Sobol indices need a study whose sampling is sensitivity.")
-    if outcome not in (*METRICS, SUCCEEDED):
-        bound = "one of " + ", ".join((SUCCEEDED, *METRICS))
+    known = (SUCCEEDED, *study.metrics)
+    if outcome not in known:
+        bound = "one of " + ", ".join(known)
         raise ParameterError(Violation("outcome", outcome, "", bound))
     own = rows.filter(pc.field(LAW) == law)
     samples = 1 << max(len(own) // study.cells, 1).bit_length() - 1
@@ -180,6 +186,8 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     if np.ptp(values) == 0.0:
         raise StudyError(f"{outcome} is the same in every run of {law}: nothing decides it.")
     sets = {"f_A": values[:1], "f_B": values[1:2], "f_AB": values[2:, None, :]}
+    from scipy.stats import sobol_indices  # late: it takes a while
+
     found: Any = sobol_indices(func=sets, n=samples, rng=np.random.default_rng(0))
     spread = found.bootstrap(n_resamples=1000)
     names = [variation.column for variation in study.vary]

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from rich.table import Table
 
 from svsa.control.installed import get_title
@@ -15,11 +16,12 @@ from svsa.study.study import Study
 from svsa.study.summary import LawSummary, Pairing, Sensitivity
 
 _UNIT = re.compile(r"(_rad_s|_nm_per_rad|_n2m2_s|_rad|_nm|_s)$")
+_DECIMALS, _MAX_DECIMALS = 2, 12
 _DEGREES = {"rad": "°", "rad·s": "°·s"}
 
 
 def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table]:
-    """Success and faults in one table, the quantiles of every metric in the other."""
+    """Success and faults in one table, the quantiles of every metric that is kept in the other."""
     asked = " and ".join(
         f"{tell_metric(name)} ≤ {tell_value(name, value)} {tell_unit(name)}"
         for name, value in study.success.list_bounds().items()
@@ -36,7 +38,7 @@ def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table
     quantiles.title = f"5 %, 50 %, 95 % of all runs, {span}; fault: so many ended in one"
     for law in laws:
         quantiles.add_column(get_title(law.law), justify="right")
-    for name in METRICS:
+    for name in study.metrics:
         cells = [" / ".join(tell_value(name, x) for x in law.quantiles[name]) for law in laws]
         quantiles.add_row(tell_metric(name), tell_unit(name), *cells)
     return [success, quantiles]
@@ -82,7 +84,12 @@ def tell_value(metric: str, value: float) -> str:
         return "never" if metric == RECOVERY else "fault"
     if math.isnan(value):
         return "–"
-    return f"{math.degrees(value) if METRICS[metric] in _DEGREES else value:.3g}"
+    return f"{convert_shown(metric, value):.3g}"
+
+
+def convert_shown(metric: str, values: Any) -> Any:
+    """A metric's value, or an array of them, in the unit of `tell_unit`."""
+    return np.degrees(values) if METRICS[metric] in _DEGREES else values
 
 
 def tell_unit(metric: str) -> str:
@@ -91,10 +98,20 @@ def tell_unit(metric: str) -> str:
 
 
 def tell_share(share: Interval) -> str:
-    """A share in percent with its interval."""
+    """A share in percent with its interval, to so many digits that what differs reads so.
+
+    Of a million runs that all succeeded the lower end is no 100 %.
+    """
     if math.isnan(share.value):
         return "–"
-    return f"{100 * share.value:.2f} % ({100 * share.low:.2f} to {100 * share.high:.2f})"
+    ends = {0.0, 1.0, *(round(one, _MAX_DECIMALS) for one in share)}
+    told = (
+        [f"{100 * one:.{decimals}f}" for one in share]
+        for decimals in range(_DECIMALS, _MAX_DECIMALS)
+        if len({f"{100 * one:.{decimals}f}" for one in ends}) == len(ends)
+    )
+    value, low, high = next(told)
+    return f"{value} % ({low} to {high})"
 
 
 def write_json(value: Any) -> None:

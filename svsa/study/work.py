@@ -5,12 +5,14 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.parquet as pq
 
 from svsa.run.batch import run_configurations
 from svsa.run.configuration import Configuration
 from svsa.study.draws import Draws, build_configurations, draw
-from svsa.study.metrics import METRICS, build_outcome, build_refused
-from svsa.study.study import Study, Success
+from svsa.study.outcome import build_outcome, build_refused
+from svsa.study.study import Study
+from svsa.study.success import Success
 
 ROW, DRAW, LAW, SEED = "row", "draw", "law", "seed"
 
@@ -33,9 +35,25 @@ def build_schema(study: Study) -> pa.Schema:
             (SEED, pa.int64()),
             *varied,
             *outcome,
-            *((name, pa.float64()) for name in METRICS),
+            *((name, pa.float64()) for name in study.metrics),
         ]
     )
+
+
+def list_repeating(schema: pa.Schema) -> Any:  # pyarrow declares a bool and takes names
+    """The columns of which Parquet keeps each value once: names, and no numbers, drawn or measured.
+
+    To look whether a number is there already is most of what writing it would cost.
+    """
+    return [field.name for field in schema if pa.types.is_string(field.type)]
+
+
+def run_part(study: Study, first: int, count: int) -> bytes:
+    """The rows of the draws `first` to `first + count − 1` as a Parquet file."""
+    sink = pa.BufferOutputStream()
+    rows = run_draws(study, first, count)
+    pq.write_table(rows, sink, use_dictionary=list_repeating(rows.schema))
+    return sink.getvalue().to_pybytes()
 
 
 def run_draws(study: Study, first: int, count: int) -> pa.Table:

@@ -8,13 +8,15 @@ from svsa.arena.measure import Entry, measure_law
 from svsa.arena.results import Results, load_published, read_results, write_results
 from svsa.arena.seeds import PUBLIC_SEED, SUITE_VERSION
 from svsa.control.installed import list_law_names
+from tests.exhaustive import exhaust
 
 
-@pytest.mark.parametrize("law", ["ndobc", "ndobc_w"])
+@pytest.mark.parametrize("law", exhaust(list_law_names(), ["ndobc", "ndobc_w"]))
 def test_what_was_published_of_a_law_is_what_it_measures(law):
     """To nine digits: who changes a law or the suite runs `make arena`."""
     published, measured = load_published().get_row(law), measure_law(Entry(law))
     assert published.agrees_with(measured)
+    assert published.agrees_with(measured.changed(version="of another lab"))
     assert not published.agrees_with(measured.changed(score=measured.score * (1.0 + 1e-8)))
 
 
@@ -30,6 +32,23 @@ def test_results_come_back_from_their_file(tmp_path):
     write_results(tmp_path / "results.json", results)
     assert read_results(tmp_path / "results.json") == results
     assert not results.is_public
+
+
+def test_a_row_is_renewed_among_those_that_stay():
+    """In its place, with the version that measured it; a law that was not there comes last."""
+    kept = load_published()
+    first, second, third = kept.rows[:3]
+    newer = second.changed(version="newer", score=0.5)
+    renewed = kept.changed(rows=(first, second)).renew(kept.changed(rows=(third, newer)))
+    assert renewed.rows == (first, newer, third)
+
+
+def test_rows_of_other_draws_or_of_another_suite_are_not_put_among_them():
+    kept = load_published()
+    with pytest.raises(svsa.ParameterError, match=r"seed is .*as the rows that stay"):
+        kept.renew(Results.build(kept.rows, PUBLIC_SEED + 1))
+    with pytest.raises(svsa.ParameterError, match=r"suite is .*as the rows that stay"):
+        kept.renew(kept.changed(suite="another"))
 
 
 def test_a_file_of_something_else_is_refused(tmp_path):
@@ -52,4 +71,6 @@ def test_names_of_what_failed_are_names_of_runs():
     for row in load_published().rows:
         assert {*row.unloadings_failed, *row.draws_failed, *row.faults} <= names
         assert len(row.unloadings_failed) == row.unloading_faults_of_48
+        assert row.unloading_worst in (row.unloadings_failed[:1] or names)
+        assert (row.unloading_settled_deg is None) == bool(row.unloadings_failed)
         assert len(row.draws_failed) == row.draws_fails

@@ -7,7 +7,6 @@ import asyncio
 import multiprocessing
 import sys
 import time
-from collections import deque
 
 import httpx
 import numpy as np
@@ -29,30 +28,45 @@ def watch_beside(address: str, count: int, seconds: float) -> None:
     asyncio.run(watch_all())
 
 
-async def measure(lab: Lab, rate: float, seconds: float) -> np.ndarray:
-    """Seconds from each command to the first sample that shows it; NaN where none came."""
-    sent: deque[tuple[int, float, int]] = deque()
-    found = np.full(round(rate * seconds), np.nan)
+def find_delays(
+    sent: list[tuple[int, float]], came: list[tuple[int, float]], count: int
+) -> np.ndarray:
+    """Seconds from each of `count` commands to the first sample that shows it; NaN where none came.
 
-    def note(block: Block) -> None:
-        now = time.monotonic()
-        while sent and sent[0][0] <= block.ticks[-1]:
-            _, began, number = sent.popleft()
-            found[number] = now - began
+    sent: of each that was answered, at which tick it acted and when it was sent. came: of each
+    block, its last tick and when it came, which may be before the answer did.
+    """
+    ticks, times = np.array(came).T
+    delays = np.full(count, np.nan)
+    for number, (tick, began) in enumerate(sent):
+        place = np.searchsorted(ticks, tick)
+        if place < len(ticks):
+            delays[number] = times[place] - began
+    return delays
+
+
+async def measure(lab: Lab, rate: float, seconds: float) -> np.ndarray:
+    """As `find_delays`, of commands at this rate for so long."""
+    sent: list[tuple[int, float]] = []
+    came: list[tuple[int, float]] = []
+    count = round(rate * seconds)
+
+    def note(block: Block | None) -> None:
+        if block is not None:
+            came.append((int(block.ticks[-1]), time.monotonic()))
 
     async def read() -> None:
         async with connect(lab.stream_url, proxy=None, max_size=None) as stream:
             reader = BlockReader()
             async for message in stream:
-                if (block := reader.read(message)) is not None:
-                    note(block)
+                note(reader.read(message))
 
     async def command(client: httpx.AsyncClient, number: int) -> None:
         body = {"bandwidth_rad_per_s": [40.0 + number % 20] * 3}
         began = time.monotonic()
         state = (await client.put(OBSERVER, json=body)).raise_for_status().json()
         acted = [event["tick"] for event in state["events"] if event["tick"] <= state["tick"]]
-        sent.append((acted[-1] if acted else state["tick"], began, number))
+        sent.append((acted[-1] if acted else state["tick"], began))
 
     watching = asyncio.create_task(read())
     async with (
@@ -60,12 +74,12 @@ async def measure(lab: Lab, rate: float, seconds: float) -> np.ndarray:
         asyncio.TaskGroup() as group,
     ):
         start = time.monotonic()
-        for number in range(len(found)):
+        for number in range(count):
             await asyncio.sleep(max(0.0, start + number / rate - time.monotonic()))
             group.create_task(command(client, number))
     await asyncio.sleep(1.0)
     watching.cancel()
-    return found
+    return find_delays(sent, came, count)
 
 
 def main() -> None:

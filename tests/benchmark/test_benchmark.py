@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 import svsa
 from svsa.benchmark import batch_rates, bench_tick, benchmark
+from svsa.benchmark.peers import comparison
 from svsa.cli import app
 from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX
@@ -50,6 +51,7 @@ def test_the_lanes_of_the_c_loop_run_the_same(c_loop: benchmark.CLoop, ours: np.
     assert_allclose(peaks, np.abs(error).max(), rtol=1e-9)
 
 
+@pytest.mark.exhaustive
 def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -> None:
     answer = RUNNER.invoke(app, ["bench", "--json", "--repeats", "1", "--no-start"])
     assert answer.exit_code == 0, answer.output
@@ -64,6 +66,8 @@ def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -
         "two_cores_over_one",
     )
     assert all(costs[name] > 0.0 for name in numbers)
+    assert costs["peers"]["svsa"]["ratio"] == 1.0
+    assert costs["peers"]["scipy"]["ratio"] > 1.0
     rates = costs["runs_per_second_1_core_by_effects"]
     assert list(rates) == list(batch_rates.EFFECTS)
     assert rates["ideal"] > rates["every"] > 0.0
@@ -74,6 +78,7 @@ def test_a_run_that_ends_in_a_fault_counts_as_the_part_that_was_run(monkeypatch)
     monkeypatch.setattr(
         batch_rates, "measure_in_turns", lambda works, repeats: dict.fromkeys(works, 1.0)
     )
+    monkeypatch.setattr(batch_rates, "EFFECTS", {"ideal": svsa.IDEAL})
     figure = benchmark.get_figure("4a").build_configuration("ndobc")
     load = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.5)
     rates = batch_rates.measure_effects(figure.changed(loads=(load,)), 8, 2.0, 1)
@@ -81,11 +86,15 @@ def test_a_run_that_ends_in_a_fault_counts_as_the_part_that_was_run(monkeypatch)
     assert batch_rates.measure_effects(figure, 8, 2.0, 1)["ideal"] == 8.0
 
 
+@pytest.mark.long
 def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """As in an installed package, which has no tests."""
     monkeypatch.setattr(benchmark, "C_LOOP", tmp_path / "loop.c")
+    few = {name: batch_rates.EFFECTS[name] for name in ("ideal", "every")}
+    monkeypatch.setattr(batch_rates, "EFFECTS", few)  # each is compiled, and not the subject
+    monkeypatch.setattr(comparison, "PEERS", {})
     answer = RUNNER.invoke(app, ["bench", "--json", "--repeats", "1", "--no-start"])
     costs = json.loads(answer.stdout)
     assert costs["ratio_to_c"] is None

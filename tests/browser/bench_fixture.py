@@ -20,6 +20,20 @@ BENCH: dict[str, Any] = {
         "instruction": "Turn the principal motor until its pointer stands at the scribed line.",
     },
     "current_a": [0.42, -0.07],
+    "motors": [
+        {
+            "heat": 0.12,
+            "lasting_torque_nm": 16.04,
+            "allowed_torque_nm": 15.0,
+            "held_back": False,
+        },
+        {
+            "heat": 0.31,
+            "lasting_torque_nm": 1.22,
+            "allowed_torque_nm": 5.0,
+            "held_back": False,
+        },
+    ],
     "ages_s": [0.0012, 0.0011, 0.0009],
     "stale_zero_s": 0.005,
     "stale_fault_s": 0.02,
@@ -36,7 +50,8 @@ BENCH: dict[str, Any] = {
         "starting_s": None,
         "rate_hz": 1000.0,
         "ticks": 182_341,
-        "skipped_ticks": 3,
+        "skipped_ticks": 41,
+        "skipped_in_run": 3,
         "lateness_p50_s": 24e-6,
         "lateness_p99_s": 71e-6,
         "lateness_p999_s": 148e-6,
@@ -60,17 +75,32 @@ STATUS = {"run": "running", "ramp": "running", "fault": "fault"}
 
 
 class PatchedBench:
-    """Answers the page's bench calls and puts `bench` into every state that the page gets."""
+    """Answers the page's bench calls and puts `bench` into every state that the page gets.
 
-    def __init__(self, page: Page, **change: Any) -> None:
+    fault: what a bench of status "fault" stands in.
+    """
+
+    def __init__(self, page: Page, fault: dict[str, Any] | None = None, **change: Any) -> None:
         self.bench = copy.deepcopy(BENCH) | change
         self.calls: list[tuple[str, Any]] = []
-        self._fault: dict | None = None
+        self.endurance: dict[str, Any] | None = None
+        self._fault = fault
         self._version = 0
         self._stream: WebSocketRoute | None = None
-        self._page = page
+        self.page = page
         page.route("**/api/v1/sessions/lab/**", self._answer)
         page.route_web_socket("**/api/v1/sessions/lab/stream**", self._patch_stream)
+
+    @property
+    def commands(self) -> list[str]:
+        """What was called, but for what only asks."""
+        return [call for call, _ in self.calls if call != "bench/endurance"]
+
+    def become(self, fault: dict[str, Any] | None = None, **change: Any) -> None:
+        """Be another bench in the same page, of which nothing has been asked yet."""
+        self.calls.clear()
+        self._fault = fault
+        self.change(**copy.deepcopy(BENCH) | change)
 
     def change(self, **change: Any) -> None:
         """Change the bench, and tell the page on its stream."""
@@ -80,8 +110,8 @@ class PatchedBench:
 
     def drop(self) -> None:
         """The page loses its stream, and nothing answers it any more."""
-        self._page.route("**/api/v1/**", lambda route: route.abort())
-        self._page.route_web_socket("**/stream**", lambda socket: socket.close())
+        self.page.route("**/api/v1/**", lambda route: route.abort())
+        self.page.route_web_socket("**/stream**", lambda socket: socket.close())
         if self._stream is not None:
             self._stream.close()
 
@@ -113,6 +143,10 @@ class PatchedBench:
         call = route.request.url.rpartition("/sessions/lab/")[2]
         if call.startswith("stream"):
             route.continue_()
+            return
+        if call == "bench/endurance":
+            self.calls.append((call, route.request.post_data_json))
+            route.fulfill(json=self.endurance)
             return
         self.calls.append((call, route.request.post_data_json))
         step = {

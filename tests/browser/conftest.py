@@ -4,9 +4,13 @@ import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Error, Page, Playwright, expect
+from playwright.sync_api import Browser, BrowserContext, Error, Locator, Page, Playwright, expect
+
+from tests.lab import Lab
+from tests.server.routes.test_recording_routes import wait_for_run
 
 # Without a graphics card: the page is put together without one, WebGL is drawn by SwiftShader.
 # Putting the page together by SwiftShader too took most of a test's processor time.
@@ -24,7 +28,19 @@ ARGUMENTS = [
     "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup",
 ]
 
-expect.set_options(timeout=20_000)  # a busy machine takes its time
+PATIENCE_MS = 60_000
+expect.set_options(timeout=PATIENCE_MS)  # a busy machine takes its time
+
+press_at_once = Locator.press
+
+
+def press(self: Locator, key: str, **options: Any) -> None:
+    """As `click` does, where Playwright's own does not: a key on what is disabled is lost."""
+    expect(self).to_be_enabled()
+    press_at_once(self, key, **options)
+
+
+Locator.press = press
 
 
 def find_chromium() -> str | None:
@@ -79,6 +95,7 @@ class KeptPage:
     def get(self) -> Page:
         if self._page is None:
             self._page = self._browser.new_context(**self._arguments).new_page()
+            self._page.set_default_timeout(PATIENCE_MS)
         return self._page
 
     def forget(self) -> None:
@@ -142,7 +159,21 @@ def page(request: pytest.FixtureRequest) -> Page:
 
 @pytest.fixture
 def own_page(context: BrowserContext) -> Page:
+    context.set_default_timeout(PATIENCE_MS)
     return context.new_page()
+
+
+@pytest.fixture(scope="module")
+def lab_without_runs(shared_lab: Lab) -> Lab:
+    """The shared lab with one lane; the runs that others have recorded are in the trash."""
+    client = shared_lab.client
+    client.delete(shared_lab.session + "/recording")
+    client.put(shared_lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+    while runs := client.get("/api/v1/runs").raise_for_status().json()["runs"]:
+        for run in runs:
+            wait_for_run(shared_lab, run["id"])
+            client.delete(f"/api/v1/runs/{run['id']}").raise_for_status()
+    return shared_lab
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal
 
 from PIL import Image
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.browser.conftest import ARGUMENTS, find_chromium
 from tests.lab import Lab, run_lab
@@ -55,6 +55,7 @@ def show_design(page: Page, lab: Lab) -> None:
     page.get_by_role("spinbutton", name=re.compile("^Position")).first.fill("45")
     page.keyboard.press("Enter")
     page.get_by_text("What this would do").wait_for(timeout=LONGEST_MS)
+    expect(page.get_by_text("Working it out…")).to_have_count(0, timeout=LONGEST_MS)
 
 
 def show_overlay(page: Page, lab: Lab) -> None:

@@ -37,7 +37,7 @@ def open_page(browser: Browser, room: Room) -> Iterator[object]:
 
     def open_one(below: str = "/") -> Page:
         context = browser.new_context(viewport={"width": 1280, "height": 720})
-        context.add_init_script("localStorage.setItem('svsa.tour', 'seen')")
+        context.add_init_script("localStorage.setItem('svsa.tour', 'done')")
         context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
         contexts.append(context)
         page = context.new_page()
@@ -100,6 +100,17 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
     expect(ada.get_by_role("button", name="Fig. 4B")).to_be_disabled()
 
 
+def test_a_page_that_was_opened_outside_is_there_once_one_is_in(open_page, room: Room) -> None:
+    page = open_page("/learn")
+    exercises = page.get_by_role("region", name="Exercises").get_by_role("listitem")
+    page.get_by_role("button", name="I am the instructor").click()
+    expect(exercises).to_have_count(0)
+    page.get_by_label("Instructor token").fill(room.told.instructor_token)
+    page.get_by_role("button", name="Enter").click()
+    expect(exercises).to_have_count(7)
+    expect(page.get_by_text("This lab is a class")).to_have_count(0)
+
+
 def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room: Room) -> None:
     student, teacher = open_page(), open_page()
     join(student, "Eve", room.told.code)
@@ -115,6 +126,13 @@ def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room:
     panel.get_by_role("button", name="New class code").click()
     expect(panel.get_by_role("img", name="QR code")).to_be_visible()
     expect(panel).to_contain_text("Only this machine reaches the lab")
+    expect_no_violation(teacher, WIDE, PHONE)
+    panel.get_by_role("button", name="What was done").click()
+    log = panel.get_by_role("table").filter(has_text="Came of it")
+    expect(log.get_by_role("row", name="Renew code").first).to_contain_text("Instructor")
+    panel.get_by_label("Kind").select_option(label="Control")
+    expect(log.get_by_role("row", name="Lock control").first).to_contain_text("done")
+    expect(log.get_by_role("row", name="Renew code")).to_have_count(0)
     expect_no_violation(teacher, WIDE, PHONE)
     panel.get_by_role("button", name="Unlock control").click()
     expect(find_banner(student, "The instructor has locked control.")).to_be_hidden()

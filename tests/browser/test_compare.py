@@ -59,6 +59,7 @@ def test_fl_beside_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, lab: 
     assert not page.evaluate(HAS_LANE_2)
 
 
+@pytest.mark.exhaustive
 def test_everything_for_the_work_is_seen_while_comparing(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     find_switch(page).click()

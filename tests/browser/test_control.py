@@ -1,6 +1,7 @@
 """Two pages on one lab: who is in control; and the dead-man's switch of an emulated rig."""
 
 import re
+import time
 from collections.abc import Iterator
 
 import pytest
@@ -9,7 +10,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from tests.browser.test_page import go_to_page, open_page
 from tests.hardware.live_bench import start_live_rig, write_bench
 from tests.lab import Lab, run_lab
-from tests.server.bench_lab import BenchLab
+from tests.server.sessions.bench_lab import BenchLab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("without_3d")]
 
@@ -17,28 +18,21 @@ CONTROL_S = "2"
 ATTEMPTS = 3
 
 
-@pytest.fixture(scope="module")
-def free_lab() -> Iterator[Lab]:
-    """A lab of its own, in which control outlives its holder by 2 s only."""
-    with run_lab(control_s=CONTROL_S) as lab:
-        yield lab
-
-
 @pytest.fixture
-def two_pages(context: BrowserContext, free_lab: Lab) -> tuple[Page, Page]:
+def two_pages(context: BrowserContext, lab: Lab) -> tuple[Page, Page]:
     """Two tabs of one browser, with nobody in control."""
-    wait_for_holder(free_lab, None)
-    free_lab.load_figure()
+    wait_for_holder(lab, None)
     pages = context.new_page(), context.new_page()
     for page in pages:
-        open_page(page, free_lab)
+        open_page(page, lab)
     return pages
 
 
 def wait_for_holder(lab: Lab, name: str | None) -> None:
-    for _ in range(400):
+    for _ in range(600):
         if lab.read()["control"]["holder"] == name:
             return
+        time.sleep(0.1)
     raise AssertionError(f"{lab.read()['control']} is not {name}")
 
 
@@ -56,7 +50,7 @@ def take(page: Page, name: str) -> None:
 
 
 def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
-    two_pages: tuple[Page, Page], free_lab: Lab
+    two_pages: tuple[Page, Page], lab: Lab
 ) -> None:
     ada, other = two_pages
     for page in two_pages:
@@ -72,7 +66,7 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
 
     other.keyboard.press("l")
     expect(other.get_by_text("Ada is in control of session lab: ask Ada")).to_be_visible()
-    assert free_lab.read()["loads"] == []
+    assert lab.read()["loads"] == []
     other.get_by_role("button", name="Pause", exact=True).click()
     expect(ada.get_by_role("button", name="Run", exact=True)).to_be_enabled()
     expect(other.get_by_role("button", name="Run", exact=True)).to_be_disabled()
@@ -96,9 +90,15 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
         expect(find_control(page)).to_contain_text("Everyone")
         expect(page.get_by_role("button", name="Fig. 4B")).to_be_enabled()
 
+    find_control(ada).get_by_role("button", name="Take control").click()
+    expect(find_control(ada), "her name is asked once").to_contain_text("You")
+    expect(find_control(other)).to_contain_text("Ada")
+    find_control(ada).get_by_role("button", name="Give back").click()
+    expect(find_control(other)).to_contain_text("Everyone")
+
 
 def test_a_reload_keeps_control_and_closing_the_page_frees_it(
-    two_pages: tuple[Page, Page], free_lab: Lab
+    two_pages: tuple[Page, Page], lab: Lab
 ) -> None:
     ada, other = two_pages
     take(ada, "Ada")
@@ -107,18 +107,8 @@ def test_a_reload_keeps_control_and_closing_the_page_frees_it(
     expect(find_control(other)).to_contain_text("Ada")
     ada.close()
     expect(find_control(other)).to_contain_text("1 watching")
-    expect(find_control(other)).to_contain_text("Everyone", timeout=15_000)
-    wait_for_holder(free_lab, None)
-
-
-def test_the_name_is_asked_once(two_pages: tuple[Page, Page]) -> None:
-    ada, other = two_pages
-    take(ada, "Ada")
-    find_control(ada).get_by_role("button", name="Give back").click()
-    find_control(ada).get_by_role("button", name="Take control").click()
-    expect(find_control(ada)).to_contain_text("You")
-    expect(find_control(other)).to_contain_text("Ada")
-    find_control(ada).get_by_role("button", name="Give back").click()
+    expect(find_control(other)).to_contain_text("Everyone")
+    wait_for_holder(lab, None)
 
 
 @pytest.fixture(scope="module")
@@ -206,6 +196,7 @@ def test_the_bench_runs_only_while_the_switch_is_held(
     page.keyboard.up("Enter")
 
 
+@pytest.mark.exhaustive
 @pytest.mark.wall_clock
 def test_only_the_switch_of_who_is_in_control_counts(
     context: BrowserContext, bench: BenchLab

@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, FloatRect, Locator, Page, expect
 from tests.browser.bench_fixture import HOMED, PatchedBench
 from tests.browser.measured_layout import FIND_POPUP_PROBLEMS, FIND_PROBLEMS
 from tests.browser.test_page import open_page
+from tests.exhaustive import exhaust
 from tests.lab import Lab
 
 pytestmark = pytest.mark.browser
@@ -24,7 +25,7 @@ PLANTS: dict[str, dict[str, Any] | None] = {
 }
 
 
-@pytest.fixture(scope="module", params=list(PLANTS))
+@pytest.fixture(scope="module", params=exhaust(PLANTS, ["running bench"]))
 def visited(request: pytest.FixtureRequest, browser: Browser, shared_lab: Lab) -> Iterator[Page]:
     """The page of a returning visitor, without the 3D view, on each kind of plant.
 
@@ -55,11 +56,12 @@ def get_box(one: Locator) -> FloatRect:
     return box
 
 
-def compare(page: Page, lab: Lab, is_on: bool) -> None:
-    rivals = [{"law": "fl"}] if is_on else []
+def compare(page: Page, lab: Lab, is_on: bool, laws: tuple[str, ...] = ("fl",)) -> None:
+    rivals = [{"law": law} for law in laws] if is_on else []
     lab.client.put(lab.session + "/lanes", json={"rivals": rivals}).raise_for_status()
+    rows = 1 + len(rivals) if is_on else 0
     page.wait_for_function(
-        f"() => !!document.querySelector('.comparison') === {str(is_on).lower()}"
+        f"() => document.querySelectorAll('.comparison tbody tr').length === {rows}"
     )
 
 
@@ -109,10 +111,30 @@ def test_the_top_bar_has_few_rows_and_no_more_while_it_records(visited: Page, la
         for width, height in SIZES:
             visited.set_viewport_size({"width": width, "height": height})
             rows[width, is_on] = visited.evaluate(COUNT_ROWS)
+            expect(record).to_be_in_viewport(ratio=1)
     lab.client.delete(recording).raise_for_status()
     expect(record).to_have_text("Record")
     most = {390: 3, 820: 2, 1280: 1, 1440: 1}
     assert not {key: count for key, count in rows.items() if count > most[key[0]]}
+
+
+@pytest.mark.parametrize("visited", ["simulation"], indirect=True)
+def test_four_controllers_and_the_last_event_are_read_whole_on_a_phone(
+    visited: Page, lab: Lab
+) -> None:
+    visited.set_viewport_size({"width": 390, "height": 844})
+    zoom = visited.get_by_role("button", name="Last event")
+    zoom.click()
+    compare(visited, lab, True, ("prescribed_performance", "super_twisting", "fl_integral"))
+    table, plots = (get_box(visited.locator(one)) for one in (".comparison", ".plots"))
+    title = visited.locator(".zoom-title")
+    expect(title).to_contain_text("beside")
+    told, box = get_box(title.locator("span")), get_box(title)
+    compare(visited, lab, is_on=False)
+    zoom.click()
+    assert table["width"] <= plots["width"] + 1
+    assert box["y"] <= told["y"]
+    assert told["y"] + told["height"] <= box["y"] + box["height"] + 1
 
 
 # What a bench and its twin are called, and the longest values of their table.

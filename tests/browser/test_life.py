@@ -13,6 +13,10 @@ pytestmark = pytest.mark.browser
 
 PATIENCE_MS = 60_000
 SAMPLE_S = 0.02
+FOOT_IS_AT = """height => {
+    const { bottom } = document.querySelector(".statusbar").getBoundingClientRect();
+    return Math.round(bottom) === height;
+}"""
 OLDEST_TIME = "() => window.svsa.series('position_error_rad').time[0]"
 
 
@@ -85,6 +89,10 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         wait_for_samples(page, before_s=end)
         wait_for_samples(page, page.evaluate(LAST_TIME) + 0.5)
         expect(lost).to_be_hidden()
+        another = page.get_by_role("status").filter(has_text="This is a new session")
+        expect(another).to_be_visible()
+        another.get_by_role("button", name="Dismiss").click()
+        expect(another).to_be_hidden()
         view = page.frame_locator("iframe").locator("canvas").first
         expect(view).to_be_visible(timeout=PATIENCE_MS)
         go_to_page(page, "Runs")
@@ -106,8 +114,10 @@ def test_an_ended_private_session_says_so_and_leads_back(page: Page, lab: Lab) -
     expect(bar.get_by_text("Running")).to_have_count(0)
     page.set_viewport_size({"width": 390, "height": 844})
     assert page.evaluate("document.documentElement.scrollWidth") == 390
+    page.set_viewport_size({"width": 1280, "height": 720})
     page.reload()
     expect(banner, "a link to it says so too").to_contain_text("has ended")
+    page.wait_for_function(FOOT_IS_AT, arg=720)
     expect(page.get_by_text("Waiting for the lab")).to_have_count(0)
     banner.get_by_role("link", name="Back to the shared lab").click()
     expect(bar.get_by_text("Live")).to_be_visible(timeout=PATIENCE_MS)

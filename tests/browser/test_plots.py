@@ -138,6 +138,7 @@ def test_wheel_drag_and_double_click_move_all_plots_in_step(page: Page, lab: Lab
 
 
 def test_the_keyboard_moves_zooms_and_goes_live(page: Page, lab: Lab) -> None:
+    lab.jump(4)
     open_page(page, lab)
     wait_for_samples(page, 3.0)
     choose(page.get_by_role("radio", name="10 s"))
@@ -156,6 +157,7 @@ def test_the_keyboard_moves_zooms_and_goes_live(page: Page, lab: Lab) -> None:
 
 
 def test_cursors_measure_the_samples_between_them(page: Page, lab: Lab) -> None:
+    lab.jump(5)
     open_page(page, lab)
     wait_for_samples(page, 4.0)
     page.get_by_role("button", name="Cursors").click()
@@ -218,6 +220,7 @@ def test_an_event_tells_what_it_did_where_it_happened(page: Page, lab: Lab) -> N
 
 
 def test_what_is_seen_is_saved(page: Page, lab: Lab, tmp_path: Path) -> None:
+    lab.jump(3)
     open_page(page, lab)
     wait_for_samples(page, 2.0)
     hold(page)
@@ -239,6 +242,7 @@ def test_what_is_seen_is_saved(page: Page, lab: Lab, tmp_path: Path) -> None:
     assert times[1] - times[0] == pytest.approx(0.005)
 
 
+@pytest.mark.exhaustive
 def test_eight_plots_do_not_scroll_the_page(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.get_by_role("button", name="Plots", exact=True).click()
@@ -250,6 +254,7 @@ def test_eight_plots_do_not_scroll_the_page(page: Page, lab: Lab) -> None:
     assert heights[0] == heights[1]
 
 
+@pytest.mark.exhaustive
 def test_the_last_event_stands_still_beside_the_plots(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.keyboard.press("z")

@@ -66,7 +66,7 @@ class Opened(NamedTuple):
 
 @pytest.fixture(scope="module")
 def opened_once(browser: Browser, exported: Path) -> Iterator[Opened]:
-    context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme="light")
+    context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme="dark")
     page = context.new_page()
     yield Opened(page, open_file(page, exported))
     context.close()
@@ -90,6 +90,21 @@ def wait_for_link(page: Page, angle_rad: float) -> None:
     page.wait_for_function(
         f"Math.abs(({LINK_IN_3D})() - {math.sin(angle_rad / 2)}) < 5e-4", timeout=PATIENCE_MS
     )
+
+
+def expect_theme(page: Page, scheme: str) -> None:
+    """Of the page and of the 3D view in it."""
+    background = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert (sum(map(int, re.findall(r"\d+", background))) < 200) == (scheme == "dark")
+    page.wait_for_function(
+        """(dark) => document.querySelector("iframe").contentDocument.documentElement
+            .dataset.mantineColorScheme === dark""",
+        arg=scheme,
+    )
+
+
+def test_it_takes_the_dark_theme_of_the_system(opened: Opened) -> None:
+    expect_theme(opened.page, "dark")
 
 
 def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
@@ -117,15 +132,25 @@ def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
     watch.check(exported)
 
 
+def take_still(page: Page) -> bytes:
+    """The picture in 3D once nothing moves in it, which is drawn twice a second at least."""
+    view, before = page.locator("iframe"), b""
+    for _ in range(PATIENCE_MS // 600):
+        now = view.screenshot()
+        if now == before:
+            return now
+        before = now
+        page.wait_for_timeout(600)
+    raise AssertionError("the picture in 3D never stands still")
+
+
 def test_the_picture_in_3d_changes_with_the_time(opened: Opened, exported: Path) -> None:
     page, watch = opened
-    view = page.locator("iframe")
-    page.wait_for_timeout(1500)
-    before = view.screenshot()
+    wait_for_link(page, 0.0)
+    before = take_still(page)
     page.get_by_role("slider", name="Time").fill("3")
     wait_for_link(page, -0.5)
-    page.wait_for_timeout(1500)
-    assert view.screenshot() != before
+    assert take_still(page) != before
     watch.check(exported)
 
 

@@ -1,15 +1,13 @@
 """Exported runs of every kind, each opened from a file of its own in a real browser."""
 
-import re
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
 from svsa.run.events import Event
-from tests.browser.test_replay import open_file
+from tests.browser.test_replay import expect_theme, open_file
 from tests.scene.replay_page import CHANNELS, make_run, write_page
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
@@ -33,6 +31,7 @@ CURVE = """plot => {
 }"""
 
 
+@pytest.mark.exhaustive
 def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
     """A rise of 40 pixels over some hundreds, drawn between whole pixels: to a fifth of one."""
     samples, mass = make_run(ticks=50, lanes=1)
@@ -47,24 +46,16 @@ def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
     assert np.std(middles - line) < 0.1
 
 
+@pytest.mark.exhaustive
 def test_a_run_of_the_emulated_rig_is_marked(page: Page, tmp_path: Path) -> None:
     open_file(page, write_page(tmp_path, details={"plant": "emulated"}))
     expect(page.get_by_text("EMULATED", exact=True)).to_be_visible()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_it_takes_the_theme_of_the_system(
-    page: Page, tmp_path: Path, scheme: Literal["light", "dark"]
-) -> None:
-    page.emulate_media(color_scheme=scheme)
+@pytest.mark.exhaustive
+def test_it_takes_the_light_theme_of_the_system(page: Page, tmp_path: Path) -> None:
     open_file(page, write_page(tmp_path))
-    background = page.evaluate("getComputedStyle(document.body).backgroundColor")
-    assert (sum(map(int, re.findall(r"\d+", background))) < 200) == (scheme == "dark")
-    page.wait_for_function(
-        """(dark) => document.querySelector("iframe").contentDocument.documentElement
-            .dataset.mantineColorScheme === dark""",
-        arg=scheme,
-    )
+    expect_theme(page, "light")
 
 
 def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
@@ -81,6 +72,7 @@ def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
     watch.check(path)
 
 
+@pytest.mark.exhaustive
 def test_a_run_of_one_tick_and_one_of_holes_still_open(page: Page, tmp_path: Path) -> None:
     short, _ = make_run(ticks=1, lanes=1)
     holes, mass = make_run(lanes=1)

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.test_page import choose, choose_law, open_page, wait_for_samples
-from tests.lab import Lab, run_lab
+from tests.browser.test_page import choose, choose_law, open_page
+from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
@@ -68,19 +68,6 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
     page.wait_for_function(
         "async () => (await navigator.clipboard.readText()).split('curl -X').length === 4"
     )
-
-
-def test_the_secret_is_never_shown(page: Page) -> None:
-    with run_lab(secret="correct horse battery") as lab:
-        page.goto(lab.url)
-        field = page.get_by_label(re.compile("secret", re.I)).first
-        field.fill("correct horse battery")
-        field.press("Enter")
-        wait_for_samples(page)
-        drawer = open_drawer(page)
-        page.get_by_role("button", name="Pause", exact=True).click()
-        expect(drawer.get_by_role("listitem")).to_have_count(1)
-        expect(page.get_by_text("correct horse")).to_have_count(0)
 
 
 def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(

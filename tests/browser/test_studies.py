@@ -9,6 +9,7 @@ from playwright.sync_api import Page, expect
 from svsa.study.execution import run_study
 from svsa.study.store import keep_study
 from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
+from tests.browser.test_page import WORKER_MS
 from tests.lab import Lab, run_lab
 from tests.study.studies import build_study
 
@@ -28,7 +29,7 @@ def test_a_study_is_brushed_picked_from_and_left_for_a_run(page: Page, studied: 
     page.goto(studied.url + "/?studies=all")
     page.get_by_role("link", name=re.compile("^short")).press("Enter")
     law = page.get_by_role("row", name=re.compile("^NDOBC"))
-    expect(law).to_contain_text(re.compile(r"40.*%"), timeout=60_000)
+    expect(law).to_contain_text(re.compile(r"40.*%"), timeout=WORKER_MS)
     expect_no_violation(page, WIDE, TABLET, PHONE)
 
     plane = page.get_by_role("region", name="First plane")
@@ -43,7 +44,7 @@ def test_a_study_is_brushed_picked_from_and_left_for_a_run(page: Page, studied: 
     expect(page.get_by_role("button", name="Lay both over each other")).to_be_visible()
     expect_no_violation(page, WIDE)
     page.get_by_role("button", name="Open in 3D").last.press("Enter")
-    page.wait_for_url(re.compile(r"run="), timeout=60_000)
+    page.wait_for_url(re.compile(r"run="), timeout=WORKER_MS)
     expect(page.get_by_role("heading", name=re.compile("^Study short, row "))).to_be_visible()
 
     page.goto(address)

@@ -24,10 +24,11 @@ def open_tuning(page: Page) -> Locator:
 
 
 def tune(panel: Locator) -> None:
-    """Search FL + I from what it is set to, to the end."""
+    """Search FL + I from what it is set to, to the end; what was found before may stand there."""
     panel.get_by_label("Law").select_option("fl_integral")
-    panel.get_by_label("Candidates").fill(str(CANDIDATES))
+    panel.get_by_label("Candidates", exact=True).fill(str(CANDIDATES))
     panel.get_by_role("button", name="Start").press("Enter")
+    expect(panel.get_by_role("button", name="Stop")).to_be_visible()
     end = panel.get_by_text(f"FL + I: {CANDIDATES} of {CANDIDATES} candidates. Done.")
     expect(end).to_be_visible(timeout=PATIENCE_MS)
 
@@ -36,7 +37,7 @@ def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: La
     lab.load_figure(law="fl_integral")
     open_page(page, lab)
     panel = open_tuning(page)
-    panel.get_by_label("Candidates").fill("0")
+    panel.get_by_label("Candidates", exact=True).fill("0")
     expect(panel.get_by_role("alert")).to_have_text(re.compile("^1 to 2000"))
     expect(panel.get_by_role("button", name="Start")).to_be_disabled()
     tune(panel)

@@ -1,15 +1,16 @@
 """The 3D view on the page: cameras, pushing the link, low graphics, other lanes as outlines."""
 
 import re
+from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.test_page import come_back, open_page
+from tests.browser.test_page import come_back
 from tests.browser.test_safety import wait_for_status
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
+pytestmark = pytest.mark.browser
 
 LONG_MS = 60_000
 SIZES = ((390, 844), (1280, 720), (1440, 900))
@@ -18,19 +19,56 @@ CAMERA = """() => {
     const { x, y, z } = viser?.camera?.position ?? {};
     return [x, y, z];
 }"""
-IS_READY = "() => !!document.querySelector('iframe')?.contentWindow?.__viserMutable?.camera"
+# Where rendering takes long, the view is drawn twice a second.
+STANDS_STILL = f"""async () => {{
+    const read = {CAMERA};
+    const before = read();
+    await new Promise((resume) => setTimeout(resume, 600));
+    return before.every((value, i) => Number.isFinite(value) && value === read()[i]);
+}}"""
+
+
+def wait_for_view(page: Page) -> None:
+    """Wait until the view is there and its camera stands still."""
+    expect(page.frame_locator("iframe").locator("canvas").first).to_be_visible()
+    page.wait_for_function(
+        "() => !!document.querySelector('iframe')?.contentWindow?.__viserMutable?.camera",
+        timeout=LONG_MS,
+    )
+    page.wait_for_function(STANDS_STILL, timeout=LONG_MS)
 
 
 def open_view(page: Page, lab: Lab) -> None:
-    lab.load_figure()
     come_back(page, lab)
     page.goto(lab.url)
-    page.wait_for_function(IS_READY, timeout=LONG_MS)
-    page.wait_for_timeout(500)
+    wait_for_view(page)
 
 
-def test_the_camera_goes_to_a_preset_of_this_page_only(page: Page, lab: Lab) -> None:
-    open_view(page, lab)
+@pytest.fixture(scope="module")
+def opened_once(browser: Browser, browser_context_args: dict, shared_lab: Lab) -> Iterator[Page]:
+    context = browser.new_context(**browser_context_args)
+    page = context.new_page()
+    open_view(page, shared_lab)
+    yield page
+    context.close()
+
+
+@pytest.fixture
+def view(opened_once: Page, browser_context_args: dict, lab: Lab) -> Page:
+    """The one page of these tests, on Figure 4A, in full graphics and without names."""
+    page = opened_once
+    page.set_viewport_size(browser_context_args["viewport"])
+    for name in ("Low graphics", "Names of the parts"):
+        switch = page.get_by_role("button", name=name)
+        if switch.get_attribute("aria-pressed") == "true":
+            switch.press("Enter")
+        expect(switch).to_have_attribute("aria-pressed", "false")
+    wait_for_view(page)
+    return page
+
+
+def test_the_camera_goes_to_a_preset_of_this_page_only(view: Page) -> None:
+    page = view
     page.get_by_role("button", name="Camera: Side").click()
     page.wait_for_function(f"() => ({CAMERA})()[0] < -11", timeout=LONG_MS)
     page.get_by_role("button", name="Camera: Front").click()
@@ -62,8 +100,9 @@ FIND_LABEL_PROBLEMS = """async () => {
 }"""
 
 
-def test_labels_lie_on_the_picture_clear_of_each_other(page: Page, lab: Lab) -> None:
-    open_view(page, lab)
+@pytest.mark.exhaustive
+def test_labels_lie_on_the_picture_clear_of_each_other(view: Page, lab: Lab) -> None:
+    page = view
     rivals = {"rivals": [{"law": "fl"}, {"law": "ndobc"}]}
     lab.client.put(lab.session + "/lanes", json=rivals).raise_for_status()
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
@@ -87,6 +126,8 @@ def test_labels_lie_on_the_picture_clear_of_each_other(page: Page, lab: Lab) -> 
     assert not problems, "\n".join(problems)
 
 
+@pytest.mark.exhaustive
+@pytest.mark.usefixtures("kept_page")
 def test_the_first_camera_is_fitted_and_a_narrower_window_moves_it_back(
     page: Page, lab: Lab
 ) -> None:
@@ -94,27 +135,44 @@ def test_the_first_camera_is_fitted_and_a_narrower_window_moves_it_back(
     open_view(page, lab)
     first = page.evaluate(CAMERA)
     page.get_by_role("button", name="Camera: Whole").click()
-    page.wait_for_timeout(300)
+    page.wait_for_function(STANDS_STILL, timeout=LONG_MS)
     assert page.evaluate(CAMERA) == pytest.approx(first, abs=0.01)
     page.set_viewport_size({"width": 1130, "height": 1200})
     page.wait_for_function(f"() => ({CAMERA})()[2] < {1.2 * first[2]}", timeout=LONG_MS)
 
 
-def wait_for_pushes(page: Page, lab: Lab, ended: int) -> list[str]:
-    """What the session says of pushes when so many of them have ended."""
+def wait_for_push(page: Page, lab: Lab) -> None:
+    """Wait until the link is pushed."""
+    for _ in range(LONG_MS // 100):
+        if any(load["active"] for load in lab.read()["loads"]):
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError("the link is not pushed")
+
+
+def wait_for_end(page: Page, lab: Lab) -> int:
+    """Wait until nothing pushes and each push is told to be over; how many there were.
+
+    A page that is not heard of in time has its push ended, and begins it again.
+    """
     labels: list[str] = []
     for _ in range(LONG_MS // 100):
-        labels = [event["label"] for event in lab.read()["events"]]
-        if labels.count("Push off") >= ended:
-            break
+        state = lab.read()
+        events = (event["label"] for event in state["events"])
+        labels = [label for label in events if label.startswith("Push")]
+        many = len(labels) // 2
+        is_pushed = any(load["active"] for load in state["loads"])
+        if labels == many * ["Push on", "Push off"] and not is_pushed:
+            return many
         page.wait_for_timeout(100)
-    return [label for label in labels if label.startswith("Push")]
+    raise AssertionError(f"pushes: {labels}")
 
 
-def test_the_link_is_pushed_with_the_mouse_and_by_keys(page: Page, lab: Lab) -> None:
-    open_view(page, lab)
+def test_the_link_is_pushed_with_the_mouse_and_by_keys(view: Page, lab: Lab) -> None:
+    page = view
     page.get_by_role("button", name="Camera: Front").click()
-    page.wait_for_timeout(800)
+    page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
+    page.wait_for_function(STANDS_STILL, timeout=LONG_MS)
     page.get_by_role("button", name="Push").click()
     layer = page.get_by_role("button", name=re.compile("Drag to push"))
     box = layer.bounding_box()
@@ -123,44 +181,34 @@ def test_the_link_is_pushed_with_the_mouse_and_by_keys(page: Page, lab: Lab) -> 
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 110, y - 60, steps=4)
-    page.wait_for_timeout(600)
+    wait_for_push(page, lab)
     page.mouse.up()
-    assert wait_for_pushes(page, lab, 1) == ["Push on", "Push off"]
-    assert not [load for load in lab.read()["loads"] if load["active"]]
-    layer.press("ArrowRight", delay=700)
-    assert wait_for_pushes(page, lab, 2) == 2 * ["Push on", "Push off"]
+    by_mouse = wait_for_end(page, lab)
+    assert by_mouse >= 1
+    layer.focus()
+    page.keyboard.down("ArrowRight")
+    wait_for_push(page, lab)
+    page.keyboard.up("ArrowRight")
+    assert wait_for_end(page, lab) > by_mouse
     layer.press("Escape")
     expect(layer).to_be_hidden()
 
 
-def test_low_graphics_are_remembered(page: Page, lab: Lab) -> None:
-    open_view(page, lab)
-    switch = page.get_by_role("button", name="Low graphics")
-    full = page.frame_locator("iframe").locator("canvas").first.bounding_box()
-    switch.click()
-    expect(switch).to_have_attribute("aria-pressed", "true")
-    pixels = "document.querySelector('iframe').contentWindow.innerWidth"
-    assert full is not None
-    page.wait_for_function(f"() => {pixels} < {0.7 * full['width']}")
-    page.reload()
-    expect(switch).to_have_attribute("aria-pressed", "true")
-
-
-def test_shift_escape_stops_from_a_text_field_and_from_the_3d_view(page: Page, lab: Lab) -> None:
-    open_page(page, lab)
+def test_shift_escape_stops_from_a_text_field_and_from_the_3d_view(view: Page, lab: Lab) -> None:
+    page = view
     field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
     field.fill("0.3")
     field.press("Shift+Escape")
     wait_for_status(page, lab, "paused")
     lab.client.post(lab.session + "/start").raise_for_status()
-    view = page.frame_locator("iframe").locator("body")
-    view.evaluate("body => { body.tabIndex = 0; body.focus(); }")
+    inside = page.frame_locator("iframe").locator("body")
+    inside.evaluate("body => { body.tabIndex = 0; body.focus(); }")
     page.keyboard.press("Shift+Escape")
     wait_for_status(page, lab, "paused")
 
 
-def test_names_of_the_parts_are_shown_in_the_window_that_asks(page: Page, lab: Lab) -> None:
-    open_view(page, lab)
+def test_names_of_the_parts_are_shown_in_the_window_that_asks(view: Page) -> None:
+    page = view
     seen = """name => document.querySelector("iframe").contentWindow
         .__viserMutable && document.querySelector("iframe").contentWindow
         .__viserSceneTree.getState()[name]?.visibility"""
@@ -171,3 +219,16 @@ def test_names_of_the_parts_are_shown_in_the_window_that_asks(page: Page, lab: L
     page.wait_for_function(f"() => ({seen})('/a/c/p/n4')", timeout=LONG_MS)
     names.click()
     page.wait_for_function(f"() => !({seen})('/a/c/p/n4')", timeout=LONG_MS)
+
+
+def test_low_graphics_are_remembered(view: Page) -> None:
+    page = view
+    switch = page.get_by_role("button", name="Low graphics")
+    full = page.frame_locator("iframe").locator("canvas").first.bounding_box()
+    switch.click()
+    expect(switch).to_have_attribute("aria-pressed", "true")
+    pixels = "document.querySelector('iframe').contentWindow.innerWidth"
+    assert full is not None
+    page.wait_for_function(f"() => {pixels} < {0.7 * full['width']}")
+    page.reload()
+    expect(switch).to_have_attribute("aria-pressed", "true")

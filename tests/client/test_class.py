@@ -10,28 +10,42 @@ import pytest
 import svsa
 from svsa.client import AccessError, ControlError
 from svsa_server.access.class_keys import ClassKeys
-from svsa_server.access.roles import Person, Role
+from svsa_server.access.memberships import FILE, Membership, Memberships
+from svsa_server.access.roles import INSTRUCTOR, Person, Role
+from tests.client.copied_script import (
+    END_S,
+    do_experiment,
+    expect_done,
+    start_script,
+    write_copied_script,
+)
 from tests.lab import run_lab
 
 ADA, BOB = Person("p-1", "Ada", Role.OPERATOR), Person("p-2", "Bob", Role.OPERATOR)
 
 
 @pytest.fixture(scope="module")
-def tokens(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, str]]:
-    """The address of a class, and tokens of two students."""
+def tokens(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, str, str]]:
+    """The address of a class, and tokens of two students and of the instructor."""
     folder: Path = tmp_path_factory.mktemp("class")
     keys, _ = ClassKeys.open(folder)
+    for person in (ADA, BOB):
+        Memberships(folder / FILE).keep(Membership(person))
     with run_lab("--class", data=str(folder)) as lab:
-        yield lab.url, keys.sign(ADA), keys.sign(BOB)
+        yield lab.url, keys.sign(ADA), keys.sign(BOB), keys.sign(INSTRUCTOR)
 
 
-def test_a_script_without_a_token_is_told_how_one_comes_in(tokens: tuple[str, str, str]) -> None:
+def test_a_script_without_a_token_is_told_how_one_comes_in(
+    tokens: tuple[str, str, str, str],
+) -> None:
     with pytest.raises(AccessError, match="join it with your name and the class code"):
         svsa.connect(tokens[0])
 
 
-def test_a_script_waits_for_its_turn_and_gives_up_in_time(tokens: tuple[str, str, str]) -> None:
-    url, ada_s, bob_s = tokens
+def test_a_script_waits_for_its_turn_and_gives_up_in_time(
+    tokens: tuple[str, str, str, str],
+) -> None:
+    url, ada_s, bob_s, _ = tokens
     with svsa.connect(url, ada_s) as ada, svsa.connect(url, bob_s) as bob:
         with pytest.raises(ControlError, match="Nobody is in control of session lab"):
             ada.session.law = "fl"
@@ -54,8 +68,10 @@ def test_a_script_waits_for_its_turn_and_gives_up_in_time(tokens: tuple[str, str
         bob.session.give_control_back()
 
 
-def test_a_script_has_sessions_streams_and_runs_of_its_own(tokens: tuple[str, str, str]) -> None:
-    url, ada_s, bob_s = tokens
+def test_a_script_has_sessions_streams_and_runs_of_its_own(
+    tokens: tuple[str, str, str, str],
+) -> None:
+    url, ada_s, bob_s, _ = tokens
     with svsa.connect(url, ada_s) as ada, svsa.connect(url, bob_s) as bob:
         result = ada.run("4a", duration_s=0.2, name="mine")
         assert result.name == "mine"
@@ -64,7 +80,49 @@ def test_a_script_has_sessions_streams_and_runs_of_its_own(tokens: tuple[str, st
         assert len(next(iter(ada.session.stream(duration_s=0.1))).ticks)
 
 
-def test_a_token_stands_in_no_address(tokens: tuple[str, str, str]) -> None:
-    url, ada_s, _ = tokens
+def test_a_token_stands_in_no_address(tokens: tuple[str, str, str, str]) -> None:
+    url, ada_s, *_ = tokens
     refused = httpx.get(f"{url}/api/v1/sessions?token={ada_s}", trust_env=False)
     assert refused.status_code == 401
+
+
+def test_a_script_whose_maker_is_removed_is_told_so(
+    tokens: tuple[str, str, str, str],
+) -> None:
+    url, ada_s, _, instructor_s = tokens
+    person = f"{url}/api/v1/class/people/{ADA.id}"
+    headers = {"Authorization": f"Bearer {instructor_s}"}
+    with svsa.connect(url, ada_s) as ada:
+        stream = iter(ada.session.stream(duration_s=1e6))
+        next(stream)
+        httpx.delete(person, headers=headers, trust_env=False).raise_for_status()
+        with pytest.raises(AccessError, match="The instructor has removed you from the class"):
+            for _ in stream:
+                pass
+        with pytest.raises(AccessError, match="has removed you"):
+            ada.session.law = "fl"
+        httpx.post(person + "/restore", headers=headers, trust_env=False).raise_for_status()
+        assert ada.session.law
+
+
+def test_a_copied_script_asks_for_control_like_a_person(
+    tokens: tuple[str, str, str, str], tmp_path: Path
+) -> None:
+    url, ada_s, bob_s, _ = tokens
+    headers = {"Authorization": f"Bearer {ada_s}"}
+    with httpx.Client(base_url=url, headers=headers, trust_env=False, timeout=60) as client:
+        path = write_copied_script(do_experiment(client), url, tmp_path)
+    with svsa.connect(url, bob_s) as bob:
+        bob.session.take_control()
+        script = start_script(path, ada_s, "--shared")
+        while bob.session.waiting != ("Ada",):
+            assert script.poll() is None, script.communicate()
+        bob.session.law = "fl"
+        bob.session.give_control_back()
+        assert expect_done(script, ("FL",)) == END_S
+        state = bob.session.read_state()
+        assert (state["control"]["holder"], state["status"]) == (None, "paused")
+        assert (state["tick"], state["configuration"]["law"]) == (1500, "fl")
+        private = start_script(path, ada_s)
+        assert expect_done(private, ("FL",)) == END_S
+        assert bob.session.read_state() == state, "it disturbs nobody"

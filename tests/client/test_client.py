@@ -51,7 +51,7 @@ def test_a_refusal_is_the_error_of_the_library(lab: Lab) -> None:
     (violation,) = refused.value.violations
     assert (violation.name, violation.value) == ("fl_integral.position_pole_rad_per_s", 1e6)
     assert violation.unit == "rad/s"
-    with pytest.raises(svsa.StateError, match="simulated: there is nothing to arm"):
+    with pytest.raises(svsa.StateError, match="simulated: there is no bench behind it"):
         lab.session.bench.arm()
     with pytest.raises(LabError, match="no run 'nowhere'"):
         _ = lab.runs["nowhere"]
@@ -76,7 +76,13 @@ def test_a_load_of_a_run_that_is_recorded_and_watched(lab: Lab) -> None:
     assert recording.run_id in set(lab.runs)
 
 
-CHANGES = [svsa.Change(at_s=0.3, law="fl"), svsa.Change(at_s=0.4, load=svsa.PaperLoad())]
+FIGURE_5 = svsa.paper.FIGURES["5"].build_configuration()
+CHANGES = [
+    svsa.Change(at_s=0.3, law="fl"),
+    svsa.Change(at_s=0.4, load=svsa.PaperLoad()),
+    svsa.Change(at_s=0.5, position=FIGURE_5.position, stiffness=FIGURE_5.stiffness),
+]
+"""The last ones begin again what is followed already."""
 
 
 def test_a_run_in_the_lab_is_the_run_of_the_library_to_the_bit(lab: Lab) -> None:
@@ -153,7 +159,7 @@ def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
 def test_a_secret_opens_the_lab() -> None:
     with run_lab(secret="of the class") as guarded:
         with pytest.raises(AccessError):
-            svsa.connect(guarded.url, secret="of nobody")
-        with svsa.connect(guarded.url, secret="of the class") as lab:
+            svsa.connect(guarded.url, token="of nobody")
+        with svsa.connect(guarded.url, token="of the class") as lab:
             assert "ndobc" in lab.laws
             assert len(next(iter(lab.session.stream(duration_s=0.1))).ticks)

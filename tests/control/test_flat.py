@@ -16,7 +16,7 @@ STILL = ExternalLoad(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def refer(t):
-    """Q_d = sin 3t rad, σ_d = 35 + 5 sin 2t N·m/rad."""
+    """q_d = sin 3t rad, σ_d = 35 + 5 sin 2t N·m/rad."""
     q = [3.0**n * math.sin(3.0 * t + n * math.pi / 2.0) for n in range(5)]
     s = [2.0**n * 5.0 * math.sin(2.0 * t + n * math.pi / 2.0) for n in range(3)]
     return Reference(*q, 35.0 + s[0], s[1], s[2])

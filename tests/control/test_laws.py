@@ -149,22 +149,6 @@ def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
             np.testing.assert_array_equal(read_samples(one, lane), whole[lane])
 
 
-@pytest.mark.parametrize("law", list_law_names())
-def test_every_law_gives_a_live_session_and_its_replay_the_same_bits(law: str) -> None:
-    """With the rig's effects and a load; the session advances as its wakes happen to fall.
-
-    A law that ends its run there ends it at the same tick in both.
-    """
-    configuration = build_configuration(PULSE, law=law, effects=svsa.RIG)
-    session = SimulatedSession("live", configuration)
-    for ticks in (1, 7, 60, 100, 32):
-        session._advance(ticks)
-    whole = np.concatenate([part.copy() for _, part in replay(configuration, [], 200)], axis=1)
-    assert session.run.tick == whole.shape[1] > 100
-    np.testing.assert_array_equal(read_samples(session, 0), whole[0])
-    assert np.any(whole[0, :, U1] != 0.0)
-
-
 def test_a_lane_that_goes_on_past_another_s_fault_is_brought_back_with_its_memory():
     fragile = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-900.0] * 4, [-900.0] * 2))
     effects = svsa.RIG

@@ -82,7 +82,7 @@ def test_where_there_is_no_rest_the_simulated_run_ends_in_a_fault():
     assert run.fault is not None
 
 
-@pytest.mark.parametrize("law", ["fl", "ndobc"])
+@pytest.mark.parametrize("law", ["fl", "ndobc", "pi_observer"])
 @pytest.mark.parametrize("sigma", [15.0, 60.0])
 def test_noise_goes_through_the_loop_as_predicted(law, sigma):
     """White noise on the three angles, small enough to be linear: rms of u1 and u2 within 5 %."""

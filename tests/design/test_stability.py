@@ -77,9 +77,22 @@ def test_a_law_that_continuous_time_does_not_describe_is_refused_by_name(law):
         assess(build(law), 15.0)
 
 
-def test_an_unstable_rest_is_told_as_the_cycle_that_a_run_shows():
-    """Super-twisting's boundary layer: a nudge grows to 0.0065° and stays there."""
-    assert assess(build("super_twisting"), 15.0).loop.slowest > 0.0
+@pytest.mark.parametrize("sigma", [15.0, 60.0])
+def test_within_its_layer_super_twisting_is_a_damped_linear_loop(sigma):
+    """With √(L|s|) tanh(s/d) the layer had no damping, and a nudge grew to a cycle of 0.0065°."""
+    loop = assess(build("super_twisting"), sigma).loop
+    assert loop.slowest < -15.0
+    assert loop.least_damping > 0.25
+    nudged = svsa.simulate(
+        build("super_twisting"),
+        position=svsa.ConstantPosition(),
+        stiffness=svsa.ConstantStiffness(stiffness_nm_per_rad=sigma),
+        loads=[svsa.PulseLoad(torque_nm=(0.01, 0.0, 0.0), duration_s=0.01)],
+        duration_s=3.0,
+    )
+    error = np.abs(nudged.position_error_rad)
+    assert error.max() > 1e-5
+    assert error[-500:].max() < 1e-6 * error.max()
 
 
 def test_each_parameter_has_its_range():

@@ -61,6 +61,22 @@ def test_a_planted_weakness_is_found_and_made_simple():
     assert (alone.fault.code, alone.fault.time_s) == (weak.fault, pytest.approx(weak.fault_s))
 
 
+def test_each_worse_run_is_told_as_a_scenario_that_is_as_bad():
+    adversary = build_adversary(harm="peak", law="fl")
+    told = []
+    found = falsify(adversary, runs=320, on_worse=told.append, is_shrunk=False)
+    runs = [one.found.at_run for one in told]
+    assert runs == sorted(set(runs))
+    worst = np.maximum.accumulate(found.severities)
+    for one in told:
+        assert found.severities[one.found.at_run - 1] == worst[one.found.at_run - 1]
+    last = told[-1]
+    assert (last.found.at_run, last.loads) == (found.run, found.as_found.loads)
+    (outcome,) = run_scenario(last, ("fl",))
+    assert outcome.metrics["peak_position_error_rad"] == found.severity
+    assert last.found.outcome == found.outcome
+
+
 def test_every_step_of_shrinking_still_hurts():
     """What is told last is what is kept; and it is within what the adversary may do."""
     adversary = build_adversary()

@@ -10,9 +10,10 @@ from svsa.cli import app
 from svsa.errors import ParameterError
 from svsa.falsify import find as finding
 from svsa.falsify.file import list_adversaries, read_adversary, read_scenario, write_scenario
+from svsa.falsify.kept import forget_scenario, keep_scenario, list_scenarios, open_scenario
 from svsa.falsify.measure import measure_attacks, run_scenario
-from svsa.falsify.picture import sample_torque
 from svsa.falsify.scenario import LoadScenario
+from svsa.falsify.trace import sample_torque, trace_scenario
 from svsa.plant.disturbances import ConstantLoad, PulseLoad, SineLoad
 from tests.falsify.weak_law import install
 
@@ -154,6 +155,13 @@ def test_a_scenario_of_one_s_own_is_run_with_its_loads_and_settings(tmp_path):
     assert torque[250].tolist() == [1.0, 0.0, 0.0]
     assert torque[625, 1] == pytest.approx(0.5 * math.sin(2 * math.pi * 2.0 * 0.125))
     assert times[250] == pytest.approx(0.25)
+    traced = trace_scenario(scenario, ("fl",))
+    assert traced.torque_nm.tolist() == torque.tolist()
+    (fl,) = traced.laws
+    peak = abs(fl.errors[:, 0]).max()
+    assert peak == pytest.approx(hurt.metrics["peak_position_error_rad"], rel=1e-9)
+    assert fl.fault is None
+    assert len(fl.errors) == len(times)
 
 
 def test_a_scenario_s_loads_come_besides_those_of_its_base():
@@ -242,3 +250,27 @@ def test_those_that_come_with_the_package_are_listed():
     assert all(name in listed for name in names)
     with pytest.raises(ParameterError, match=r"adversary is 'nobody': .*blow"):
         read_adversary("nobody")
+
+
+def test_a_scenario_is_kept_by_a_name_that_no_other_one_has(monkeypatch, tmp_path):
+    monkeypatch.setenv("SVSA_DATA", str(tmp_path / "data"))
+    file = tmp_path / "own.toml"
+    file.write_text(SCENARIO)
+    scenario = read_scenario(file)
+    assert list_scenarios() == {}
+    path = keep_scenario("mine", scenario)
+    assert keep_scenario("mine", scenario) == path, "the same again is no other one"
+    assert open_scenario("mine") == open_scenario(str(file)) == scenario
+    with pytest.raises(ParameterError, match="free: another scenario is kept by it"):
+        keep_scenario("mine", scenario.changed(duration_s=2.0))
+    path.with_name("broken.toml").write_text("title = 3")
+    assert list_scenarios() == {"mine": scenario}
+    told = CliRunner().invoke(app, ["falsify", "run", "mine", "--laws", "fl", "--json"])
+    assert json.loads(told.stdout)["laws"][0]["law"] == "fl"
+    for name in ("../mine", "", "a b"):
+        with pytest.raises(ParameterError, match="1 to 64 letters"):
+            keep_scenario(name, scenario)
+    with pytest.raises(ParameterError, match="kept by its name: mine"):
+        open_scenario("nobody")
+    assert forget_scenario("mine")
+    assert not forget_scenario("mine")

@@ -3,13 +3,18 @@
 import pytest
 
 from svsa.rig.launch import start_rig
+from tests.exhaustive import exhaust
 
 from .caused_faults import CASES, check_stopped
 from .watched_bench import make_ready
 
 
 @pytest.mark.parametrize(
-    "name", ["no frames of motor1", "error frames", "a stranger resets the drives"]
+    "name",
+    exhaust(
+        ["no frames of motor1", "error frames", "a stranger resets the drives"],
+        ["no frames of motor1"],
+    ),
 )
 def test_over_sockets_it_ends_the_same(name: str) -> None:
     """As `test_bench_faults` has it in one process."""

@@ -17,14 +17,19 @@ from svsa.bench.clock import LockstepClock
 from svsa.bench.drives.conversion import build_motor_scale, compute_current_ma
 from svsa.bench.drives.phase import Phase
 from svsa.bench.file import BenchFile, BusSettings, read_bench
-from svsa.bench.realtime.configuration import build_bench_configuration, build_guard
+from svsa.bench.reading import Reading
+from svsa.bench.realtime.configuration import (
+    build_bench_configuration,
+    build_guard,
+    read_actuation,
+)
 from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.realtime.sample_array import SampleArray
 from svsa.bench.safety.machine import BenchStatus, Conditions, Machine
-from svsa.bench.sensing import Reading
 from svsa.errors import StateError
 from svsa.model.dynamics import compute_deflection
 from svsa.paper import get_figure
-from svsa.result.bench_run import SampleArray, connect_bench
+from svsa.result.bench_run import connect_bench
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.rig.mechanics import Mechanics
 from svsa.rig.parameters import RigParameters
@@ -122,7 +127,8 @@ class Stand:
         self.plant, self.bench, self.describe = plant, bench, describe
         self._wait, self._now = wait, math.ceil(1e3 * now_s) * 1e-3 + PHASE_S
         self.sink = SampleArray(2000)
-        self.loop = BenchLoop(plant, bench, build_bench_configuration(bench, FIGURE), self.sink)
+        configuration, mu0 = build_bench_configuration(bench, FIGURE), bench.home.lever_ratio
+        self.loop = BenchLoop(plant, read_actuation(bench), mu0, configuration, self.sink)
         self.reading: Reading | None = None
 
     @property

@@ -68,7 +68,7 @@ def _shake(b: WiredBench) -> None:
 
 
 def _overheat(b: WiredBench) -> None:
-    b.guard.motor2.heat = 1.06
+    b.guard.motor2.winding.heat = 1.06
 
 
 def _lose_encoder(b: WiredBench) -> None:

@@ -11,9 +11,10 @@ from typing import Any, NamedTuple
 import can
 
 from svsa.bench.calibration import find_calibration
-from svsa.bench.can_plant import CanPlant, Reading
+from svsa.bench.can_plant import CanPlant
 from svsa.bench.drives.robomodule import Command, decode, split_id
 from svsa.bench.file import BenchFile, read_bench
+from svsa.bench.reading import Reading
 from svsa.bench.realtime.configuration import build_guard
 from svsa.bench.realtime.loop import BenchLoop
 from svsa.bench.safety.machine import BenchStatus

@@ -73,6 +73,7 @@ def contains(estimate, true):
     return estimate.low <= true <= estimate.high
 
 
+@pytest.mark.long
 def test_table_1_is_found_from_a_bench_record(found):
     for name in ACTUATOR:
         true = getattr(DESIGN.actuator, name)
@@ -84,6 +85,7 @@ def test_table_1_is_found_from_a_bench_record(found):
     assert (found.used_s, found.loaded_s, found.dropped_s) == (32.0, 0.0, 0.0)
 
 
+@pytest.mark.long
 def test_friction_and_the_delay_of_the_torque_are_found_with_it(found):
     friction = Friction()
     for name in ("coulomb1_nm", "coulomb2_nm", "static_ratio", "stribeck_rad_per_s"):
@@ -93,28 +95,28 @@ def test_friction_and_the_delay_of_the_torque_are_found_with_it(found):
 
 
 @pytest.mark.long
-def test_intervals_hold_the_truth_as_often_as_they_say():
-    # other plants, other friction, sensor noise of other seeds: 2 x 7 intervals of 95 %
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", [0, 1])
+def test_intervals_hold_the_truth_as_often_as_they_say(seed):
+    # another plant, other friction, sensor noise of another seed: 7 intervals of 95 %
     # (in 92 runs of this kind 624 of 644 held; of the dampings, the hardest, 260 of 276)
-    hits = 0
-    for seed in range(2):
-        rng = np.random.default_rng(seed)
-        actuator = DESIGN.actuator.changed(
-            **{n: getattr(DESIGN.actuator, n) * rng.uniform(0.85, 1.15) for n in ACTUATOR}
-        )
-        friction = Friction(coulomb1_nm=rng.uniform(0.1, 0.3), coulomb2_nm=rng.uniform(0.05, 0.15))
-        effects = BENCH.changed(friction=friction, noise=SensorNoise())
-        configuration = build_configuration(actuator=actuator, effects=effects, seed=seed)
-        samples, fault = play(configuration)
-        assert fault is None
-        estimates = identify(build_run(configuration, samples)).estimates
-        for name in ACTUATOR:
-            true = getattr(actuator, name)
-            assert estimates[name].value == pytest.approx(true, rel=0.05), (seed, name)
-            hits += contains(estimates[name], true)
-    assert hits >= 12
+    rng = np.random.default_rng(seed)
+    actuator = DESIGN.actuator.changed(
+        **{n: getattr(DESIGN.actuator, n) * rng.uniform(0.85, 1.15) for n in ACTUATOR}
+    )
+    friction = Friction(coulomb1_nm=rng.uniform(0.1, 0.3), coulomb2_nm=rng.uniform(0.05, 0.15))
+    effects = BENCH.changed(friction=friction, noise=SensorNoise())
+    configuration = build_configuration(actuator=actuator, effects=effects, seed=seed)
+    samples, fault = play(configuration)
+    assert fault is None
+    estimates = identify(build_run(configuration, samples)).estimates
+    for name in ACTUATOR:
+        true = getattr(actuator, name)
+        assert estimates[name].value == pytest.approx(true, rel=0.05), name
+    assert sum(contains(estimates[name], getattr(actuator, name)) for name in ACTUATOR) >= 6
 
 
+@pytest.mark.long
 def test_a_motor_that_did_not_move_is_not_determined():
     # friction hides its inertia and damping: no file must be written with a guess
     move = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=1.0)
@@ -218,6 +220,7 @@ def test_a_late_torque_lies_between_two_samples():
     assert compute_shifted_torque(torques, 0, 3.0, 3.0) == (0.0, 0.0)
 
 
+@pytest.mark.long
 def test_the_command_writes_a_design_that_can_be_read(
     excited, found, tmp_path, monkeypatch, capsys
 ):

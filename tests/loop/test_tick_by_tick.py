@@ -12,7 +12,14 @@ from svsa.control.installed import get_law
 from svsa.control.ndobc import compute_ndobc
 from svsa.loop.lane import Inputs, LaneState, build_lane_state
 from svsa.loop.loop import advance as advance_lane
-from svsa.loop.loop import advance_tick, compute_control, delay, read_reference, sense
+from svsa.loop.loop import (
+    advance_tick,
+    compute_control,
+    delay,
+    measure,
+    read_reference,
+    sense,
+)
 from svsa.loop.publish import publish
 from svsa.model.domain import INSIDE, check_domain
 from svsa.model.dynamics import build_actuator, compute_internal_torque
@@ -74,7 +81,10 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
     bench, period, time = blocks.bench, blocks.period, tick * blocks.period
     reference = read_reference(inputs, time)
     call = build_call(law, lane.memory)
-    torque = compute_control(blocks, call, lane.known, reference, lane.estimate, lane.applied)
+    measured = measure(blocks, call, lane.x, tick)
+    torque = compute_control(
+        blocks, call, lane.known, reference, lane.estimate, lane.applied, measured
+    )
     assert math.isfinite(torque.u1 + torque.u2)
     asked, target = delay(bench, lane.asked, torque)
     load = compute_load(inputs.loads, tick, period, time)

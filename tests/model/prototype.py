@@ -28,7 +28,7 @@ IDEAL_BENCH = build_bench(svsa.IDEAL, 0, DESIGN.actuator, 0.001)
 
 LEVER_RATIO_RANGE = (0.2861, 0.7904)
 
-drawn = settings(derandomize=True, max_examples=60, deadline=None)
+drawn = settings(max_examples=60)
 lever_ratios = st.floats(*LEVER_RATIO_RANGE)
 deflection_shares = st.floats(-0.95, 0.95)
 

@@ -42,7 +42,7 @@ def compute_drift(parameters, period):
     return np.abs(energies / energies[0] - 1.0).max()
 
 
-@settings(derandomize=True, max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(states(speed=3.0))
 def test_total_energy_never_grows_with_damping(x):
     """Over every single period, from anywhere in the domain: nothing creates energy."""

@@ -7,7 +7,11 @@ import pytest
 
 import svsa
 from svsa.model.dynamics import build_actuator
-from svsa.observer.state import build_measured_state, correct, update_state_estimate
+from svsa.observer.state import (
+    build_measured_state,
+    correct,
+    update_state_estimate,
+)
 from svsa.plant.disturbances import build_load_table, schedule_load
 from svsa.signals import Disturbance, Measurement, State, Torque
 from tests.model.prototype import (

@@ -17,7 +17,7 @@ from svsa.records.reader import open_record
 from svsa.records.resimulation import compare_with_simulation
 from svsa.run.command import build_command
 from svsa.run.events import list_events
-from svsa_server.lanes import list_record_stretches, name_lanes
+from svsa_server.runs.lanes import list_record_stretches, name_lanes
 
 EXAMPLE = Path(__file__).parents[1] / "data" / "example_law"
 SCRIPT = """

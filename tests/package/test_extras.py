@@ -1,8 +1,13 @@
 """The base install is the library: it works without the packages of any extra."""
 
 import json
+import re
 import subprocess
 import sys
+import tomllib
+from pathlib import Path
+
+from svsa.extras import MODULES
 
 HIDE = """
 import sys
@@ -23,7 +28,7 @@ class WithoutExtras:
 assert not hidden & set(sys.modules), "importing the library has imported an extra's package"
 sys.meta_path[:] = [WithoutExtras(finder) for finder in sys.meta_path]
 """
-ALL = ("server", "client", "bench", "plot", "nidaqmx", "xarray")
+ALL = ("server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti", "peers")
 CALLS = {
     "svsa.simulate('4a', duration_s=0.01).plot()": "plot",
     "svsa.reproduce(('6a',))": "bench",
@@ -33,6 +38,7 @@ CALLS = {
     "run('bench-check', 'bench.toml')": "bench",
     "run('bench-home', 'bench.toml')": "bench",
     "run('bench-dbc', 'bench.toml')": "bench",
+    "run('study', 'run', 'gains', '--runs', '1', '--scheduler', 'local')": "cluster",
     "run('serve')": "server",
     "run('openapi')": "server",
 }
@@ -87,7 +93,7 @@ def test_the_server_needs_the_bench_s_packages_for_a_bench_only():
         "import sys\n"
         "from pathlib import Path\n"
         "from svsa_server.app import build_app\n"
-        "from svsa_server.laboratory import build_shared_session\n"
+        "from svsa_server.sessions.laboratory import build_shared_session\n"
         "build_app()\n"
         "assert 'viser' not in sys.modules, 'it is loaded when somebody looks'\n"
         "try:\n    build_shared_session(Path('svsa/rig/bench.toml'))\n"
@@ -95,3 +101,17 @@ def test_the_server_needs_the_bench_s_packages_for_a_bench_only():
     )
     printed = run_without(("bench", "plot", "nidaqmx"), program)
     assert "pip install 'svsa-lab[bench]'" in printed
+
+
+def test_each_extra_is_locked_but_the_peers_which_are_large() -> None:
+    """What is locked is what `make run`, the tests and CI fetch."""
+    root = Path(__file__).parents[2]
+    extras = tomllib.loads((root / "pyproject.toml").read_text())["project"][
+        "optional-dependencies"
+    ]
+    locked = set(re.findall(r"^[\w-]+", (root / "requirements.lock").read_text(), re.MULTILINE))
+    names = {extra: {re.split(r"[\[>=<;]", each)[0] for each in extras[extra]} for extra in extras}
+    assert {*extras} == {*MODULES} == {*ALL}
+    assert not names.pop("peers") & locked
+    assert set().union(*names.values()) <= locked
+    assert {"gs-usb", "uptime"} <= locked, "of python-can's adapters"

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import tomllib
 import zipfile
 from email.parser import Parser
 from pathlib import Path
@@ -58,19 +57,6 @@ def test_only_the_library_s_packages_come_without_an_extra(metadata):
     (can,) = [line for line in asked if line.startswith("python-can")]
     assert "[gs-usb,pcan]" in can
     assert "extra == 'bench'" in can
-
-
-def test_the_lock_has_every_extra_s_packages():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    locked = {
-        line.partition("==")[0]
-        for line in (ROOT / "requirements.lock").read_text("utf-8").splitlines()
-        if "==" in line
-    }
-    for packages in project["optional-dependencies"].values():
-        names = {package.partition(">")[0].partition("[")[0] for package in packages}
-        assert names <= locked
-    assert {"gs-usb", "uptime"} <= locked
 
 
 def test_the_command_says_its_version():

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 
 import svsa
 from svsa.control.call import build_call
-from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Inputs
+from svsa.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, UNMOVED, Inputs
 from svsa.loop.loop import compute_control, read_reference
 from svsa.loop.loop import delay as delay_torque
 from svsa.plant.drive import compute_lagged_torque, compute_late_torque, compute_mean_torque
@@ -166,7 +166,7 @@ def test_in_the_loop_the_law_acts_d_samples_after_it_was_asked(law, samples):
     call = build_call(law, run.lanes[0].memory)
     asked = [
         compute_control(
-            blocks, call, AT_REST, read_reference(inputs, k * T), UNDISTURBED, NO_TORQUE
+            blocks, call, AT_REST, read_reference(inputs, k * T), UNDISTURBED, NO_TORQUE, UNMOVED
         ).u1
         for k in range(samples + 1)
     ]

@@ -55,6 +55,10 @@ def find(made: Record) -> MeasuredWindow:
         ),
         ([(100, "load", MASS), (240, "law", "fl")], "change", "NDOBC → FL", (240, 300), ("FL",)),
         ([(300, "law", "fl")], "start", "", (200, 300), ("NDOBC",)),
+        (
+            [(220, "load", MASS), (250, "stop", None)],
+            *("load", "3 kg mass", (220, 250), ("NDOBC",)),
+        ),
     ],
 )
 def test_it_is_that_of_the_last_load_or_the_last_and_says_whose(
@@ -70,6 +74,14 @@ def test_it_is_that_of_the_last_load_or_the_last_and_says_whose(
     assert (window.start_s, window.end_s) == pytest.approx([tick * PERIOD_S for tick in ticks])
     assert window.lanes == lanes
     assert window.is_whole == (kind == "start")
+
+
+def test_a_ramp_to_zero_torque_is_in_no_number_where_there_is_another_window() -> None:
+    stopped = find(record([(280, "stop", None)]))
+    assert (stopped.kind, stopped.first_tick, stopped.end_tick) == ("start", 200, 280)
+    assert not stopped.is_whole
+    ramp = find(record([(150, "stop", None)]))
+    assert (ramp.kind, ramp.label, ramp.first_tick, ramp.end_tick) == ("stop", "Stop", 200, 300)
 
 
 def test_no_number_mixes_two_laws() -> None:

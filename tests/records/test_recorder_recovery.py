@@ -6,13 +6,16 @@ import os
 import shutil
 import signal
 import time
+from collections.abc import Iterator
 from multiprocessing.connection import Connection
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 import pytest
 
-from svsa.records.header import RecordError
+from svsa.records import reader
+from svsa.records.header import RecordError, RecordHeader
 from svsa.records.reader import read_record, recover
 from svsa.records.recorder import Recorder
 from svsa.records.writer import write_record
@@ -138,6 +141,22 @@ def test_recovery_that_was_cut_off_itself_is_done_again(tmp_path: Path) -> None:
     assert again.ticks == 900
     names = sorted(path.name for path in folder.iterdir())
     assert names == ["commands.jsonl", "header.json", "samples.parquet"]
+
+
+def test_a_record_that_is_finished_while_it_is_opened_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = make_stream(tmp_path / "run-1")
+    read_stream = reader.read_stream
+
+    def read_late(path: Path, header: RecordHeader) -> Iterator[pa.RecordBatch]:
+        recover(path.parent)
+        return read_stream(path, header)
+
+    monkeypatch.setattr(reader, "read_stream", read_late)
+    record = reader.open_record(folder)
+    assert record.tick_count == 900
+    np.testing.assert_array_equal(record.samples, build_samples(900))
 
 
 def damage(path: Path, where: float, count: int = 64) -> bytes:

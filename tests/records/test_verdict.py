@@ -10,7 +10,7 @@ from svsa.cli import app
 from svsa.errors import ParameterError
 from svsa.records.header import RecordError
 from svsa.records.reader import Record, build_record
-from svsa.records.verdict import Tolerance, judge
+from svsa.records.verdict import MAX_OUTSIDE, Tolerance, judge
 from svsa.records.writer import write_record
 from svsa.signals import CHANNEL_INDEX
 from tests.records.records import PERIOD_S, build_header, build_samples
@@ -91,10 +91,60 @@ def test_what_is_not_known_on_one_side_is_not_held_and_on_both_it_is():
     assert judge(build(**{TORQUE: unknown}), build(**{TORQUE: unknown}), loose, None).held
 
 
+def test_one_value_that_is_not_known_does_not_take_the_band_from_those_beside_it():
+    unknown = np.where(np.arange(TICKS) == 7, np.nan, 1.0)
+    near = {TORQUE: Tolerance(time_s=3 * PERIOD_S)}
+    assert judge(build(**{TORQUE: 1.0}), build(**{TORQUE: unknown}), near, None).held
+    assert judge(build(**{TORQUE: unknown}), build(**{TORQUE: unknown}), near, None).held
+    assert not judge(build(**{TORQUE: 1.1}), build(**{TORQUE: unknown}), near, None).held
+    never = build(**{TORQUE: np.nan})
+    verdict = judge(build(**{TORQUE: 1.0}), never, near, None)
+    assert (verdict.held, find(verdict, "lane2", TORQUE).outside_s) == (False, TICKS * PERIOD_S)
+
+
 def test_a_shorter_run_is_not_held_though_all_it_has_is():
     verdict = judge(build(ticks=150), build(), {})
     assert all(one.held for one in verdict.channels)
     assert (verdict.held, verdict.ticks) == (False, 150)
+
+
+def test_the_stretches_outside_are_told_and_how_long_they_are_in_all():
+    """Two of 5 ticks; those that are a tick apart are one stretch, but the tick between counts."""
+    values = np.zeros(TICKS)
+    values[[20, 21, 22, 24, 25, 100, 101, 102, 103, 104]] = 2.0
+    verdict = judge(build(**{ERROR: values}), build(**{ERROR: 0.0}), {ERROR: Tolerance(absolute=1)})
+    one = find(verdict, "lane2", ERROR)
+    stretches = [(20, 22), (24, 25), (100, 104)]
+    assert [pytest.approx(stretch) for stretch in one.outside] == [
+        (begin * PERIOD_S, end * PERIOD_S) for begin, end in stretches
+    ]
+    assert one.outside_s == pytest.approx(10 * PERIOD_S)
+    assert find(verdict, "lane1", ERROR).outside == ()
+
+
+def test_of_many_stretches_near_each_other_not_more_are_told_than_can_be_looked_at():
+    ticks = 40 * MAX_OUTSIDE
+    values = np.where(np.arange(ticks) % 2, 2.0, 0.0)
+    long, flat = build(ticks=ticks, **{ERROR: values}), build(ticks=ticks, **{ERROR: 0.0})
+    one = find(judge(long, flat, {ERROR: Tolerance(absolute=1)}, None), "lane2", ERROR)
+    assert one.outside == ((pytest.approx(PERIOD_S), pytest.approx((ticks - 1) * PERIOD_S)),)
+    assert one.outside_s == pytest.approx(ticks / 2 * PERIOD_S)
+
+
+def test_runs_are_laid_over_each_other_from_the_samples_that_are_given():
+    """A pulse that comes 50 samples later in a run that began 50 samples earlier."""
+    ticks = np.arange(TICKS)
+    pulse = np.where(ticks == 60, 1.0, 0.0)
+    later = np.where(np.arange(TICKS + 50) == 110, 1.0, 0.0)
+    run, other = build(ticks=TICKS + 50, **{ERROR: later}), build(**{ERROR: pulse})
+    tolerance = {ERROR: Tolerance()}
+    assert find(judge(run, other, tolerance, None, (50, 0)), "lane2", ERROR).held
+    verdict = judge(run, other, tolerance, None, (49, 0))
+    assert find(verdict, "lane2", ERROR).outside == (
+        (pytest.approx(109 * PERIOD_S), pytest.approx(110 * PERIOD_S)),
+    )
+    with pytest.raises(RecordError, match="nothing to compare"):
+        judge(run, other, tolerance, None, (TICKS + 50, 0))
 
 
 def test_runs_that_cannot_be_compared_are_refused():

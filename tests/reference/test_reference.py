@@ -108,7 +108,7 @@ def test_after_the_fade_the_new_reference_runs_alone():
     assert compute_trajectory(pushed, 5.0) == compute_trajectory(stack, 5.0)
 
 
-@settings(derandomize=True, max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(
     st.lists(
         st.tuples(st.floats(2.0, 150.0), st.floats(0.05, 3.0), st.floats(0.01, 1.0)),

@@ -149,7 +149,7 @@ LINES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     junk=st.lists(LINES | st.binary(max_size=20), max_size=40).map(b"".join), is_open=st.booleans()
 )

@@ -137,9 +137,7 @@ def test_frames_one_after_the_other_are_not_held_back(server):
     assert peer.frames == [Frame(0x123, bytes([number])) for number in range(5)]
 
 
-@settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(cuts=st.lists(st.integers(0, 400), max_size=6))
 def test_a_stream_may_be_cut_anywhere(server, cuts):
     text = b"".join(
@@ -168,9 +166,7 @@ WORDS = st.sampled_from(
 JUNK = st.lists(WORDS | st.binary(max_size=20), max_size=40).map(b"".join)
 
 
-@settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(junk=JUNK, raw=st.booleans())
 def test_no_text_at_all_harms_the_server(server, junk, raw):
     peer = Peer(server)

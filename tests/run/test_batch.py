@@ -16,6 +16,7 @@ from svsa.run.configuration import Configuration
 from svsa.run.metrics import compute_metrics
 from svsa.run.run import Run
 from svsa.signals import CHANNELS, State
+from tests.exhaustive import exhaust
 from tests.session.scripts import actuators, gains, loads, observers, positions, stiffnesses
 from tests.session.sessions import EVERY_EFFECT
 
@@ -198,7 +199,7 @@ def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -
         build_run_batch(mixed)
 
 
-@pytest.mark.parametrize("law", ["ndobc_w", "lqi"])
+@pytest.mark.parametrize("law", exhaust(["ndobc_w", "lqi"], ["ndobc_w"]))
 def test_laws_with_tuples_and_records_within_their_memory_go_side_by_side(law: str) -> None:
     """Each as the run alone, on the rig, where a motor reaches its limit."""
     design = svsa.load_prototype()

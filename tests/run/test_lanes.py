@@ -10,7 +10,6 @@ from svsa.run.command import SetLane, SetRivals
 from svsa.run.configuration import Lane, LaneSetting
 from svsa.run.metrics import compute_metrics
 from svsa.run.run import Run
-from svsa.run.timeline import name_stretches
 from svsa.signals import CHANNEL_INDEX
 from tests.session.sessions import (
     EVERY_EFFECT,
@@ -262,8 +261,8 @@ def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
     assert session.journal.timeline.lane_ids[1] == second_id
     assert np.all(np.isfinite(read_samples(session, 1)))
     lanes = session.journal.timeline.list_stretches()
-    names = name_stretches(lanes)
-    told = [[(names[s.controller], s.first_tick, s.end_tick) for s in lane] for lane in lanes]
+    names = session.journal.timeline.name_stretches(lanes)
+    told = [[(names[s.number], s.first_tick, s.end_tick) for s in lane] for lane in lanes]
     assert told == [
         [("FL + I a 54.6", 0, None)],
         [("FL + I a 54.6 (2)", 0, 60), ("FL + I a 40", 60, None)],

@@ -6,8 +6,10 @@ import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
+from svsa.run import controllers
 from svsa.run.command import (
     ApplyLoad,
+    RemoveLoad,
     SetEffects,
     SetGains,
     SetLaw,
@@ -139,7 +141,8 @@ CHANGES = [
     ("actuator", svsa.load_prototype().actuator, "Plant changed"),
     ("nominal", svsa.load_prototype().nominal, "Nominal model changed"),
     ("effects", svsa.RIG, "Effects changed"),
-    ("rivals", (FL,), "Lanes changed"),
+    ("rivals", (FL,), "FL beside"),
+    ("rivals", (FL, svsa.Lane(law="adrc")), "FL, ADRC beside"),
 ]
 
 
@@ -218,3 +221,39 @@ def test_a_recorded_run_has_the_timeline_that_its_session_had():
     assert again.load_window == session.journal.timeline.load_window
     assert again.list_stretches() == session.journal.timeline.list_stretches()
     assert {window.kind for window in again.windows} == {"start", "load", "unload", "change"}
+
+
+def test_the_label_of_a_window_stays_short_whatever_happens_at_one_tick():
+    """A paused session takes thousands of changes at the same tick."""
+    session = build_session()
+    session.step(10)
+    for mass in range(100):
+        session.change(ApplyLoad(argument={"kind": "mass", "mass_kg": 0.01 + 0.01 * mass}))
+        session.journal.timeline.take_off(session.run.loads[-1].load, session.run.tick)
+        session.change(RemoveLoad(argument=session.run.loads[-1].number))
+    label = session.journal.timeline.window.label
+    assert label.startswith("0.01 kg mass off, 0.02 kg mass off")
+    assert label.endswith(" …")
+    assert len(label) <= 202
+
+
+def test_names_of_many_are_worked_out_once_and_each_is_looked_at_once(monkeypatch):
+    """A slider that is drawn makes a controller of each step: telling them apart stays quick."""
+    session = build_session()
+    for step in range(60):
+        session.step(10)
+        bandwidth = svsa.ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3)
+        session.change(SetObserver(argument=bandwidth))
+    looked_at = []
+    describe = controllers._describe
+    monkeypatch.setattr(
+        controllers, "_describe", lambda one: looked_at.append(one) or describe(one)
+    )
+    timeline = session.journal.timeline
+    for _ in range(3):
+        names = timeline.name_stretches(timeline.list_stretches())
+    assert len(looked_at) == len(names) == 61
+    assert list(names.values())[:3] == ["NDOBC β 60", "NDOBC β 70", "NDOBC β 71"]
+    session.step(10)
+    session.change(SetLaw(argument="fl"))
+    assert timeline.name_stretches(timeline.list_stretches())[62] == "FL"

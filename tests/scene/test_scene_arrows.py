@@ -13,7 +13,7 @@ import viser
 from svsa_scene import RivalPose
 from svsa_scene.arrows import SMALLEST_NM, compute_arc
 from svsa_scene.scene import ActuatorScene
-from tests.server.poses import make_pose
+from tests.server.scene.poses import make_pose
 
 
 @pytest.fixture

@@ -43,6 +43,24 @@ def test_a_page_loads_nothing_from_elsewhere(shared_lab: Lab, address: str) -> N
         assert len(answer.content) > 100
 
 
+@pytest.mark.parametrize(
+    ("address", "place"),
+    [
+        ("/learn", "/?learn=all"),
+        ("/learn/observer", "/?learn=observer"),
+        ("/learn/observer/3", "/?learn=observer/3"),
+        ("/learn/observer/a%26b", "/?learn=observer/a%26b"),
+        ("/studies", "/?studies=all"),
+    ],
+)
+def test_an_address_that_people_type_leads_to_its_place(
+    shared_lab: Lab, address: str, place: str
+) -> None:
+    answer = shared_lab.client.get(address, follow_redirects=True)
+    assert str(answer.url) == shared_lab.url + place
+    assert "<title>SVSA Lab" in answer.text
+
+
 def test_there_is_no_second_documentation_from_a_network(shared_lab: Lab) -> None:
     assert shared_lab.client.get("/redoc").status_code == 404
 
@@ -63,6 +81,7 @@ def test_the_secret_is_asked_for_where_one_is_set_but_for_stop_and_login() -> No
         "/api/v1/access",
         "/api/v1/login",
         "/api/v1/join",
+        "/api/v1/return",
         "/api/v1/quick-stop",
         "/api/v1/emergency-stop",
     }
@@ -106,3 +125,15 @@ def test_a_plain_get_of_the_stream_says_that_it_is_a_websocket(lab: Lab) -> None
     assert "WebSocket" in answer.json()["detail"]
     with connect(lab.stream_url, proxy=None, max_size=None) as stream:
         assert stream.recv(timeout=10).startswith('{"type":"hello"')
+
+
+@pytest.mark.parametrize(
+    "place", ["arena", "falsifier", "grades", "leaderboard", "runs", "studies"]
+)
+def test_an_address_that_people_type_leads_to_its_place_in_the_page(
+    shared_lab: Lab, place: str
+) -> None:
+    answer = shared_lab.client.get(f"/{place}", follow_redirects=True)
+    assert answer.headers["content-type"].startswith("text/html")
+    assert answer.url.path == "/"
+    assert place in answer.url.params

@@ -1,9 +1,14 @@
 """One word for one thing: in paths, requests and answers, with one default."""
 
-from svsa_server.app import build_app
+import re
+from pathlib import Path
+
+from svsa.bench.safety.faults import FAULTS
+from svsa.model.domain import FAULT_CODES
+from tests.server.schema import SCHEMA
 
 FORMER_WORDS = {"controller", "run"}
-SCHEMA = build_app().openapi()
+ROOT = Path(__file__).parents[2]
 
 
 def list_names() -> set[str]:
@@ -29,3 +34,11 @@ def test_a_figure_has_its_load_whatever_starts_it() -> None:
     for name in ("law", "load", "rivals", "effects"):
         default = experiment["properties"][name]["default"]
         assert session["properties"][name]["default"] == default, name
+
+
+def test_who_leaves_the_domain_of_the_model_is_told_what_to_try() -> None:
+    """And no word is about a fault that there is not."""
+    file = ROOT / "frontend/web/src/text/faults.ts"
+    advised = set(re.findall(r"^  (\w+):$", file.read_text(encoding="utf-8"), re.MULTILINE))
+    assert advised >= set(FAULT_CODES.values())
+    assert advised <= set(FAULTS)

@@ -21,6 +21,7 @@ from svsa.run.command import (
     SetPosition,
     SetRivals,
     SetStiffness,
+    Stop,
     build_command,
     read_command,
 )
@@ -184,6 +185,7 @@ def test_every_command_is_logged_with_its_tick():
     session.change(SetEffects(argument=svsa.RIG))
     session.change(SetRivals(argument=(svsa.Lane(law="ndobc"),)))
     session.change(SetLane(argument={"lane": 2, "setting": {"law": "fl"}}))
+    session.change(Stop())
     changed = [kind for kind in COMMANDS if kind not in ("load", "unload")]
     events = [kind for _, kind in list_events(session)]
     assert sorted(events) == sorted(changed)
@@ -286,7 +288,7 @@ def test_a_record_tells_what_was_told_live():
         "Gains changed",
         "Pulse torque on",
         "Pulse torque off",
-        "Lanes changed",
+        "NDOBC beside",
         "3 kg load on",
         "FL → NDOBC",
         "Push on",
@@ -295,3 +297,15 @@ def test_a_record_tells_what_was_told_live():
         "Push off",
     ]
     assert events.list_events(session.journal.initial, session.journal.commands) == told
+
+
+def test_what_runs_beside_is_told_by_its_laws():
+    session = build_session()
+    session.step(10)
+    for laws in (("fl",), ("fl", "adrc"), ()):
+        session.change(SetRivals(argument=tuple(svsa.Lane(law=law) for law in laws)))
+    labels = [event.label for event in session.journal.events]
+    assert labels == ["FL beside", "FL, ADRC beside", "Nothing beside"]
+    assert events.list_events(session.journal.initial, session.journal.commands) == list(
+        session.journal.events
+    )

@@ -71,7 +71,7 @@ def assert_same_bits(a: np.ndarray, b: np.ndarray) -> None:
 
 
 @pytest.mark.parametrize("function", [calculate, decide])
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(x=ROW, y=ROW)
 def test_an_element_has_the_bits_of_the_float(function, x, y) -> None:
     rows, out = np.array([x, y]), np.empty((2, WIDTH))
@@ -79,7 +79,7 @@ def test_an_element_has_the_bits_of_the_float(function, x, y) -> None:
     assert_same_bits(out, np.array([function(*pair) for pair in rows.T]).T)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     x=st.lists(st.floats(1e-250, 1e9) | st.floats(-1e9, -1e-250), min_size=WIDTH, max_size=WIDTH),
     y=st.lists(st.floats(0.0, 0.5), min_size=WIDTH, max_size=WIDTH),

@@ -1,11 +1,7 @@
 """A study comes to the same table however it is cut, by whomever it is run, however it is ended."""
 
-import os
 import signal
-import subprocess
 import sys
-import time
-from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -16,28 +12,10 @@ from svsa.run.run import Run
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 from svsa.study.draws import build_configurations, draw
 from svsa.study.execution import run_study
-from svsa.study.store import StudyError, claim_study, find_missing, keep_study, read_rows
+from svsa.study.store import StudyError, claim_study, keep_study, read_rows
+from tests.exhaustive import exhaust
+from tests.study.ended import end_on_the_way
 from tests.study.studies import SHORT_S, build_study
-
-SCRIPT = """
-import signal
-import sys
-import time
-from pathlib import Path
-from svsa.study.execution import run_study
-from svsa.study.store import keep_study
-from tests.study.studies import build_study
-
-def tell(done, total):
-    print(done, flush=True)
-    if done >= 48:
-        time.sleep(300)  # to be ended here
-
-if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background ignores it
-    stored = keep_study("one", build_study(runs=400), Path(sys.argv[1]))
-    run_study(stored, int(sys.argv[2]), 16, tell)
-"""
 
 
 def run_whole(root, workers=0, rows_a_part=16, **changes):
@@ -46,6 +24,7 @@ def run_whole(root, workers=0, rows_a_part=16, **changes):
     return stored
 
 
+@pytest.mark.long
 def test_the_table_is_the_same_bytes_for_parts_of_any_size_and_any_number_of_workers(tmp_path):
     tables = [
         (run_whole(tmp_path / str(number), *how).folder / "rows.parquet").read_bytes()
@@ -55,6 +34,19 @@ def test_the_table_is_the_same_bytes_for_parts_of_any_size_and_any_number_of_wor
     rows = pq.read_table(tmp_path / "0" / "one" / "rows.parquet").to_pylist()
     assert [row["row"] for row in rows] == list(range(80))
     assert {row["fault"] for row in rows} == {None, "deflection_limit"}
+
+
+def test_numbers_are_written_as_they_are_and_names_once(tmp_path):
+    """A dictionary of numbers that never come twice costs three times the rest of the writing."""
+    stored = run_whole(tmp_path)
+    written = pq.read_metadata(stored.folder / "rows.parquet").row_group(0)
+    columns = {
+        column.path_in_schema: column for column in map(written.column, range(written.num_columns))
+    }
+    numbers = {name for name, column in columns.items() if column.physical_type == "DOUBLE"}
+    assert {"rms_position_error_rad", "peak_position_error_rad"} < numbers
+    assert not any(columns[name].has_dictionary_page for name in numbers)
+    assert columns["law"].has_dictionary_page
 
 
 def test_every_row_is_the_run_of_the_live_loop(tmp_path):
@@ -120,38 +112,10 @@ def test_one_works_at_a_study_at_a_time(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-@pytest.mark.parametrize(("how", "workers"), [(signal.SIGINT, 2), (signal.SIGKILL, 2)])
-def test_a_study_that_was_ended_goes_on_to_the_same_table(tmp_path, how, workers):
-    script = tmp_path / "script.py"
-    script.write_text(SCRIPT)
-    process = subprocess.Popen(
-        [sys.executable, str(script), str(tmp_path), str(workers)],
-        stdout=subprocess.PIPE,
-        env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])},
-        start_new_session=True,
-    )
-    assert process.stdout is not None
-    for line in process.stdout:
-        if int(line) >= 48:
-            break
-    process.send_signal(how)
-    process.wait(300)
-    assert process.returncode == (0 if how == signal.SIGINT else -signal.SIGKILL)
-    wait_for_group_to_end(process.pid)
-    stored = keep_study("one", build_study(runs=400), tmp_path)
-    assert 0 < sum(stop - first for first, stop in find_missing(stored)) < 400 - 20
+@pytest.mark.parametrize("how", exhaust([signal.SIGINT, signal.SIGKILL], [signal.SIGKILL]))
+def test_a_study_that_was_ended_goes_on_to_the_same_table(tmp_path, how):
+    stored = end_on_the_way(tmp_path, how, "2")
     assert run_study(stored, 0)
     whole = run_whole(tmp_path / "whole", rows_a_part=400, runs=400)
     names = "rows.parquet"
     assert (stored.folder / names).read_bytes() == (whole.folder / names).read_bytes()
-
-
-def wait_for_group_to_end(group: int) -> None:
-    """The workers end with their parent; bounded, for a machine that is busy."""
-    for _ in range(3000):
-        try:
-            os.killpg(group, 0)
-        except ProcessLookupError:
-            return
-        time.sleep(0.1)
-    raise AssertionError("a worker outlived the study")

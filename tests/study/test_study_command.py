@@ -5,15 +5,18 @@ import json
 import math
 
 import numpy as np
+import pyarrow.compute as pc
 import pytest
 from typer.testing import CliRunner
 
 import svsa
 from svsa.cli import app
 from svsa.study.execution import run_study
+from svsa.study.metrics import METRICS
 from svsa.study.replay import replay_row
 from svsa.study.store import StudyError, keep_study, open_study, read_rows
-from svsa.study.work import ROW
+from svsa.study.success import Success
+from svsa.study.work import ROW, run_draws
 from tests.study.studies import SHORT_S, build_study
 
 
@@ -56,6 +59,48 @@ def test_success_is_that_of_the_table(data):
         assert law["success"]["low"] < law["success"]["value"] < law["success"]["high"]
         assert law["faults"]["deflection_limit"] == sum(row["fault"] is not None for row in own)
     assert "fault" in run("show", "one")
+
+
+def test_a_study_of_some_metrics_keeps_shows_replays_and_draws_those(data, tmp_path):
+    kept = ("limit_share", "peak_torque2_nm", "effort_n2m2_s")
+    few = build_study(metrics=kept, runs=8, success={"rms_position_error_rad": 0.2})
+    run_study(keep_study("few", few), 0)
+    rows = read_rows(open_study("few"))
+    assert tuple(name for name in rows.column_names if name in METRICS) == kept
+    every = read_rows(open_study("one"))[: len(rows)]
+    assert [rows[name] for name in kept] == [every[name] for name in kept]
+    asked = pc.less_equal(every["rms_position_error_rad"], 0.2)
+    assert rows["succeeded"] == pc.and_(every["fault"].is_null(), asked)
+    shown = json.loads(run("show", "few", "--json"))
+    assert all(tuple(law["quantiles"]) == kept for law in shown["laws"])
+    assert replay_row(open_study("few"), 3).differing == []
+    run("replay", "few", "3", "--no-keep")
+    run("show", "few", "--pictures", str(tmp_path))
+    assert (tmp_path / "few_distributions.png").exists()
+
+
+def test_a_study_that_was_begun_before_one_could_choose_keeps_every_metric(data):
+    path = data / "studies" / "one" / "study.json"
+    written = json.loads(path.read_text())
+    told = path.read_bytes()
+    assert tuple(written["study"].pop("metrics")) == tuple(METRICS)
+    path.write_text(json.dumps(written))
+    assert open_study("one").study == build_study()
+    assert tuple(json.loads(run("show", "one", "--json"))["laws"][0]["quantiles"]) == tuple(METRICS)
+    path.write_bytes(told)
+
+
+@pytest.mark.parametrize("metric", METRICS)
+def test_success_may_ask_for_any_metric(data, metric):
+    rows = read_rows(open_study("one"))
+    values = rows[metric].to_numpy()
+    bound = float(np.nanmedian(values[rows["fault"].is_null().to_numpy()])) or 1e-9
+    study = build_study(success={metric: bound}, runs=8, metrics=(metric,))
+    assert Success(**{metric: bound}).list_bounds() == {metric: bound}
+    found = run_draws(study, 0, 8)
+    whole = found["fault"].is_null().to_numpy()
+    expected = whole & (found[metric].to_numpy() <= bound)
+    assert found["succeeded"].to_numpy().tolist() == expected.tolist()
 
 
 def test_laws_are_compared_on_the_same_draws_and_studies_that_drew_the_same(data):

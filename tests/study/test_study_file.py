@@ -36,6 +36,22 @@ values = [0, 1]
             r"line 3: laws\[0\] is 'nobody': it must be a law that is installed here",
         ),
         ('"4a"', '"9"', r"line 6: base\.figure is '9'"),
+        (
+            "[base]",
+            'metrics = ["effort_n2m2_s", "energy"]\n[base]',
+            r"line 5: metrics\[1\] is 'energy': it must be one of rms_position_.*limit_share",
+        ),
+        ("[base]", "metrics = []\n[base]", r"line 5: metrics is .*at least 1"),
+        (
+            "[base]",
+            'metrics = ["limit_share", "limit_share"]\n[base]',
+            r"line 5: metrics is .*names, each once",
+        ),
+        (
+            "[base]",
+            "[success]\nlimit_share = 2\n[base]",
+            r"line 6: success.limit_share is 2.*most 1",
+        ),
         ("[base]", "[base]\nseed = 3", r"base is 'seed': it must be another setting"),
         ("link_inertia", "mass", r"line 9: vary\[0\]\.path is 'actuator\.mass.*link_inertia"),
         ("low = 0.01", "low = -1.0", r"line 11: vary\[0\]\.low: with -1\.0 there, link_inertia.*"),

@@ -6,6 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
+from svsa.errors import ParameterError
 from svsa.study.draws import draw
 from svsa.study.statistics import (
     MAX_BLOCKS,
@@ -14,8 +15,10 @@ from svsa.study.statistics import (
     estimate_share,
 )
 from svsa.study.store import StudyError
-from svsa.study.summary import estimate_sensitivity, pair_laws, summarize_laws
+from svsa.study.summary import estimate_sensitivity, pair_laws, pair_rows, summarize_laws
+from svsa.study.tables import tell_share
 from svsa.study.work import build_schema
+from tests.exhaustive import exhaust
 from tests.study.studies import build_study
 
 ISHIGAMI = tuple(
@@ -45,7 +48,7 @@ def test_wilsons_interval_is_that_of_the_book_and_holds_the_truth_as_often_as_it
     assert np.mean([one.low <= 0.07 <= one.high for one in held]) == pytest.approx(0.95, abs=0.025)
 
 
-@pytest.mark.parametrize("count", [200, 3 * MAX_BLOCKS])
+@pytest.mark.parametrize("count", exhaust([200, 3 * MAX_BLOCKS], [200]))
 def test_the_bootstraps_interval_holds_the_mean_as_often_as_it_says(count):
     """Of a skew distribution, whether pairs are drawn one by one or in blocks."""
     random = np.random.default_rng(2)
@@ -71,6 +74,33 @@ def test_a_summary_counts_faults_as_failures_and_leaves_refused_draws_out():
     assert (law.runs, law.refused, law.faults) == (4, 1, {"lever_end": 1})
     assert law.success.value == 0.75
     assert law.quantiles["rms_position_error_rad"] == [0.1, 0.2, math.inf]
+
+
+def test_a_share_that_is_not_all_never_reads_100_percent():
+    for count, total, told in (
+        (10**6, 10**6, "100.0000 % (99.9996 to 100.0000)"),
+        (0, 10**6, "0.0000 % (0.0000 to 0.0004)"),
+        (10**6 - 1, 10**6, "99.99990 % (99.99943 to 99.99998)"),
+        (8, 10, "80.00 % (49.02 to 94.33)"),
+    ):
+        assert tell_share(estimate_share(count, total)) == told
+
+
+def test_a_summary_is_of_the_metrics_that_are_kept_and_a_pairing_of_those_of_both():
+    kept = ("effort_n2m2_s", "limit_share", "peak_torque1_nm")
+    one = build_study(metrics=kept, laws=("ndobc",))
+    other = build_study(metrics=("limit_share", "recovery_time_s"), laws=("ndobc",))
+    row = {"limit_share": 0.25, "effort_n2m2_s": 3.0}
+    rows = build_rows(one, [row] * 2)
+    (law,) = summarize_laws(one, rows)
+    assert tuple(law.quantiles) == kept
+    assert law.quantiles["effort_n2m2_s"] == [3.0] * 3
+    assert tuple(pair_rows(rows, rows, "a", "b").differences) == kept
+    common = pair_rows(rows, build_rows(other, [{"limit_share": 0.5}] * 2), "a", "b").differences
+    assert {name: told.value for name, told in common.items()} == {"limit_share": -0.25}
+    drawn = one.changed(vary=ISHIGAMI, sampling="sensitivity", runs=2)
+    with pytest.raises(ParameterError, match="one of succeeded, effort_n2m2_s, limit_share, peak"):
+        estimate_sensitivity(drawn, rows, "ndobc", "rms_position_error_rad")
 
 
 def test_pairs_are_compared_where_both_are_whole_and_success_over_all():

@@ -15,11 +15,13 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa_server.access.guard import PERSON, find_path
 from svsa_server.access.permissions import find_permission
-from svsa_server.control import CHANGING
+from svsa_server.control.hand import CHANGING
 
 FILE = "audit.jsonl"
 _MAX_BYTES, _FILES = 10 * 1024 * 1024, 5
 _PLAIN = "%(message)s"
+NOWHERE = {"run": None, "tick": None, "in_control": None}
+"""Of what is not about a session; `HostedSession.tell_instant` has it of one."""
 
 
 class AuditLog:
@@ -85,6 +87,5 @@ class Auditor:
             path=path,
             status=status,
             session=session,
-            run=hosted.session.journal.run_number if hosted else None,
-            tick=hosted.session.run.tick if hosted else None,
+            **(hosted.tell_instant() if hosted else NOWHERE),
         )

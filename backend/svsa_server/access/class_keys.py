@@ -23,7 +23,7 @@ FILE = "class.json"
 LONGEST_SIGNED = 2000
 SIGNED_AGE_S = 120 * 24 * 3600
 _LETTERS = "ABCDEFGHJKMNPQRSTUVWXYZ23456789"  # none that is read as another
-_CODE_LENGTH = 8
+_CODE_LENGTH, _RETURN_CODE_LENGTH, _GROUP = 8, 12, 4
 _TOKEN_PREFIX = "svsa-instructor-"  # noqa: S105
 _SCRYPT = {"n": 2**14, "r": 8, "p": 1}
 
@@ -58,7 +58,7 @@ class ClassKeys:
         path = folder / FILE
         told = None
         if not path.exists():
-            told = ToldOnce(_draw_code(), _TOKEN_PREFIX + secrets.token_urlsafe(32))
+            told = ToldOnce(_draw_code(_CODE_LENGTH), _TOKEN_PREFIX + secrets.token_urlsafe(32))
             _write(
                 path,
                 {
@@ -79,12 +79,19 @@ class ClassKeys:
 
     def renew_code(self) -> str:
         """A new class code; who has joined stays, the old one lets nobody in any more."""
-        code = _draw_code()
+        code = _draw_code(_CODE_LENGTH)
         hashed = _hash_anew(code)
         kept = json.loads(self._path.read_text(encoding="utf-8"))
         _write(self._path, kept | hashed)
         self._salt, self._code = (base64.b64decode(hashed[name]) for name in ("salt", "code"))
         return code
+
+    def hash_return_code(self, code: str) -> bytes:
+        """What a code by which somebody comes back is known by; takes some 50 ms.
+
+        The salt is the class's own and not the person's, since the code alone says who comes.
+        """
+        return _stretch(code, self._key.encode())
 
     def sign(self, person: Person) -> str:
         """What this person carries from now on."""
@@ -101,9 +108,14 @@ class ClassKeys:
             return None
 
 
-def _draw_code() -> str:
-    drawn = "".join(secrets.choice(_LETTERS) for _ in range(_CODE_LENGTH))
-    return f"{drawn[:4]}-{drawn[4:]}"
+def draw_return_code() -> str:
+    """A code by which one person comes back: 59 random bits."""
+    return _draw_code(_RETURN_CODE_LENGTH)
+
+
+def _draw_code(length: int) -> str:
+    drawn = "".join(secrets.choice(_LETTERS) for _ in range(length))
+    return "-".join(drawn[at : at + _GROUP] for at in range(0, length, _GROUP))
 
 
 def _hash_anew(code: str) -> dict[str, str]:

@@ -3,30 +3,38 @@
 import asyncio
 import hashlib
 import hmac
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from http.cookies import CookieError, SimpleCookie
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeVar
 
 from starlette.datastructures import Headers
 
-from svsa_server.access.class_keys import ClassKeys
+from svsa_server.access.class_keys import ClassKeys, draw_return_code
+from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People
-from svsa_server.access.roles import EVERYBODY, INSTRUCTOR, Person
+from svsa_server.access.roles import EVERYBODY, INSTRUCTOR, Person, Role
 
 COOKIE = "svsa_access"
 REFUSAL_DELAY_S = 0.5
+REMOVED = "The instructor has removed you from the class."
+T = TypeVar("T")
 
 DoorKind = Literal["open", "secret", "class"]
 
 
 class Door(Protocol):
-    """Says who calls. kind: how one comes in. needed: what a stranger is told, kind and text.
+    """Says who calls. kind: how one comes in.
 
     patience: what whoever gave a wrong secret waits for before the answer.
     """
 
     kind: DoorKind
-    needed: tuple[str, str]
     patience: "Patience"
+
+    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+        """What a stranger is told, kind and text."""
+        ...
 
     def admit(self, headers: Headers) -> Person | None:
         """Who calls, or None for a stranger."""
@@ -53,10 +61,13 @@ class OpenDoor:
     """A lab on loopback: whoever is on this machine is in."""
 
     kind: DoorKind = "open"
-    needed: tuple[str, str] = ("", "")
 
     def __init__(self) -> None:
         self.patience = Patience()
+
+    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+        """Nothing: there are no strangers."""
+        return "", ""
 
     def admit(self, headers: Headers) -> Person | None:
         """Everybody."""
@@ -71,15 +82,15 @@ class SecretDoor:
     """A lab with a shared secret, checked in constant time: as bearer token, or as cookie."""
 
     kind: DoorKind = "secret"
-    needed: tuple[str, str] = (
-        "secret_needed",
-        "This lab needs its shared secret (bearer token or login).",
-    )
 
     def __init__(self, secret: str) -> None:
         self._secret = secret.encode()
         self._cookie = hmac.new(self._secret, b"svsa access cookie", hashlib.sha256).hexdigest()
         self.patience = Patience()
+
+    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+        """The secret."""
+        return "secret_needed", "This lab needs its shared secret (bearer token or login)."
 
     def admit(self, headers: Headers) -> Person | None:
         """Everybody who knows the secret."""
@@ -93,37 +104,99 @@ class SecretDoor:
 
 
 class ClassDoor:
-    """A class: students join with a name and the code, the instructor has a token."""
+    """A class: students join with a name and the code, the instructor has a token.
+
+    What they carry is good as long as the instructor has not removed them.
+    """
 
     kind: DoorKind = "class"
-    needed: tuple[str, str] = (
-        "join_needed",
-        "This lab is a class: join it with your name and the class code.",
-    )
 
-    def __init__(self, keys: ClassKeys, people: People) -> None:
-        self.keys, self.people = keys, people
+    def __init__(self, keys: ClassKeys, people: People, members: Memberships) -> None:
+        self.keys, self.people, self.members = keys, people, members
         self.patience = Patience()
-        self._hashing = asyncio.Lock()
+        self._hashing = ThreadPoolExecutor(1, "class code")
 
     def admit(self, headers: Headers) -> Person | None:
-        """Whose cookie or token it is; what nobody signed counts as none."""
-        token = read_bearer(headers)
-        person = self.keys.read_person(token or _read_cookie(headers))
-        if person is None and self.keys.is_instructor(token):
+        """Whose cookie or token it is; what nobody signed, or of one removed, counts as none."""
+        carried, membership = self._read(headers)
+        if carried == INSTRUCTOR or self.keys.is_instructor(read_bearer(headers)):
             person = INSTRUCTOR
-        if person is not None:
-            self.people.hear(person)
+        elif carried is None or membership is None or membership.is_ended:
+            return None
+        else:
+            member = membership.person
+            person = member._replace(role=min(carried.role, member.role))
+        self.people.hear(person)
         return person
+
+    def is_removed(self, headers: Headers) -> bool:
+        """Whether the instructor has removed whoever's cookie or token it is."""
+        _, membership = self._read(headers)
+        return membership is not None and membership.is_ended
+
+    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+        """To join; who was removed is told that."""
+        if self.is_removed(headers):
+            return "removed", REMOVED
+        return "join_needed", "This lab is a class: join it with your name and the class code."
 
     def log_in(self, secret: str) -> str | None:
         """The instructor's cookie for the instructor token."""
         return self.keys.sign(INSTRUCTOR) if self.keys.is_instructor(secret.strip()) else None
 
     async def check_code(self, code: str) -> bool:
-        """Whether it is the class code; one at a time, beside the event loop: it is hashed."""
-        async with self._hashing:
-            return await asyncio.to_thread(self.keys.is_code, code)
+        """Whether it is the class code."""
+        return await self._hash(self.keys.is_code, code)
+
+    async def join(self, name: str, role: Role) -> Person:
+        """A new person of the class."""
+        person = self.people.join(name, role)
+        await asyncio.to_thread(self.members.keep, Membership(person))
+        return person
+
+    async def come_back(self, return_code: str) -> Membership | None:
+        """Whose return code it is; their name may have got a number meanwhile."""
+        hashed = await self._hash(self.keys.hash_return_code, return_code)
+        found = self.members.find_returning(hashed)
+        if found is None or found.is_ended:
+            return found
+        person = self.people.come(found.person)
+        if person != found.person:
+            found = found._replace(person=person)
+            await asyncio.to_thread(self.members.keep, found)
+        return found
+
+    async def renew_return_code(self, person: Person) -> str | None:
+        """A new code by which this person comes back, the one before is worth nothing.
+
+        None for who has no membership, or carries less than its role.
+        """
+        found = self.members.find(person.id)
+        if found is None or found.person != person:
+            return None
+        code = draw_return_code()
+        hashed = await self._hash(self.keys.hash_return_code, code)
+        await asyncio.to_thread(self.members.keep, found._replace(return_hash=hashed))
+        return code
+
+    async def set_removed(self, person_id: str, is_removed: bool) -> Person:
+        """Remove a person at once, or let them in again; raises `UnknownError`."""
+        person = await asyncio.to_thread(self.members.set_ended, person_id, is_removed)
+        if is_removed:
+            self.people.dismiss(person)
+        return person
+
+    def _read(self, headers: Headers) -> tuple[Person | None, Membership | None]:
+        """Who was signed, and what the membership is by now."""
+        carried = self.keys.read_person(read_bearer(headers) or _read_cookie(headers))
+        return carried, carried and self.members.find(carried.id)
+
+    async def _hash(self, work: Callable[[str], T], code: str) -> T:
+        """One at a time, beside the event loop.
+
+        Always in the same thread, since each one that hashes keeps the 16 MB that it takes.
+        """
+        return await asyncio.get_running_loop().run_in_executor(self._hashing, work, code)
 
 
 def _read_cookie(headers: Headers) -> str:

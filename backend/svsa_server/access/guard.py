@@ -4,20 +4,24 @@ Without a secret and without a class the lab listens on loopback only, and a req
 loopback host (a web site that points its own name at 127.0.0.1 does not get in).
 """
 
+import asyncio
 from collections.abc import Awaitable, Callable
+from contextlib import AbstractContextManager
 
 from starlette.datastructures import Headers
+from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from svsa_server.access.doors import Door, read_bearer
+from svsa_server.access.doors import REMOVED, ClassDoor, Door, read_bearer
 from svsa_server.access.origin import is_own_name, is_same_origin, read_host
-from svsa_server.access.permissions import WEBSOCKET, Permission, find_permission
+from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, Permission, find_permission
 from svsa_server.access.rates import Rates, find_kind
 from svsa_server.access.roles import EVERYBODY, Person
 from svsa_server.config import is_loopback
 from svsa_server.problems import answer_problem
 
 LONGEST_BODY_BYTES = 4 * 1024 * 1024
+_TOO_LARGE = f"A request holds at most {LONGEST_BODY_BYTES} bytes."
 PERSON = "svsa.person"
 
 Visibility = Callable[[Scope, Permission, dict[str, str], Person], Awaitable[bool]]
@@ -62,10 +66,37 @@ class AccessGuard:
         except Refusal as refusal:
             await _refuse(scope, receive, send, refusal)
             return
-        await self._app(scope, _bound_body(scope, receive), send)
+        person = scope[PERSON]
+        if scope["type"] == "websocket" and person and isinstance(self._door, ClassDoor):
+            await self._connect(scope, receive, send, self._door.people.connected(person))
+        else:
+            await self._app(scope, _bound_body(scope, receive), send)
+
+    async def _connect(
+        self,
+        scope: Scope,
+        receive: Receive,
+        send: Send,
+        connection: AbstractContextManager[asyncio.Event],
+    ) -> None:
+        """Serve a WebSocket until it ends, or whoever has opened it is removed from the class."""
+        with connection as dismissed:
+            served = asyncio.ensure_future(self._app(scope, receive, send))
+            removed = asyncio.create_task(dismissed.wait())
+            try:
+                await asyncio.wait({served, removed}, return_when=asyncio.FIRST_COMPLETED)
+            finally:
+                is_served = served.done()
+                for task in (served, removed):
+                    task.cancel()
+                await asyncio.gather(served, removed, return_exceptions=True)
+        if is_served:
+            served.result()
+        else:
+            await send({"type": "websocket.close", "code": 1008, "reason": REMOVED})
 
     def _check_place(self, scope: Scope) -> None:
-        if not is_same_origin(scope):
+        if not is_same_origin(scope) and find_path(scope) not in FROM_ELSEWHERE:
             message = "Requests from the pages of other sites are refused."
             raise Refusal(403, "other_origin", message)
         host = read_host(scope)
@@ -78,8 +109,7 @@ class AccessGuard:
             raise Refusal(403, "unknown_host", message)
         length = Headers(scope=scope).get("content-length", "0")
         if not length.isdecimal() or int(length) > LONGEST_BODY_BYTES:
-            message = f"A request holds at most {LONGEST_BODY_BYTES} bytes."
-            raise Refusal(413, "too_large", message)
+            raise Refusal(413, "too_large", _TOO_LARGE)
 
     async def _admit(self, scope: Scope) -> Person | None:
         """Who calls; None for somebody without a name, where that is allowed."""
@@ -93,7 +123,7 @@ class AccessGuard:
         if person is None:
             if read_bearer(headers):
                 await self._door.patience.wait()
-            raise Refusal(401, *self._door.needed)
+            raise Refusal(401, *self._door.tell_needed(headers))
         if person.role < permission.role:
             message = f"This needs the role {permission.role.word}; yours is {person.role.word}."
             raise Refusal(403, "not_allowed", message)
@@ -123,7 +153,7 @@ def find_path(scope: Scope) -> str:
 
 
 def _bound_body(scope: Scope, receive: Receive) -> Receive:
-    """`receive` for a body without a length: cut off as if the client had gone."""
+    """`receive` for a body that came without a length: refused once it is too large."""
     if scope["type"] != "http":
         return receive
     received = 0
@@ -132,7 +162,9 @@ def _bound_body(scope: Scope, receive: Receive) -> Receive:
         nonlocal received
         message = await receive()
         received += len(message.get("body", b""))
-        return message if received <= LONGEST_BODY_BYTES else {"type": "http.disconnect"}
+        if received > LONGEST_BODY_BYTES:
+            raise HTTPException(413, _TOO_LARGE)
+        return message
 
     return receive_bounded
 

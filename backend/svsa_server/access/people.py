@@ -1,10 +1,12 @@
 """Who is here: the people of a class, as the server has heard them. Times are monotonic, s."""
 
+import asyncio
+import contextlib
 import itertools
 import secrets
 import time
-from collections import OrderedDict
-from collections.abc import Callable
+from collections import OrderedDict, defaultdict
+from collections.abc import Callable, Iterator
 
 from svsa_server.access.roles import Person, Role
 
@@ -18,13 +20,19 @@ class People:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._heard: OrderedDict[str, tuple[Person, float]] = OrderedDict()
+        self._connected: defaultdict[str, set[asyncio.Event]] = defaultdict(set)
 
     def join(self, name: str, role: Role) -> Person:
         """A new person; a name that somebody here has already gets a number."""
-        taken = {person.name for person in self.list_here()}
+        return self.come(Person(f"p-{secrets.token_hex(6)}", name, role))
+
+    def come(self, person: Person) -> Person:
+        """A person comes, or comes back, under a name that nobody else here has."""
+        name = person.name
+        taken = {one.name for one in self.list_here() if one.id != person.id}
         numbered = (f"{name} ({number})" for number in itertools.count(2))
         free = next(one for one in itertools.chain([name], numbered) if one not in taken)
-        person = Person(f"p-{secrets.token_hex(6)}", free, role)
+        person = person._replace(name=free)
         self.hear(person)
         return person
 
@@ -38,6 +46,24 @@ class People:
     def forget(self, person: Person) -> None:
         """A person has left."""
         self._heard.pop(person.id, None)
+
+    @contextlib.contextmanager
+    def connected(self, person: Person) -> Iterator[asyncio.Event]:
+        """While a connection of this person is open; set once it is to be closed."""
+        dismissed = asyncio.Event()
+        self._connected[person.id].add(dismissed)
+        try:
+            yield dismissed
+        finally:
+            self._connected[person.id].discard(dismissed)
+            if not self._connected[person.id]:
+                del self._connected[person.id]
+
+    def dismiss(self, person: Person) -> None:
+        """Forget a person, and have their connections closed."""
+        self.forget(person)
+        for dismissed in self._connected.get(person.id, ()):
+            dismissed.set()
 
     def find(self, person_id: str) -> Person | None:
         """The person of this id, if heard since the server began."""

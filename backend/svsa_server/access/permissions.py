@@ -2,7 +2,9 @@
 instructor's alone.
 
 `session` and `run` say that what a route's path names must be visible to who calls: a private
-session and its runs are their maker's and the instructor's. `own run` asks for its maker.
+session and its runs are their maker's and the instructor's, and so is a `study` that is kept, and a
+`job`, of minutes or hours. What nobody of the class made is everybody's to read.
+`own run` and `own study` ask for its maker.
 """
 
 from functools import lru_cache
@@ -14,7 +16,7 @@ from starlette.routing import compile_path
 from svsa_server.access.roles import Role
 
 WEBSOCKET = "WEBSOCKET"
-Scope = Literal["", "session", "run", "own run"]
+Scope = Literal["", "session", "run", "own run", "job", "study", "own study"]
 
 
 class Permission(NamedTuple):
@@ -25,6 +27,8 @@ class Permission(NamedTuple):
 
 
 ANYBODY = Permission(None)
+FROM_ELSEWHERE = frozenset({"/lti/login", "/lti/launch"})
+"""What pages of other sites may ask for: a platform that launches proves itself by its token."""
 INSTRUCTOR_ONLY = Permission(Role.INSTRUCTOR)
 _SESSION = "/api/v1/sessions/{session}"
 _RUN = "/api/v1/runs/{run_id}"
@@ -33,44 +37,72 @@ TABLE: dict[Permission, tuple[str, ...]] = {
     ANYBODY: (
         "GET /",
         "GET /icon.svg",
+        "GET /arena",
+        "GET /runs",
+        "GET /falsifier",
+        "GET /grades",
+        "GET /learn",
+        "GET /leaderboard",
+        "GET /learn/{exercise}",
+        "GET /learn/{exercise}/{step}",
+        "GET /studies",
         "GET /assets/{path:path}",
         "GET /api/v1/health",
         "GET /api/v1/access",
         "POST /api/v1/login",
         "POST /api/v1/join",
+        "POST /api/v1/return",
         "POST /api/v1/quick-stop",  # whoever sees something go wrong may stop it
         "POST /api/v1/emergency-stop",
+        "GET /lti/keys",
+        "GET /lti/login",
+        "POST /lti/login",
+        "POST /lti/launch",
     ),
     Permission(Role.OBSERVER): (
         "GET /docs",
         "GET /openapi.json",
         "POST /api/v1/leave",
+        "POST /api/v1/return-code",
         "GET /api/v1/class",
         "POST /api/v1/tokens",
         "GET /api/v1/laws",
         "GET /api/v1/figures",
         "GET /api/v1/arena",
+        "GET /api/v1/leaderboard",
+        "GET /api/v1/leaderboard/entries/{key}/replay",
         "GET /api/v1/sessions",
+        "GET /api/v1/course",
+        "GET /api/v1/course/{exercise}",
+        "GET /api/v1/grades/mine",
+        "GET /api/v1/grades/mine.html",
         "GET /api/v1/runs",
         "GET /api/v1/tunings",
         "GET /api/v1/jobs",
-        "GET /api/v1/jobs/{job}",
         "GET /api/v1/requests/{request_name}",
         "GET /api/v1/falsifications",
         "GET /api/v1/falsifications/adversaries",
-        "GET /api/v1/falsifications/{falsification}",
-        "GET /api/v1/falsifications/{falsification}/file",
+        "GET /api/v1/scenarios",
+        "GET /api/v1/scenarios/{scenario}",
+        "GET /api/v1/scenarios/{scenario}/file",
         "GET /api/v1/studies",
         "POST /api/v1/studies/check",
-        "GET /api/v1/studies/{study}",
-        "GET /api/v1/studies/{study}/summary",
-        "GET /api/v1/studies/{study}/sensitivity",
-        "GET /api/v1/studies/{study}/rows",
-        "GET /api/v1/studies/{study}/rows.parquet",
-        "GET /api/v1/studies/{study}/rows/{row}",
         "POST /api/v1/references/csv",
         "POST /api/v1/references/position/preview",
         "POST /api/v1/references/stiffness/preview",
+    ),
+    Permission(Role.OBSERVER, "job"): (
+        "GET /api/v1/jobs/{job}",
+        "GET /api/v1/falsifications/{falsification}",
+        "GET /api/v1/falsifications/{falsification}/file",
+    ),
+    Permission(Role.OPERATOR, "job"): (
+        "DELETE /api/v1/jobs/{job}",
+        "DELETE /api/v1/falsifications/{falsification}",
+        "POST /api/v1/falsifications/{falsification}/sessions",
+        "GET /api/v1/tunings/{tuning}",
+        "DELETE /api/v1/tunings/{tuning}",
+        "GET /api/v1/tunings/{tuning}/file",
     ),
     Permission(Role.OBSERVER, "session"): (
         f"GET {_SESSION}",
@@ -85,10 +117,10 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"POST {_SESSION}/quick-stop",
         f"POST {_SESSION}/emergency-stop",
         f"POST {_SESSION}/predict",
+        f"POST {_SESSION}/bench/endurance",
         f"POST {_SESSION}/design/response",
         f"POST {_SESSION}/design/stability",
         f"POST {_SESSION}/design/region",
-        f"POST {_SESSION}/design/simulation",
     ),
     Permission(Role.OBSERVER, "run"): (
         f"GET {_RUN}",
@@ -99,23 +131,37 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"GET {_RUN}/replay.html",
         f"GET {_RUN}/origin",
         f"GET {_RUN}/difference",
+        f"POST {_RUN}/verdict",
         f"POST {_RUN}/compare",
     ),
     Permission(Role.OPERATOR): (
         "POST /api/v1/sessions",
+        "PUT /api/v1/course/{exercise}/place",
+        "PUT /api/v1/course/{exercise}/steps/{step}/answer",
+        "POST /api/v1/course/{exercise}/steps/{step}/check",
+        "PUT /api/v1/course/{exercise}/law",
+        "POST /api/v1/course/{exercise}/hand-in",
         "POST /api/v1/arena/laws/{law}/measurement",
         "POST /api/v1/arena/sessions",
+        "POST /api/v1/leaderboard/submissions",
+        "POST /api/v1/leaderboard/laws",
         "POST /api/v1/tunings",
         "POST /api/v1/falsifications",
-        "DELETE /api/v1/falsifications/{falsification}",
-        "POST /api/v1/falsifications/{falsification}/sessions",
+        "POST /api/v1/scenarios/runs",
+        "POST /api/v1/scenarios/sessions",
+        "PUT /api/v1/scenarios/{scenario}",
         "POST /api/v1/studies",
-        "POST /api/v1/studies/{study}/rows/{row}/replay",
-        "GET /api/v1/tunings/{tuning}",
-        "DELETE /api/v1/tunings/{tuning}",
-        "DELETE /api/v1/jobs/{job}",
-        "GET /api/v1/tunings/{tuning}/file",
     ),
+    Permission(Role.OBSERVER, "study"): (
+        "GET /api/v1/studies/{study}",
+        "GET /api/v1/studies/{study}/summary",
+        "GET /api/v1/studies/{study}/sensitivity",
+        "GET /api/v1/studies/{study}/rows",
+        "GET /api/v1/studies/{study}/rows.parquet",
+        "GET /api/v1/studies/{study}/rows/{row}",
+    ),
+    Permission(Role.OPERATOR, "study"): ("POST /api/v1/studies/{study}/rows/{row}/replay",),
+    Permission(Role.OPERATOR, "own study"): ("DELETE /api/v1/studies/{study}",),
     Permission(Role.OPERATOR, "run"): (f"POST {_RUN}/branch",),
     Permission(Role.OPERATOR, "own run"): (
         f"PATCH {_RUN}",
@@ -124,6 +170,7 @@ TABLE: dict[Permission, tuple[str, ...]] = {
     ),
     Permission(Role.OPERATOR, "session"): (
         f"DELETE {_SESSION}",
+        f"POST {_SESSION}/design/simulation",  # a private session of one's own
         f"PUT {_SESSION}/control",
         f"DELETE {_SESSION}/control",
         f"POST {_SESSION}/control/handover",
@@ -132,12 +179,15 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"POST {_SESSION}/step",
         f"PUT {_SESSION}/speed",
         f"POST {_SESSION}/experiment",
+        f"POST {_SESSION}/exercise",
         f"POST {_SESSION}/bench/arm",
         f"POST {_SESSION}/bench/home",
         f"POST {_SESSION}/bench/clear",
         f"POST {_SESSION}/bench/restart",
         f"PUT {_SESSION}/position",
+        f"POST {_SESSION}/position/repeat",
         f"PUT {_SESSION}/stiffness",
+        f"POST {_SESSION}/stiffness/repeat",
         f"PUT {_SESSION}/law",
         f"PUT {_SESSION}/gains",
         f"PUT {_SESSION}/parameters",
@@ -159,7 +209,15 @@ TABLE: dict[Permission, tuple[str, ...]] = {
     INSTRUCTOR_ONLY: (
         f"PUT {_SESSION}/control/lock",
         "POST /api/v1/class/code",
+        "GET /api/v1/class/audit",
+        "GET /api/v1/grades",
+        "POST /api/v1/grades",
+        "GET /api/v1/grades/class.csv",
+        "GET /api/v1/grades/class.html",
+        "DELETE /api/v1/class/people/{person}",
+        "POST /api/v1/class/people/{person}/restore",
         "POST /api/v1/class/broadcast",
+        "DELETE /api/v1/scenarios/{scenario}",
     ),
 }
 

@@ -8,14 +8,17 @@ from limits import RateLimitItem, parse
 from limits.storage import MemoryStorage
 from limits.strategies import MovingWindowRateLimiter
 
-from svsa_server.control import CHANGING, STOPS
+from svsa_server.control.hand import CHANGING, STOPS
 
 Kind = Literal["joins", "sessions", "runs", "commands"]
 _KINDS: dict[str, Kind] = {
     "POST /api/v1/join": "joins",
+    "POST /api/v1/return": "joins",
     "POST /api/v1/login": "joins",
-    "POST /api/v1/sessions": "sessions",
-    "POST /api/v1/arena/sessions": "sessions",
+    "POST /lti/login": "joins",
+    "POST /lti/launch": "joins",
+    "POST /sessions": "sessions",
+    "POST /simulation": "sessions",
     "POST /branch": "sessions",
     "POST /recording": "runs",
     "POST /excitation": "runs",

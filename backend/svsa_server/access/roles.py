@@ -47,7 +47,7 @@ class Person(NamedTuple):
         return owner in ("", self.id) or self.role is Role.INSTRUCTOR
 
     def may_change(self, owner: str) -> bool:
-        """Whether a run that `owner` made may be changed; what nobody made is the instructor's."""
+        """Whether what `owner` made may be changed; what nobody made is the instructor's."""
         return owner == self.id or self.role is Role.INSTRUCTOR
 
 

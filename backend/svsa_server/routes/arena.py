@@ -7,12 +7,11 @@ from fastapi import APIRouter, Body, Path, Request
 from svsa.arena.find import find_scenario
 from svsa.arena.measure import Entry, measure_law
 from svsa.arena.results import Results, load_published
-from svsa.control.installed import BASELINE, PAPERS_LAW, InstalledLaw
-from svsa.run.configuration import Lane
-from svsa_server.arena_schemas import MeasuredRow, ScenarioRequest
+from svsa.control.installed import InstalledLaw
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
-from svsa_server.session_schemas import SessionState
-from svsa_server.state import build_state
+from svsa_server.schemas.arena import MeasuredRow, ScenarioRequest
+from svsa_server.schemas.session import SessionState
+from svsa_server.sessions.state import build_state
 
 router = APIRouter(prefix="/arena", tags=["arena"])
 
@@ -48,7 +47,5 @@ async def see_scenario(
     ],
 ) -> SessionState:
     """A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL."""
-    beside = BASELINE if wanted.law == PAPERS_LAW else PAPERS_LAW
-    configuration = find_scenario(wanted.scenario).build_configuration(wanted.law)
-    compared = configuration.changed(rivals=(Lane(law=beside),))
+    compared = find_scenario(wanted.scenario).build_compared(wanted.law)
     return build_state(request.app.state.laboratory.create(compared, person.id))

@@ -1,17 +1,20 @@
 """Arm a bench, home it, and clear its faults; a simulated session refuses."""
 
+import asyncio
 from typing import Annotated
 
 from fastapi import APIRouter, Body
 
+from svsa.bench.endurance import find_endurance
 from svsa.errors import StateError
+from svsa.plant.disturbances import Load
 from svsa.session.bench import BenchSession
 from svsa.session.session import Session
-from svsa_server.bench_schemas import HomingRequest
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.session_schemas import SessionState
-from svsa_server.state import build_state
-from svsa_server.turn import TurnRoute
+from svsa_server.schemas.bench import EnduranceState, HomingRequest
+from svsa_server.schemas.session import SessionState
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.turn import TurnRoute
 
 router = APIRouter(
     prefix="/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=TurnRoute
@@ -52,7 +55,24 @@ def restart_loop(hosted: NamedSession) -> SessionState:
     return build_state(hosted)
 
 
+@router.post("/endurance")
+async def foretell_heat(
+    hosted: NamedSession,
+    load: Annotated[Load, Body(examples=[{"kind": "paper"}])],
+) -> EnduranceState | None:
+    """The motor that is too warm for this load within 30 s, and when; null where neither is.
+
+    As the bench is set now, beside the loads that are on; worked out on its simulated twin with the
+    motors cold. Nothing is changed.
+    """
+    session = _find_bench(hosted.session)
+    run = session.run
+    on = [held.load for held in run.loads if held.is_on(run.tick)]
+    found = await asyncio.to_thread(find_endurance, session.bench, run.configuration, [*on, load])
+    return found and EnduranceState(**found._asdict())
+
+
 def _find_bench(session: Session) -> BenchSession:
     if not isinstance(session, BenchSession):
-        raise StateError(f"Session {session.name} is simulated: there is nothing to arm.")
+        raise StateError(f"Session {session.name} is simulated: there is no bench behind it.")
     return session

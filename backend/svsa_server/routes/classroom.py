@@ -1,9 +1,10 @@
 """A class: who is here and sees what, a new code, the instructor's settings for everybody."""
 
 import asyncio
+from typing import Annotated
 
 import segno
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Path, Request
 from starlette.datastructures import URL
 
 from svsa.errors import StateError, SvsaError
@@ -19,21 +20,25 @@ from svsa.run.command import (
 from svsa.run.configuration import Configuration
 from svsa_server.access.doors import ClassDoor
 from svsa_server.access.origin import EVERYWHERE, find_outward_address
-from svsa_server.access.roles import Person
-from svsa_server.class_schemas import (
+from svsa_server.access.roles import Person, Role
+from svsa_server.config import is_loopback
+from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.schemas.classroom import (
     BroadcastState,
     ClassCode,
     ClassSession,
     ClassState,
+    MemberState,
     PersonState,
 )
-from svsa_server.config import is_loopback
-from svsa_server.hosted import HostedSession
-from svsa_server.laboratory import SHARED_SESSION, Laboratory
-from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
 
 router = APIRouter(prefix="/class", tags=["class"], responses={409: REFUSALS[409]})
 _SCALE = 6
+Member = Annotated[
+    str, Path(alias="person", description="Id of a person", examples=["p-0123456789ab"])
+]
 
 
 @router.get("")
@@ -45,14 +50,36 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
         for client in hosted.list_viewers():
             if client not in here and (known := people.find(client)) is not None:
                 here[client] = known
+    members = find_class(request).members
+    removed = members.list_ended() if person.role is Role.INSTRUCTOR else []
     seen = [hosted for hosted in laboratory.sessions.values() if person.may_see(hosted.owner)]
     ordered = sorted(here.values(), key=lambda one: (one.name.casefold(), one.id))
     return ClassState(
         people=[_build_person(one, seen) for one in ordered],
+        removed=[_build_member(one) for one in removed],
         sessions=[
             _build_session(hosted, people.find(hosted.owner)) for hosted in seen if hosted.owner
         ],
     )
+
+
+@router.delete("/people/{person}", responses={404: REFUSALS[404]})
+async def remove_person(request: Request, name: Member) -> MemberState:
+    """Remove a person at once: what they carry is worth nothing, and control and place are free.
+
+    What they made stays. Whoever knows the class code may join again as somebody else:
+    `POST /class/code` makes a new one.
+    """
+    removed = await find_class(request).set_removed(name, True)
+    for hosted in _find_laboratory(request).sessions.values():
+        hosted.let_go(removed.id)
+    return _build_member(removed)
+
+
+@router.post("/people/{person}/restore", responses={404: REFUSALS[404]})
+async def restore_person(request: Request, name: Member) -> MemberState:
+    """Let a person in again who was removed: what they carry is as good as before."""
+    return _build_member(await find_class(request).set_removed(name, False))
 
 
 @router.post("/code", status_code=201)
@@ -93,7 +120,7 @@ async def broadcast(request: Request) -> BroadcastState:
             continue
         try:
             for command in commands:
-                hosted.session.change(command)
+                hosted.session.set(command)
         except SvsaError as error:
             refused.append(f"{name}: {error}")
         else:
@@ -126,9 +153,13 @@ def _find_laboratory(request: Request) -> Laboratory:
     return request.app.state.laboratory
 
 
+def _build_member(person: Person) -> MemberState:
+    return MemberState(id=person.id, name=person.name, role=person.role.word)
+
+
 def _build_person(person: Person, seen: list[HostedSession]) -> PersonState:
     sees = [hosted.session.name for hosted in seen if person.id in hosted.list_viewers()]
-    return PersonState(id=person.id, name=person.name, role=person.role.word, sees=sees)
+    return PersonState(**_build_member(person).model_dump(), sees=sees)
 
 
 def _build_session(hosted: HostedSession, owner: Person | None) -> ClassSession:

@@ -11,7 +11,7 @@ from svsa.errors import ParameterError
 from svsa.records.catalogue.runs import Catalogue
 from svsa_server.access.guard import PERSON
 from svsa_server.access.roles import EVERYBODY, Person
-from svsa_server.control import (
+from svsa_server.control.hand import (
     CHANGING,
     CLIENT_HEADER,
     OPEN_TO_ALL,
@@ -19,9 +19,9 @@ from svsa_server.control import (
     asking,
     read_client,
 )
-from svsa_server.heavy_work import RETRY_AFTER_S, HeavyWork
-from svsa_server.hosted import HostedSession
-from svsa_server.problems import Problem
+from svsa_server.jobs.heavy_work import RETRY_AFTER_S, HeavyWork
+from svsa_server.problems import ChangedError, Problem
+from svsa_server.sessions.hosted import HostedSession
 
 
 def find_asked(scope: Scope) -> tuple[str | None, str]:
@@ -90,6 +90,21 @@ async def find_session(
 NamedSession = Annotated[HostedSession, Depends(find_session)]
 
 
+async def check_unchanged(
+    hosted: NamedSession,
+    if_match: Annotated[
+        str | None,
+        Header(description="The session's `revision`: refused where it was changed meanwhile"),
+    ] = None,
+) -> None:
+    """Raise `ChangedError` where somebody has changed settings or loads since they were read."""
+    if if_match is not None and if_match.strip('"') not in ("*", hosted.revision):
+        raise ChangedError(
+            f"Session {hosted.session.name} was changed meanwhile, it is at {hosted.revision}, not"
+            f" {if_match[:40]}: read it again, and set what is still to be set."
+        )
+
+
 def find_catalogue(connection: HTTPConnection) -> Catalogue:
     """The runs of this server."""
     return connection.app.state.catalogue
@@ -115,6 +130,9 @@ REFUSALS: dict[int | str, dict[str, Any]] = {
     422: {"model": Problem, "description": "Refused values; nothing was changed"},
 }
 
+CHANGED: dict[int | str, dict[str, Any]] = {
+    412: {"model": Problem, "description": "It was changed meanwhile; see If-Match"}
+}
 BUSY: dict[int | str, dict[str, Any]] = {
     503: {
         "model": Problem,

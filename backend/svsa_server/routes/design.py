@@ -12,7 +12,8 @@ from svsa.design import prediction
 from svsa.design.steady_error import SteadyError
 from svsa.errors import ParameterError
 from svsa.run.configuration import Configuration
-from svsa_server.design_schemas import (
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.schemas.design import (
     LoopNoiseState,
     Prediction,
     PredictRequest,
@@ -20,9 +21,8 @@ from svsa_server.design_schemas import (
     SteadyErrorState,
     TorqueDemandState,
 )
-from svsa_server.gain_schemas import Root
-from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.tried_design import read_stiffness
+from svsa_server.schemas.gain import Root
+from svsa_server.sessions.tried_design import read_stiffness
 
 router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
 

@@ -8,17 +8,10 @@ from fastapi.responses import Response
 
 from svsa.control.installed import get_title
 from svsa.errors import StateError
-from svsa.falsify.file import ADVERSARY_FOLDER, list_adversaries
+from svsa.falsify.file import ADVERSARY_FOLDER, list_adversaries, read_adversary
 from svsa.falsify.scenario import LoadScenario
 from svsa.run.configuration import Lane
-from svsa_server.falsification_schemas import (
-    AdversaryState,
-    FalsificationRequest,
-    FalsificationState,
-    LawOutcomeState,
-    dump_scenario,
-)
-from svsa_server.falsifications import (
+from svsa_server.jobs.falsifications import (
     Asked,
     find_file,
     list_beside,
@@ -26,12 +19,18 @@ from svsa_server.falsifications import (
     read_worst,
     search,
 )
-from svsa_server.job_schemas import describe_job
-from svsa_server.jobs import Job
+from svsa_server.jobs.queue import Job
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson
-from svsa_server.routes.jobs import find_jobs
-from svsa_server.session_schemas import SessionState
-from svsa_server.state import build_state
+from svsa_server.routes.jobs import find_jobs, list_visible
+from svsa_server.schemas.falsification import (
+    AdversaryState,
+    FalsificationRequest,
+    FalsificationState,
+)
+from svsa_server.schemas.job import describe_job
+from svsa_server.schemas.scenario import LawOutcomeState, dump_scenario
+from svsa_server.schemas.session import SessionState
+from svsa_server.sessions.state import build_state
 
 KIND = "falsification"
 router = APIRouter(prefix="/falsifications", tags=["falsifier"], responses=REFUSALS)
@@ -50,27 +49,29 @@ def list_all_adversaries() -> list[AdversaryState]:
             name=name,
             title=title,
             text=(ADVERSARY_FOLDER / f"{name}.toml").read_text(encoding="utf-8"),
+            definition=read_adversary(name).model_dump(mode="json"),
         )
         for name, title in list_adversaries().items()
     ]
 
 
 @router.get("")
-def list_falsifications(request: Request) -> list[FalsificationState]:
-    """The last searches of this server, the newest first."""
-    return [_build(job) for job in find_jobs(request).list_all(KIND)]
+def list_falsifications(request: Request, person: NamedPerson) -> list[FalsificationState]:
+    """The last searches, the newest first; in a class one's own."""
+    return [_build(job) for job in list_visible(request, person, KIND)]
 
 
 @router.post("", status_code=201, responses=BUSY)
 async def start_falsification(
     request: Request,
+    person: NamedPerson,
     wanted: Annotated[FalsificationRequest, Body(examples=[{"adversary": "blow", "runs": 2000}])],
 ) -> FalsificationState:
     """Begin a search: a job, that makes no live session late. It ends at the first fault."""
     adversary = await asyncio.to_thread(wanted.build)
     asked = Asked(adversary, wanted.runs, wanted.seed)
     title = f"{get_title(adversary.law)}: {adversary.title}"
-    return _build(find_jobs(request).start(KIND, title, search, asked))
+    return _build(find_jobs(request).start(KIND, title, search, asked, person.id))
 
 
 @router.get("/{falsification}")
@@ -120,19 +121,21 @@ def _find_scenario(job: Job) -> LoadScenario:
         raise StateError(
             f"The search {job.id} is {job.status} and has no scenario: one is written at its end."
         )
-    return found[0]
+    return found.scenario
 
 
 def _build(job: Job) -> FalsificationState:
     asked = job.asked
     found = None if job.is_under_way else read_found(job.folder)
-    scenario, outcomes = (None, []) if found is None else found
+    worst = read_worst(job.folder)
     return FalsificationState(
         **describe_job(job).model_dump(),
         law=asked.adversary.law,
         harm=asked.adversary.harm,
         seed=asked.seed,
-        worst=read_worst(job.folder),
-        scenario=scenario and dump_scenario(scenario),
-        outcomes=[LawOutcomeState(**one) for one in outcomes],
+        adversary=asked.adversary.model_dump(mode="json"),
+        worst=worst and dump_scenario(worst),
+        scenario=found and dump_scenario(found.scenario),
+        steps=found.steps if found else [],
+        outcomes=[LawOutcomeState(**one) for one in found.outcomes] if found else [],
     )

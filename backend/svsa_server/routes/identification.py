@@ -2,17 +2,23 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Request
+from fastapi import APIRouter, Body, Depends, Request
 
 from svsa.run.command import SetNominal, SetParameters
-from svsa.run.configuration import parse_design
-from svsa_server.excitation import TAG
-from svsa_server.recording_schemas import ExcitationRequest
-from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
-from svsa_server.session_schemas import SessionState
-from svsa_server.setting_schemas import ParameterFileRequest
-from svsa_server.state import build_state
-from svsa_server.turn import TurnRoute, take_turn
+from svsa.run.configuration import PROTOTYPE_FILE, parse_design
+from svsa_server.routes.depends import (
+    CHANGED,
+    REFUSALS,
+    NamedPerson,
+    NamedSession,
+    check_unchanged,
+)
+from svsa_server.schemas.recording import ExcitationRequest
+from svsa_server.schemas.session import SessionState
+from svsa_server.schemas.setting import ParameterFileRequest
+from svsa_server.sessions.excitation import TAG
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.turn import TurnRoute, take_turn
 
 router = APIRouter(
     prefix="/sessions/{session}", tags=["identification"], responses=REFUSALS, route_class=TurnRoute
@@ -49,11 +55,11 @@ async def stop_excitation(hosted: NamedSession) -> SessionState:
     return build_state(hosted)
 
 
-@router.put("/nominal")
+@router.put("/nominal", responses=CHANGED, dependencies=[Depends(check_unchanged)])
 def load_nominal(
     hosted: NamedSession,
     request: Annotated[
-        ParameterFileRequest, Body(examples=[{"toml": "[nominal]\nradius_m = 0.075"}])
+        ParameterFileRequest, Body(examples=[{"toml": PROTOTYPE_FILE.read_text("utf-8")}])
     ],
 ) -> SessionState:
     """Take the nominal model of a parameter file (TOML), and the parameters of laws in it.
@@ -61,7 +67,7 @@ def load_nominal(
     Gains, observer, the true plant and limits stay as they are.
     """
     design = parse_design(request.toml)
-    hosted.session.change(SetNominal(argument=design.nominal))
+    hosted.session.set(SetNominal(argument=design.nominal))
     if design.parameters:
         hosted.session.patch(
             lambda run: SetParameters(argument={**run.parameters, **design.parameters})

@@ -4,18 +4,19 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path, Request
 
-from svsa_server.job_schemas import JobState, describe_job
-from svsa_server.jobs import Jobs
-from svsa_server.routes.depends import REFUSALS
+from svsa_server.access.roles import Person
+from svsa_server.jobs.queue import Job, Jobs, Kind
+from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.schemas.job import JobState, describe_job
 
 router = APIRouter(prefix="/jobs", tags=["jobs"], responses=REFUSALS)
 JobId = Annotated[str, Path(description="Id of a job", examples=["3f2a9c01b7de"])]
 
 
 @router.get("")
-async def list_jobs(request: Request) -> list[JobState]:
-    """The last tunings, studies and searches of this server, the newest first."""
-    return [describe_job(job) for job in find_jobs(request).list_all()]
+async def list_jobs(request: Request, person: NamedPerson) -> list[JobState]:
+    """The last jobs of every kind, the newest first; in a class one's own."""
+    return [describe_job(job) for job in list_visible(request, person)]
 
 
 @router.get("/{job}")
@@ -30,6 +31,11 @@ async def cancel_job(request: Request, job: JobId) -> JobState:
     found = find_jobs(request).get(job)
     found.cancel()
     return describe_job(found)
+
+
+def list_visible(request: Request, person: Person, kind: Kind | None = None) -> list[Job]:
+    """The jobs that this person may see, of this kind if one is given, the newest first."""
+    return [job for job in find_jobs(request).list_all(kind) if person.may_see(job.owner)]
 
 
 def find_jobs(request: Request) -> Jobs:

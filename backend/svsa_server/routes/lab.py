@@ -4,10 +4,10 @@ from fastapi import APIRouter, Request
 
 import svsa
 from svsa.paper import FIGURES
-from svsa_server.lab_schemas import FigureState, Health
-from svsa_server.laboratory import SHARED_SESSION
-from svsa_server.law_schemas import LawState, list_laws
-from svsa_server.turn import TurnRoute
+from svsa_server.schemas.lab import FigureState, Health
+from svsa_server.schemas.law import LawState, list_laws
+from svsa_server.sessions.laboratory import SHARED_SESSION
+from svsa_server.sessions.turn import TurnRoute
 
 router = APIRouter(tags=["lab"], route_class=TurnRoute)
 

@@ -7,37 +7,40 @@ from fastapi import APIRouter, Body
 from svsa.plant.disturbances import Load
 from svsa.run.command import ApplyLoad, RemoveLoad
 from svsa.session.session import take_loads_off
-from svsa_server.errors import UnknownError
+from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.session_schemas import SessionState
-from svsa_server.state import build_state
-from svsa_server.turn import TurnRoute
+from svsa_server.schemas.session import SessionState
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.turn import TurnRoute
 
 router = APIRouter(
     prefix="/sessions/{session}/loads", tags=["loads"], responses=REFUSALS, route_class=TurnRoute
 )
 
 
+GivenLoad = Annotated[
+    Load,
+    Body(
+        examples=[
+            {"kind": "paper"},
+            {"kind": "mass", "mass_kg": 3.0, "arm_m": 0.068},
+            {"kind": "pulse", "torque_nm": [2.0, 0.0, 0.0], "duration_s": 0.5},
+            {"kind": "push", "torque_nm": [1.0, 0.0, 0.0], "hold_s": 0.5},
+            {"kind": "sine", "torque_nm": [1.0, 0.0, 0.0], "frequency_hz": 1.0},
+            {
+                "kind": "series",
+                "time_s": [0.0, 1.0, 2.0],
+                "torque_nm": [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
+            },
+        ]
+    ),
+]
+
+
 @router.post("", status_code=201)
 def apply_load(
     hosted: NamedSession,
-    load: Annotated[
-        Load,
-        Body(
-            examples=[
-                {"kind": "paper"},
-                {"kind": "mass", "mass_kg": 3.0, "arm_m": 0.068},
-                {"kind": "pulse", "torque_nm": [2.0, 0.0, 0.0], "duration_s": 0.5},
-                {"kind": "push", "torque_nm": [1.0, 0.0, 0.0], "hold_s": 0.5},
-                {"kind": "sine", "torque_nm": [1.0, 0.0, 0.0], "frequency_hz": 1.0},
-                {
-                    "kind": "series",
-                    "time_s": [0.0, 1.0, 2.0],
-                    "torque_nm": [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
-                },
-            ]
-        ),
-    ],
+    load: GivenLoad,
 ) -> SessionState:
     """Apply a load, now or at `start_s`; it is the last of `loads` in the answer.
 

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path, Request
 from pydantic import BaseModel, Field
 
-from svsa_server.outcomes import LONGEST_NAME, Outcome, Outcomes
+from svsa_server.control.outcomes import LONGEST_NAME, Outcome, Outcomes
 from svsa_server.routes.depends import REFUSALS
 
 router = APIRouter(prefix="/requests", tags=["lab"], responses={422: REFUSALS[422]})

@@ -6,10 +6,10 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Request
 
 from svsa.records.resimulation import check_simulated, read_origin
-from svsa_server.recording_schemas import RecordingRequest
 from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
-from svsa_server.session_schemas import BranchRequest, SessionState
-from svsa_server.state import build_state
+from svsa_server.schemas.recording import RecordingRequest
+from svsa_server.schemas.session import BranchRequest, SessionState
+from svsa_server.sessions.state import build_state
 
 router = APIRouter(tags=["recording"], responses=REFUSALS)
 

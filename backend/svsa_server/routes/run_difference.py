@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query
 
 from svsa.records.difference import compare_settings
 from svsa_server.routes.depends import RunId, Runs
-from svsa_server.run_schemas import RunDifference, SettingDifference
+from svsa_server.schemas.run import RunDifference, SettingDifference
 
 MAX_OTHERS = 7
 router = APIRouter()

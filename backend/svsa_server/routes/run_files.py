@@ -11,9 +11,9 @@ from fastapi.responses import StreamingResponse
 
 from svsa.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.records.resimulation import Comparison, check_simulated
-from svsa_server.heavy_work import compare, write_export, write_replay
 from svsa_server.routes.depends import BUSY, RunId, Runs, Work
-from svsa_server.run_schemas import ExportName
+from svsa_server.runs.work import compare, write_export, write_replay
+from svsa_server.schemas.run import ExportName
 
 CHUNK_BYTES = 1 << 18
 REPLAY_AGE_S = 600
@@ -21,7 +21,7 @@ _FILES = {
     kind.media_type.partition(";")[0]: {"schema": {"type": "string", "format": "binary"}}
     for kind in EXPORT_KINDS.values()
 }
-_PAGE: dict[int | str, dict[str, Any]] = {
+PAGE: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/html": {"schema": {"type": "string"}}}, "description": "The page"}
 }
 router = APIRouter(responses=BUSY)
@@ -47,14 +47,14 @@ async def export_run(
     )
 
 
-@router.get("/runs/{run_id}/replay", response_class=StreamingResponse, responses=_PAGE)
+@router.get("/runs/{run_id}/replay", response_class=StreamingResponse, responses=PAGE)
 async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
     file = await work.write(write_replay, await asyncio.to_thread(runs.find_folder, run_id))
-    return _send(file, "text/html", {"Cache-Control": f"private, max-age={REPLAY_AGE_S}"})
+    return send_page(file)
 
 
-@router.get("/runs/{run_id}/replay.html", response_class=StreamingResponse, responses=_PAGE)
+@router.get("/runs/{run_id}/replay.html", response_class=StreamingResponse, responses=PAGE)
 async def download_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The run as one page with 3D replay and plots together; opens from a file, offline."""
     record = await asyncio.to_thread(runs.open, run_id)
@@ -68,6 +68,11 @@ async def compare_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
     """Simulate a run again from its record alone and compare every bit."""
     check_simulated(await asyncio.to_thread(runs.open, run_id))
     return await work.run(compare, runs.find_folder(run_id))
+
+
+def send_page(file: IO[bytes]) -> StreamingResponse:
+    """A replay's page, to be looked at in place."""
+    return _send(file, "text/html", {"Cache-Control": f"private, max-age={REPLAY_AGE_S}"})
 
 
 def _send(file: IO[bytes], media_type: str, headers: Mapping[str, str]) -> StreamingResponse:

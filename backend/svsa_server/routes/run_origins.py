@@ -10,8 +10,8 @@ from svsa.records.header import BranchPoint, PlantKind
 from svsa.run.command import Command, read_command
 from svsa.run.configuration import Design
 from svsa_server.routes.depends import NamedSession, RunId, Runs
-from svsa_server.run_schemas import BranchOrigin, GivenCommand, RunOrigin
-from svsa_server.session_schemas import SessionRequest
+from svsa_server.schemas.run import BranchOrigin, GivenCommand, RunOrigin
+from svsa_server.schemas.session import SessionRequest
 
 router = APIRouter()
 

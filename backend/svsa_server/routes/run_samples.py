@@ -15,9 +15,9 @@ from svsa.records.measured_window import trace_record
 from svsa.records.reader import Record
 from svsa.run.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.signals import PLOTTED
-from svsa_server.lanes import build_window
 from svsa_server.routes.depends import RunId, Runs
-from svsa_server.run_schemas import RunMetrics, RunSamples
+from svsa_server.runs.lanes import build_window
+from svsa_server.schemas.run import RunMetrics, RunSamples
 
 MAX_POINTS = 20_000
 router = APIRouter()

@@ -19,13 +19,11 @@ from svsa.records.catalogue.entry import Query as RunQuery
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.measured_window import trace_record
 from svsa_server.access.roles import Role
-from svsa_server.laboratory import SHARED_SESSION
-from svsa_server.lanes import build_window, list_record_stretches, name_lanes
-from svsa_server.problems import Problem
-from svsa_server.routes import run_difference, run_files, run_origins, run_samples
-from svsa_server.routes.depends import REFUSALS, NamedPerson, RunId, Runs
+from svsa_server.routes import run_difference, run_files, run_origins, run_samples, run_verdict
+from svsa_server.routes.depends import CHANGED, REFUSALS, NamedPerson, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
-from svsa_server.run_schemas import (
+from svsa_server.runs.lanes import build_window, list_record_stretches, name_lanes
+from svsa_server.schemas.run import (
     RunCommand,
     RunDetails,
     RunFault,
@@ -33,15 +31,16 @@ from svsa_server.run_schemas import (
     RunPatch,
     RunSummary,
 )
+from svsa_server.sessions.laboratory import SHARED_SESSION
 
 MAX_COMMANDS = 1000
 LONGEST_FACET = 60
-CHANGED: dict[str, Any] = {"model": Problem, "description": "It was changed meanwhile"}
 router = APIRouter(tags=["runs"], responses=REFUSALS)
 router.include_router(run_samples.router)
 router.include_router(run_files.router)
 router.include_router(run_origins.router)
 router.include_router(run_difference.router)
+router.include_router(run_verdict.router)
 
 
 Facet = Annotated[str | None, Query(max_length=LONGEST_FACET)]
@@ -121,7 +120,7 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     )
 
 
-@router.patch("/runs/{run_id}", responses={412: CHANGED})
+@router.patch("/runs/{run_id}", responses=CHANGED)
 def change_run(
     runs: Runs,
     run_id: RunId,

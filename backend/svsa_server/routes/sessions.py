@@ -8,17 +8,18 @@ from fastapi.responses import JSONResponse
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
-from svsa_server.session_schemas import (
+from svsa_server.schemas.session import (
     ExperimentRequest,
     SessionRequest,
     SessionState,
     SpeedRequest,
     StepRequest,
 )
-from svsa_server.state import build_state
-from svsa_server.stream import BATCH_PERIOD_S, stream_session
-from svsa_server.stream_schemas import StreamMessage, describe_stream, list_stream_parameters
-from svsa_server.turn import TurnRoute
+from svsa_server.schemas.stream import StreamMessage, describe_stream, list_stream_parameters
+from svsa_server.sessions.cursor import BATCH_PERIOD_S
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.stream import stream_session
+from svsa_server.sessions.turn import TurnRoute
 
 router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
 
@@ -113,12 +114,15 @@ def load_experiment(
         ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])
     ],
 ) -> SessionState:
-    """Start one of the paper's figures from t = 0, with its load at 5 s unless told not to.
+    """Begin one of the paper's figures at t = 0, with its load at 5 s unless told not to.
 
     What is set comes from the figure; lanes and effects from the request. A bench has its own.
     """
     hosted.session.load(wanted.build_configuration(request.app.state.design))
-    hosted.session.start()
+    if wanted.start:
+        hosted.session.start()
+    else:
+        hosted.session.pause()
     return build_state(hosted)
 
 

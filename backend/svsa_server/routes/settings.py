@@ -1,8 +1,11 @@
-"""Set what a session follows, how it is controlled, and what it is made of."""
+"""Set what a session follows, how it is controlled, and what it is made of.
+
+What is set already changes nothing when it is sent again: no fade, no event, no new window.
+"""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from fastapi import APIRouter, Body, Path
+from fastapi import APIRouter, Body, Depends, Path
 
 from svsa.checked import Checked
 from svsa.control.installed import check_installed, read_parameters
@@ -27,16 +30,20 @@ from svsa.run.command import (
     SetStiffness,
 )
 from svsa.run.configuration import LaneSetting
-from svsa_server.gain_schemas import GainsRequest
-from svsa_server.law_schemas import InstalledLane
-from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.session_schemas import SessionState
-from svsa_server.setting_schemas import LanesRequest, LawRequest, build_patch
-from svsa_server.state import build_state
-from svsa_server.turn import TurnRoute
+from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
+from svsa_server.schemas.gain import GainsRequest
+from svsa_server.schemas.law import InstalledLane
+from svsa_server.schemas.session import SessionState
+from svsa_server.schemas.setting import LanesRequest, LawRequest, build_patch
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.turn import TurnRoute
 
 router = APIRouter(
-    prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS, route_class=TurnRoute
+    prefix="/sessions/{session}",
+    tags=["settings"],
+    responses=REFUSALS | CHANGED,
+    route_class=TurnRoute,
+    dependencies=[Depends(check_unchanged)],
 )
 
 if TYPE_CHECKING:
@@ -61,7 +68,14 @@ def set_position(
     ],
 ) -> SessionState:
     """Follow another position reference, faded over without a jump in any derivative."""
-    hosted.session.change(SetPosition(argument=reference))
+    hosted.session.set(SetPosition(argument=reference))
+    return build_state(hosted)
+
+
+@router.post("/position/repeat")
+def repeat_position(hosted: NamedSession) -> SessionState:
+    """Begin the present position reference again, faded over as another one would be."""
+    hosted.session.change(SetPosition(argument=hosted.session.run.configuration.position))
     return build_state(hosted)
 
 
@@ -84,7 +98,14 @@ def set_stiffness(
     ],
 ) -> SessionState:
     """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
-    hosted.session.change(SetStiffness(argument=reference))
+    hosted.session.set(SetStiffness(argument=reference))
+    return build_state(hosted)
+
+
+@router.post("/stiffness/repeat")
+def repeat_stiffness(hosted: NamedSession) -> SessionState:
+    """Begin the present stiffness reference again, faded over as another one would be."""
+    hosted.session.change(SetStiffness(argument=hosted.session.run.configuration.stiffness))
     return build_state(hosted)
 
 
@@ -97,9 +118,9 @@ def set_law(
 ) -> SessionState:
     """Control with another law, and the lanes beside too, each from where its plant is."""
     if request.rival_laws:
-        hosted.session.change(SetLaws(argument=(request.law, *request.rival_laws)))
+        hosted.session.set(SetLaws(argument=(request.law, *request.rival_laws)))
     else:
-        hosted.session.change(SetLaw(argument=request.law))
+        hosted.session.set(SetLaw(argument=request.law))
     return build_state(hosted)
 
 
@@ -141,18 +162,18 @@ def set_parameters(
 def set_observer(
     hosted: NamedSession,
     request: Annotated[
-        ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [60.0, 60.0, 60.0]}])
+        ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [80.0, 80.0, 80.0]}])
     ],
 ) -> SessionState:
     """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
-    hosted.session.change(SetObserver(argument=request))
+    hosted.session.set(SetObserver(argument=request))
     return build_state(hosted)
 
 
 @router.patch("/actuator")
 def change_actuator(
     hosted: NamedSession,
-    patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
+    patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0206}])],
 ) -> SessionState:
     """Change parameters of the true plant."""
     hosted.session.patch(lambda run: SetActuator(argument=_apply(patch, run.actuator)))
@@ -162,7 +183,7 @@ def change_actuator(
 @router.patch("/nominal")
 def change_nominal(
     hosted: NamedSession,
-    patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0153}])],
+    patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
     """Change parameters of the model that controller and observer believe in."""
     hosted.session.patch(lambda run: SetNominal(argument=_apply(patch, run.nominal)))
@@ -178,7 +199,7 @@ def set_effects(
     ],
 ) -> SessionState:
     """Switch on what separates the simulation from a bench; what is left out is off."""
-    hosted.session.change(SetEffects(argument=effects))
+    hosted.session.set(SetEffects(argument=effects))
     return build_state(hosted)
 
 
@@ -188,7 +209,7 @@ def set_lanes(
     request: Annotated[LanesRequest, Body(examples=[{"rivals": [{"law": "fl"}]}, {"rivals": []}])],
 ) -> SessionState:
     """Run other controllers beside the session's own: same references, loads and noise."""
-    hosted.session.change(SetRivals(argument=request.rivals))
+    hosted.session.set(SetRivals(argument=request.rivals))
     return build_state(hosted)
 
 
@@ -210,7 +231,7 @@ def set_lane(
 
     What is left out is the session's. The same law goes on with what it remembers.
     """
-    hosted.session.change(SetLane(argument=LaneSetting(lane=lane, setting=request)))
+    hosted.session.set(SetLane(argument=LaneSetting(lane=lane, setting=request)))
     return build_state(hosted)
 
 

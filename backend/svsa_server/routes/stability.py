@@ -18,10 +18,10 @@ from svsa.design.sampled_loop import linearize_tick
 from svsa.design.stability import Stability, assess
 from svsa.plant.disturbances import PaperLoad
 from svsa.run.configuration import Configuration
-from svsa_server.gain_schemas import Root
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedSession, Work
-from svsa_server.session_schemas import SessionState
-from svsa_server.stability_schemas import (
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Work
+from svsa_server.schemas.gain import Root
+from svsa_server.schemas.session import SessionState
+from svsa_server.schemas.stability import (
     DesignRequest,
     FateState,
     FrequencyResponseState,
@@ -32,8 +32,8 @@ from svsa_server.stability_schemas import (
     StabilityState,
     StableRangeState,
 )
-from svsa_server.state import build_state
-from svsa_server.tried_design import build_tried
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.tried_design import build_tried
 
 LOAD_POINTS = 250
 FAILURE_LOAD_S = 1.0
@@ -51,11 +51,17 @@ async def respond(hosted: NamedSession, request: Tried) -> ResponseState:
     configuration, sigma = build_tried(hosted.session, request)
     load = await asyncio.to_thread(simulate_load, configuration, sigma)
     found = await asyncio.to_thread(compute_disturbance_response, configuration, sigma)
+    encoders = _name_encoders(configuration)
+    radius = found.radius
+    if encoders == "rig":
+        radius = await asyncio.to_thread(_compute_sensed_radius, configuration, sigma)
     return ResponseState(
         law=configuration.law,
         stiffness_nm_per_rad=sigma,
         load=_build_load(load),
         disturbance=_build_frequency(found) if found.is_stable else None,
+        largest_pole=radius,
+        encoders=encoders,
     )
 
 
@@ -101,21 +107,26 @@ async def map_attraction(
 
 
 @router.post("/simulation", status_code=201)
-async def simulate_design(asked: Request, hosted: NamedSession, request: Tried) -> SessionState:
+async def simulate_design(
+    asked: Request, hosted: NamedSession, person: NamedPerson, request: Tried
+) -> SessionState:
     """A private simulated session with this design, stable or not; the 3 kg come after 1 s.
 
     It is a simulation also where a bench is asked about, and the session asked stays as it is.
     """
     configuration, _ = build_tried(hosted.session, request)
     load = PaperLoad(start_s=FAILURE_LOAD_S)
-    return build_state(
-        asked.app.state.laboratory.create(configuration.changed(loads=(load,), rivals=()))
-    )
+    shown = configuration.changed(loads=(load,), rivals=())
+    return build_state(asked.app.state.laboratory.create(shown, person.id))
 
 
 def _assess(configuration: Configuration, sigma: float) -> tuple[Stability, float]:
+    return assess(configuration, sigma), _compute_sensed_radius(configuration, sigma)
+
+
+def _compute_sensed_radius(configuration: Configuration, sigma: float) -> float:
     sensing = configuration.changed(effects=choose_sensing(configuration.effects))
-    return assess(configuration, sigma), linearize_tick(sensing, sigma).radius
+    return linearize_tick(sensing, sigma).radius
 
 
 def _find_part(

@@ -8,21 +8,33 @@ from fastapi.responses import FileResponse, Response
 
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.study.file import find_study_file, list_built_in
-from svsa.study.store import TABLE_FILE, StoredStudy, is_kept, keep_study, list_studies, open_study
+from svsa.study.metrics import METRICS
+from svsa.study.store import (
+    TABLE_FILE,
+    StoredStudy,
+    StudyError,
+    is_kept,
+    keep_study,
+    list_studies,
+    open_study,
+)
+from svsa.study.store import delete_study as discard
 from svsa.study.summary import SUCCEEDED
+from svsa.study.tables import tell_metric
 from svsa.study.work import build_schema
-from svsa_server.errors import UnknownError
-from svsa_server.jobs import Job
-from svsa_server.routes.depends import BUSY, REFUSALS, Work
+from svsa_server.jobs.queue import Job
+from svsa_server.jobs.studies import decide, replay, run, summarize
+from svsa_server.jobs.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
+from svsa_server.jobs.study_rows import read_row as find_row
+from svsa_server.problems import UnknownError
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
 from svsa_server.routes.jobs import find_jobs
-from svsa_server.studies import decide, replay, run, summarize
-from svsa_server.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
-from svsa_server.study_rows import read_row as find_row
-from svsa_server.study_schemas import (
+from svsa_server.schemas.study import (
     BuiltInStudy,
     RowReplay,
     SobolIndices,
     StudyList,
+    StudyMetric,
     StudyPlan,
     StudyRequest,
     StudyState,
@@ -33,6 +45,7 @@ from svsa_server.study_schemas import (
 
 router = APIRouter(prefix="/studies", tags=["studies"], responses=REFUSALS)
 Study = Annotated[str, Path(description="Name of a kept study", examples=["perturbation"])]
+LONGEST_END_S = 60.0
 Row = Annotated[int, Path(ge=0, description="Number of the row")]
 Wanted = Annotated[StudyRequest, Body(examples=[{"source": "load", "runs": 256}])]
 _BINARY = {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}}
@@ -40,9 +53,13 @@ _PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "for
 
 
 @router.get("")
-def list_all(request: Request) -> StudyList:
-    """The studies that come with the lab, and those that were begun here, the last one first."""
-    kept = sorted(list_studies(), key=lambda stored: stored.created, reverse=True)
+def list_all(request: Request, person: NamedPerson) -> StudyList:
+    """The studies that come with the lab, and those that were begun here, the last one first.
+
+    In a class those that one began oneself, and those that nobody of it did.
+    """
+    seen = [stored for stored in list_studies() if person.may_see(stored.owner)]
+    kept = sorted(seen, key=lambda stored: stored.created, reverse=True)
     built_in = [
         BuiltInStudy(name=name, title=title, text=_read_text(name))
         for name, title in list_built_in().items()
@@ -50,32 +67,60 @@ def list_all(request: Request) -> StudyList:
     return StudyList(
         built_in=built_in,
         kept=[describe_study(one, _find_job(request, one.name)) for one in kept],
+        metrics=[
+            StudyMetric(name=name, label=tell_metric(name), unit=unit)
+            for name, unit in METRICS.items()
+        ],
     )
 
 
 @router.post("/check")
-def check_study(wanted: Wanted) -> StudyPlan:
+def check_study(person: NamedPerson, wanted: Wanted) -> StudyPlan:
     """What a study would be; nothing is begun. A wrong text is refused with lines and bounds."""
-    return describe_plan(*wanted.build())
+    return describe_plan(*wanted.build(person))
 
 
 @router.post("", status_code=201, responses=BUSY)
-async def start_study(request: Request, wanted: Wanted) -> StudyState:
-    """Begin a study, or go on with one of this name: a job, that makes no live session late."""
-    name, study = await asyncio.to_thread(wanted.build)
+async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> StudyState:
+    """Begin a study, or go on with one of this name: a job, that makes no live session late.
+
+    In a class it is one's own and the instructor's, with every run of its rows.
+    """
+    name, study = await asyncio.to_thread(wanted.build, person)
+    if is_kept(name) and not person.may_change(open_study(name).owner):
+        raise StudyError(f"Study {name} was begun by somebody else: give yours another name.")
+    await request.app.state.quota.check(person.id)
     jobs = find_jobs(request)
     jobs.check_room("study")
     job = _find_job(request, name)
     if job is not None and job.is_under_way:
         raise StateError(f"Study {name} is {job.status} already: cancel it first.")
-    stored = await asyncio.to_thread(keep_study, name, study)
-    return describe_study(stored, jobs.start("study", study.title, run, stored))
+    stored = await asyncio.to_thread(keep_study, name, study, owner=person.id)
+    return describe_study(stored, jobs.start("study", study.title, run, stored, person.id))
 
 
 @router.get("/{study}")
 def read_study(request: Request, study: Study) -> StudyState:
     """A study, how much of it is done, and the job that works at it."""
     return describe_study(_open(study), _find_job(request, study))
+
+
+@router.delete("/{study}", status_code=204)
+async def delete_study(request: Request, study: Study) -> None:
+    """Delete a study with all its rows, for good; one that is being run is cancelled first.
+
+    Runs that were recorded of its rows stay.
+    """
+    stored = await asyncio.to_thread(_open, study)
+    job = _find_job(request, study)
+    if job is not None and job.is_under_way:
+        job.cancel()
+        if not await job.has_ended(LONGEST_END_S):
+            raise StateError(
+                f"Study {study} was cancelled, but rows of it are still being run after"
+                f" {LONGEST_END_S:g} s: delete it later."
+            )
+    await asyncio.to_thread(discard, stored)
 
 
 @router.get("/{study}/summary", responses=BUSY)
@@ -139,10 +184,13 @@ def download_rows(study: Study) -> FileResponse:
 
 
 @router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY)
-async def replay_row(work: Work, study: Study, row: Row) -> RowReplay:
+async def replay_row(
+    request: Request, person: NamedPerson, work: Work, study: Study, row: Row
+) -> RowReplay:
     """Run a row again as a recorded run, with every sample, to be seen in 3D."""
+    await request.app.state.quota.check(person.id)
     stored = await asyncio.to_thread(_open, study)
-    return RowReplay(**await work.run(replay, stored, row))
+    return RowReplay(**await work.run(replay, stored, row, person.id))
 
 
 def _open(name: str) -> StoredStudy:

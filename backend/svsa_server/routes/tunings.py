@@ -11,11 +11,12 @@ from svsa.control.installed import get_title, has_own_parameters
 from svsa.errors import StateError
 from svsa.run.configuration import Design, Lane
 from svsa_server.access.roles import Person
-from svsa_server.errors import UnknownError
-from svsa_server.jobs import Job
+from svsa_server.jobs.queue import Job
+from svsa_server.jobs.tunings import Asked, read_file, read_trials, search
+from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
-from svsa_server.routes.jobs import find_jobs
-from svsa_server.tuning_schemas import (
+from svsa_server.routes.jobs import find_jobs, list_visible
+from svsa_server.schemas.tuning import (
     AxisState,
     FirstTrial,
     TrainingRunState,
@@ -23,7 +24,6 @@ from svsa_server.tuning_schemas import (
     TuningRequest,
     TuningState,
 )
-from svsa_server.tunings import Asked, read_file, read_trials, search
 
 router = APIRouter(prefix="/tunings", tags=["tuning"], responses=REFUSALS)
 TuningId = Annotated[str, Path(description="Id of a tuning", examples=["3f2a9c01b7de"])]
@@ -31,9 +31,9 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 
 @router.get("")
-def list_tunings(request: Request) -> list[TuningState]:
-    """The last tunings of this server, the newest first, without what they tried."""
-    return [_build(tuning, None) for tuning in find_jobs(request).list_all("tuning")]
+def list_tunings(request: Request, person: NamedPerson) -> list[TuningState]:
+    """The last tunings, the newest first, without what they tried; in a class one's own."""
+    return [_build(tuning, None) for tuning in list_visible(request, person, "tuning")]
 
 
 @router.post("", status_code=201, responses=BUSY)
@@ -49,7 +49,8 @@ async def start_tuning(
     build_space(wanted.law, wanted.held)
     present = _find_present(request, person, wanted)
     asked = Asked(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
-    return _build(find_jobs(request).start("tuning", get_title(wanted.law), search, asked), 0)
+    title, jobs = get_title(wanted.law), find_jobs(request)
+    return _build(jobs.start("tuning", title, search, asked, person.id), 0)
 
 
 @router.get("/{tuning}")

@@ -23,6 +23,14 @@ export function formatNumber(value: number | null | undefined, digits = 3, most 
   return text.startsWith("-") && Number(unsigned) !== 0 ? MINUS + unsigned : unsigned;
 }
 
+const SMALL = 1e-3;
+
+/** An error with four decimals; a smaller one to two digits: none reads as zero, or as another. */
+export function formatError(value: number | null | undefined, digits = 3): string {
+  const isSmall = value !== null && value !== undefined && Math.abs(value) < SMALL;
+  return isSmall ? formatNumber(value, 2, 6) : formatNumber(value, digits, 4);
+}
+
 /** A number for an input field: short, with a plain minus sign, nothing lost that matters. */
 export function formatInput(value: number, digits = 5): string {
   return String(Number(value.toPrecision(digits)));

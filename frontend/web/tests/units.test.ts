@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import {
+  formatError,
   formatInput,
   formatLapse,
   formatNumber,
@@ -26,6 +27,16 @@ describe("units", () => {
     [Number.NaN, "–"],
   ])("writes %s as %s", (value, shown) => {
     expect(formatNumber(value)).toBe(shown);
+  });
+
+  it.each([
+    [0.00004, "0.000040"],
+    [0.00128, "0.0013"],
+    [12.083, "12.1"],
+    [0, "0.0"],
+    [null, "–"],
+  ])("writes an error of %s as %s: a small one does not read as none", (value, shown) => {
+    expect(formatError(value)).toBe(shown);
   });
 
   it("writes input fields short, with a plain minus", () => {

@@ -3,6 +3,7 @@
 from svsa.bench.file import BenchFile
 from svsa.bench.safety.guard import Guard
 from svsa.errors import StateError
+from svsa.loop.measured import Actuation
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
 from svsa.plant.effects import CurrentLag, Effects, Encoders, StateEstimation
@@ -51,6 +52,11 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
         stiffness=wanted.stiffness,
         loads=wanted.loads,
     )
+
+
+def read_actuation(bench: BenchFile) -> Actuation:
+    """From a torque that is decided to one that acts, as the bench's file has it."""
+    return Actuation(bench.timing.latency_s, bench.timing.current_lag_s)
 
 
 def check_takes_no_time(reference: Trajectory) -> None:

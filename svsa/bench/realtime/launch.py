@@ -33,6 +33,8 @@ Rest = Callable[[float], None]
 """Let so many seconds pass."""
 
 Teller = Callable[[str, float], None]
+COLD = (0.0, 0.0)
+"""The heat of both motors where nobody has run them."""
 
 
 def keep_quiet(step: str, seconds: float) -> None:
@@ -48,11 +50,19 @@ class BenchProcesses:
 
     `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or end. `events`:
     what the loop has said and nobody has read yet. `notes`: what real time was granted. `step`:
-    what the loop does until it is ready. `failure`: why it did not get ready, or None.
+    what the loop does until it is ready. `failure`: why it did not get ready, or None. heat: of
+    both motors as a loop before this one left them, see `Winding`.
     """
 
-    def __init__(self, bench: Path, configuration: Configuration, rest: Rest = time.sleep) -> None:
+    def __init__(
+        self,
+        bench: Path,
+        configuration: Configuration,
+        rest: Rest = time.sleep,
+        heat: tuple[float, float] = COLD,
+    ) -> None:
         self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
+        self.memory.fields["heat"] = heat
         self.events: list[dict[str, Any]] = []
         self.notes: list[str] = []
         self._rest = rest

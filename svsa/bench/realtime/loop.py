@@ -5,12 +5,13 @@ knows neither processes nor shared memory: a test or an experiment runs it in lo
 loop's process against the clock.
 """
 
+import math
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
 
-from svsa.bench.can_plant import CanPlant, Reading
-from svsa.bench.file import BenchFile
+from svsa.bench.reading import Reading
 from svsa.bench.safety.machine import BenchStatus
 from svsa.control.call import BoundLaw, build_call
 from svsa.control.installed import get_law
@@ -32,7 +33,34 @@ from svsa.signals import CHANNELS, Disturbance, Measurement, State, Torque
 
 STATUSES = tuple(BenchStatus)
 MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
+MOTION = ("known", "made", "before", "sent")
+"""Of what is carried (`Carried`): what the first tick of a run finds."""
+FARTHEST_RAD = 2.0 * math.pi
+"""Where a reference may be."""
 _NOTHING = pack(Carried())
+
+
+class Plant(Protocol):
+    """A plant that is read and written, in the states of a bench."""
+
+    @property
+    def status(self) -> BenchStatus:
+        """Where it is."""
+        ...
+
+    def start(self, now: float) -> None:
+        """RUN from the next tick on; raises `StateError`."""
+        ...
+
+    def read(self, now: float, known: State) -> Reading:
+        """What has come since the last tick. known: x̂ now."""
+        ...
+
+    def write(
+        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+    ) -> Torque:
+        """Send what may be sent of `asked`; returns the torque that was really sent, N·m."""
+        ...
 
 
 class SampleSink(Protocol):
@@ -58,18 +86,23 @@ class SampleSink(Protocol):
 class BenchLoop:
     """Controller and observer on a bench. `run` holds what is set; `tick` is one period.
 
-    plant: open. configuration: its references, law, gains and observer are used; see
+    plant: open. actuation: from a torque that is decided to one that acts. mu0: lever ratio at the
+    zero marks. configuration: its references, law, gains and observer are used; see
     `build_bench_configuration`.
     """
 
     def __init__(
-        self, plant: CanPlant, bench: BenchFile, configuration: Configuration, sink: SampleSink
+        self,
+        plant: Plant,
+        actuation: Actuation,
+        mu0: float,
+        configuration: Configuration,
+        sink: SampleSink,
     ) -> None:
         self.plant, self.sink = plant, sink
         self.number = 0
         self.reading: Reading | None = None
-        self._actuation = Actuation(bench.timing.latency_s, bench.timing.current_lag_s)
-        self._mu0 = bench.home.lever_ratio
+        self._actuation, self._mu0 = actuation, mu0
         self.run = Run(configuration, start=Start(self._mu0, AT_REST))
         self._scratch = np.empty(len(CHANNELS))
         self._carried = _NOTHING.copy()
@@ -93,7 +126,8 @@ class BenchLoop:
         if self.plant.status in MOVING:
             raise StateError("The bench is moving: stop it before another run is loaded.")
         x = State(*self._known.tolist())
-        self.run = Run(configuration, start=Start(self._mu0, x))
+        near = x if abs(x.q) <= FARTHEST_RAD else AT_REST
+        self.run = Run(configuration, start=Start(self._mu0, near))
 
     def start(self, now: float) -> Start:
         """Begin a run at tick 0 from where the bench stands; raises `StateError`.
@@ -103,8 +137,14 @@ class BenchLoop:
         """
         if self.plant.status is BenchStatus.READY and not self._is_known:
             raise StateError("The bench has not been read yet: arm it and wait until READY.")
-        self.plant.start(now)
         known = State(*self._known.tolist())
+        if self._is_known and abs(known.q) > FARTHEST_RAD:
+            raise StateError(
+                f"The link stands {known.q:.1f} rad from its mark, and a run begins at most"
+                f" {FARTHEST_RAD:.1f} rad from it: take off what hangs, press Quick stop, clear"
+                " the fault, set the bench to its marks, and arm it."
+            )
+        self.plant.start(now)
         still = known._replace(dq=0.0, dtheta1=0.0, dtheta2=0.0)
         start = Start(self._mu0, still)
         self.run = Run(self.run.configuration, start=start)
@@ -112,6 +152,16 @@ class BenchLoop:
         self.number += 1
         self.sink.begin_run(self.number)
         return start
+
+    def read_motion(self) -> dict[str, list[float]]:
+        """x̂ and the torques on their way, by the names in `MOTION`."""
+        return {name: view_field(self._carried, name).tolist() for name in MOTION}
+
+    def know(self, motion: Mapping[str, Sequence[float]]) -> None:
+        """Know the bench as `read_motion` told it, in place of a first measurement."""
+        for name in MOTION:
+            view_field(self._carried, name)[:] = motion[name]
+        self._is_known = True
 
     def change(self, command: Command) -> int:
         """Give the run a command now; returns the tick at which it holds.
@@ -132,12 +182,13 @@ class BenchLoop:
         """One period. now: time of the plant's clock, s. missed: ticks lost before it.
 
         A run's time goes on with that of the world: a tick that was missed has its number, and
-        no sample. Tick 0 is the first that a run has.
+        no sample. Tick 0 is the first that a run has, and finds the bench as `start` did.
         """
         plant = self.plant
-        if missed and self._is_known:
+        begins = not self.run.tick and plant.status in MOVING
+        if missed and self._is_known and not begins:
             pass_ticks(self._constants, self._carried, missed)
-        if missed and self.run.tick and plant.status in MOVING:
+        if missed and not begins and plant.status in MOVING:
             self.sink.skip(self.run.tick, missed)
             self.run.tick += missed
         reading = self.reading = plant.read(now, State(*self._expected.tolist()))

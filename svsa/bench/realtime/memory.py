@@ -23,11 +23,15 @@ _LAYOUT = np.dtype(
         ("end_tick", np.int64),
         ("ticks", np.int64),
         ("skipped", np.int64),
+        ("skipped_in_run", np.int64),
         ("status", np.int64),
         ("emulated", np.int64),
         ("quick_stop", np.int64),
         ("worst_s", np.float64),
         ("current_a", np.float64, 2),
+        ("heat", np.float64, 2),
+        ("allowed_nm", np.float64, 2),
+        ("is_held_back", np.int64, 2),
         ("ages_s", np.float64, 3),
         ("lateness", np.int64, len(LATENESS_EDGES_S)),
         ("cost", np.int64, len(LATENESS_EDGES_S)),
@@ -39,9 +43,11 @@ _LAYOUT = np.dtype(
 class LoopMemory:
     """A block of shared memory; `fields` are views of it by name, see `_LAYOUT`.
 
-    run: number of the present run. end_tick: its samples so far. ticks, skipped: of the loop
-    since its start. status: index of the bench's state. quick_stop: 1 asks for it. lateness,
-    cost: histograms over `LATENESS_EDGES_S` (upper edges).
+    run: number of the present run. end_tick: its samples so far. skipped_in_run: ticks that it
+    missed. ticks, skipped: of the loop since its start. status: index of the bench's state.
+    quick_stop: 1 asks for it. heat, allowed_nm, is_held_back: of both motors, see
+    `Winding`; the heat is at first that of a loop before this one.
+    lateness, cost: histograms over `LATENESS_EDGES_S` (upper edges).
     """
 
     def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:
@@ -63,9 +69,18 @@ class LoopMemory:
         """The block of that name, made by another process."""
         return cls(attach_block(name), owner=False)
 
+    @property
+    def number(self) -> int:
+        """Of the present run."""
+        return int(self.fields["run"])
+
+    def count(self, number: int) -> int:
+        """How many samples of run `number` there are; 0 where another has begun."""
+        return int(self.fields["end_tick"]) if number == self.number else 0
+
     def begin_run(self, number: int) -> None:
         """Samples from now on are those of this run, from tick 0."""
-        self.fields["end_tick"] = 0
+        self.fields["end_tick"] = self.fields["skipped_in_run"] = 0
         self.fields["run"] = number
 
     def get_row(self, tick: int) -> np.ndarray:
@@ -78,6 +93,7 @@ class LoopMemory:
 
     def skip(self, first: int, ticks: int) -> None:
         """These ticks, from tick `first` on, were missed: their rows are NaN."""
+        self.fields["skipped_in_run"] += ticks
         missed = first + np.arange(min(ticks, CAPACITY_TICKS))
         self._rows[missed % CAPACITY_TICKS] = np.nan
 

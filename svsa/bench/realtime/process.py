@@ -17,7 +17,7 @@ from svsa.bench.can_plant import CanPlant
 from svsa.bench.clock import BenchClock, ClockError
 from svsa.bench.file import read_bench
 from svsa.bench.paced_clock import choose_clock
-from svsa.bench.realtime.configuration import build_guard
+from svsa.bench.realtime.configuration import build_guard, read_actuation
 from svsa.bench.realtime.link import Link, LinkClosedError
 from svsa.bench.realtime.loop import MOVING, STATUSES, BenchLoop
 from svsa.bench.realtime.memory import LoopMemory, add_to_histogram
@@ -40,21 +40,25 @@ class LoopProcess:
     def __init__(
         self,
         loop: BenchLoop,
+        plant: CanPlant,
         clock: BenchClock,
         server_s: float,
         link: Link,
         memory: LoopMemory,
         beats: Heartbeats,
     ) -> None:
-        self._loop, self._plant, self._clock = loop, loop.plant, clock
+        self._loop, self._plant, self._clock = loop, plant, clock
         self._link: Link | None = link
         self._fields, self._beats, self._server_s = memory.fields, beats, server_s
         self._told: tuple[Any, ...] = ()
+        for motor, heat in zip(self._plant.motors, memory.fields["heat"], strict=True):
+            motor.winding.heat = float(heat)
         self._ending = False
 
     def run(self) -> None:
         """Tick until the server ends it, or is gone and the bench stands still."""
         period = self._loop.run.period_s
+        self._plant.catch_up()
         deadline = self._clock.now()
         while not (self._ending and self._plant.status not in MOVING):
             deadline += period
@@ -84,6 +88,10 @@ class LoopProcess:
         fields["skipped"] += missed
         fields["status"] = STATUSES.index(self._plant.status)
         fields["emulated"] = self._plant.emulated
+        for number, motor in enumerate(self._plant.motors):
+            fields["heat"][number] = motor.winding.heat
+            fields["allowed_nm"][number] = motor.winding.allow()
+            fields["is_held_back"][number] = motor.held_back is not None
         if self._loop.reading is not None:
             fields["current_a"] = self._loop.reading.current_a
             fields["ages_s"] = self._loop.reading.ages_s
@@ -131,7 +139,8 @@ class LoopProcess:
                 plant.arm(now)
             case "start":
                 start = loop.start(now)
-                return {"mu0": start.mu0, "x": start.x, "run": loop.number}
+                told = {"mu0": start.mu0, "x": start.x, "run": loop.number}
+                return told | {"motion": loop.read_motion()}
             case "stop":
                 plant.stop(now, argument)
             case "quick_stop":
@@ -150,13 +159,20 @@ class LoopProcess:
     def _tell(self) -> None:
         """Say what has changed of the bench's state."""
         plant = self._plant
-        state = (plant.status, plant.fault, tuple(plant.problems), plant.homing_step)
+        held_back = [motor.name for motor in plant.motors if motor.held_back is not None]
+        state = (
+            plant.status,
+            plant.fault,
+            tuple(plant.problems),
+            plant.homing_step,
+            tuple(held_back),
+        )
         if self._link is None or state == self._told:
             return
         self._told = state
         fault = dataclasses.asdict(plant.fault) if plant.fault else None
         status = {"status": plant.status, "fault": fault, "problems": list(plant.problems)}
-        status |= {"homing_step": plant.homing_step}
+        status |= {"homing_step": plant.homing_step, "held_back": held_back}
         try:
             self._link.send({"event": "state", **status})
         except LinkClosedError:
@@ -199,11 +215,17 @@ def main(arguments: list[str]) -> int:
         (first,) = link.receive(FIRST_MESSAGE_S)
         tell("loading the compiled loop")
         with watch_compilation(tell.count_function):
-            loop = BenchLoop(plant, bench, Configuration(**first["configuration"]), memory)
+            loop = BenchLoop(
+                plant,
+                read_actuation(bench),
+                bench.home.lever_ratio,
+                Configuration(**first["configuration"]),
+                memory,
+            )
             loop.warm_up()
         tell("asking for real time")
         link.send({"event": "ready", "notes": request_real_time(LOOP_PRIORITY)})
-        LoopProcess(loop, clock, bench.safety.server_s, link, memory, beats).run()
+        LoopProcess(loop, plant, clock, bench.safety.server_s, link, memory, beats).run()
     except LinkClosedError:
         pass
     except ClockError as error:

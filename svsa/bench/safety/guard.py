@@ -3,51 +3,55 @@
 import math
 
 from svsa.bench.axes import AXIS_WORDS
-from svsa.bench.drives.conversion import build_motor_scale
 from svsa.bench.file import BenchFile, MotorSettings
 from svsa.bench.safety.faults import Alarm
+from svsa.bench.safety.heat import HeldBack, HoldingBack, Winding, describe_held_back
 from svsa.bench.safety.standstill import NewCounts, Standstill
 from svsa.bench.safety.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.fault_labels import label_fault
 from svsa.model.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
 from svsa.model.dynamics import Actuator
-from svsa.model.exponential import expm1
 from svsa.packed import pack
 from svsa.signals import Disturbance, State, Torque
 
 POSITION_MARGIN_RAD = 0.2
-WARM = 0.9
 OVERLOAD = 1.05
 _STILL = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class MotorGuard:
-    """The limits of one motor. heat: I²t over what the winding bears, 1 is all of it.
+    """The limits of one motor.
 
-    Heat follows (I/I_nominal)² through the winding's time constant, with the current that was
-    asked for or, where it is greater, the one that the drive says it makes. From 0.9 to 1
-    the current allowed falls from the peak to the nominal one, at which heat stays at 1. A drive
-    that makes more all the same brings it above 1.05, which ends the run. last: sent, N·m.
+    Its winding is warmed by the current that was asked for or, where it is greater, the one that
+    the drive says it makes. A drive that makes more than heat allows brings it above 1.05, which
+    ends the run. last: sent, N·m.
     """
 
     def __init__(self, name: str, motor: MotorSettings, torque_max: float, rate: float) -> None:
-        scale = abs(build_motor_scale(motor).torque_per_ma) * 1000.0
-        self._name, self._title, self._motor = name, AXIS_WORDS[name].capitalize(), motor
-        self._most, self._peak = torque_max, motor.peak_current_a * scale
-        self._nominal = motor.nominal_current_a * scale
-        self._scale, self._rate = scale, rate
-        self.heat = 0.0
+        self.name, self._title, self._motor = name, AXIS_WORDS[name].capitalize(), motor
+        self._rate = rate
+        self.winding, self._holding = Winding(motor, torque_max), HoldingBack()
         self.last = 0.0
+
+    @property
+    def held_back(self) -> HeldBack | None:
+        """What heat takes of its torque, now or within the last half second; None for nothing."""
+        return self._holding.present
+
+    def begin(self) -> None:
+        """A new run begins; its heat is that of the runs before."""
+        self._holding.forget()
 
     def warm(self, current_a: float, seconds: float) -> None:
         """Heat after so long with what was sent last; current_a: as the drive says."""
-        share = (max(abs(self.last), abs(current_a) * self._scale) / self._nominal) ** 2
-        self.heat += -expm1(-seconds / self._motor.thermal_time_s) * (share - self.heat)
+        made = abs(current_a) * self.winding.scale
+        self.winding.warm(max(abs(self.last), made), seconds)
+        self._holding.pass_time(seconds)
 
     def limit(self, torque: float, angle: float, period: float) -> float:
         """The torque (N·m) that may be sent: limit, rate, heat, and no way out of its ends."""
-        room = min(max((1.0 - self.heat) / (1.0 - WARM), 0.0), 1.0)
-        most = min(self._most, self._nominal + room * (self._peak - self._nominal))
+        self._holding.note(self.winding.find_held_back(torque))
+        most = self.winding.allow()
         torque = min(max(torque, -most), most)
         step = self._rate * period
         torque = min(max(torque, self.last - step), self.last + step)
@@ -59,7 +63,7 @@ class MotorGuard:
 
     def check(self, angle: float, velocity: float) -> Alarm | None:
         """What is wrong with the motor, or None."""
-        name, motor = self._name, self._motor
+        name, motor = self.name, self._motor
         if abs(velocity) > motor.speed_max_rad_per_s:
             return _exceeded(
                 "overspeed",
@@ -78,10 +82,24 @@ class MotorGuard:
 
     def find_overload(self) -> Alarm | None:
         """Whether the winding is warmer than any torque that was asked for makes it."""
-        if self.heat <= OVERLOAD:
+        heat = self.winding.heat
+        if heat <= OVERLOAD:
             return None
         words = f"{self._title} is too warm: its heat (I²t, 1 is what its winding bears) was"
-        return _exceeded("overload", words, f"{self._name}_heat", self.heat, OVERLOAD, "")
+        return _exceeded("overload", words, f"{self.name}_heat", heat, OVERLOAD, "")
+
+    def explain(self, alarm: Alarm) -> Alarm:
+        """An alarm that came while heat held the motor back says so first."""
+        held = self.held_back
+        if held is None:
+            return alarm
+        values = {
+            f"{self.name}_heat": self.winding.heat,
+            f"{self.name}_asked_nm": held.asked_nm,
+            f"{self.name}_held_to_nm": held.allowed_nm,
+        }
+        words = describe_held_back(self.name, held, self.winding)
+        return Alarm(alarm.code, f"{words} {alarm.message}", {**alarm.values, **values})
 
 
 class Guard:
@@ -138,20 +156,21 @@ class Guard:
         """Why the run ends, or None. known: x̂. estimate: ŵ, N·m."""
         if not math.isfinite(asked.u1 + asked.u2 + sum(known) + sum(estimate)):
             return Alarm("not_finite", "A torque or a state was not a finite number.", {})
-        alarm = self.motor1.check(known.theta1, known.dtheta1) or self.motor2.check(
-            known.theta2, known.dtheta2
-        )
-        return (
-            alarm
+        alarm = (
+            self.motor1.check(known.theta1, known.dtheta1)
+            or self.motor2.check(known.theta2, known.dtheta2)
             or self._check_link(known)
             or self._check_estimate(estimate)
             or self._standstill.check(self.counts, estimate)
             or self._check_vibration(known)
         )
+        return alarm and self.motor1.explain(self.motor2.explain(alarm))
 
     def begin(self) -> None:
         """A new run begins."""
         self._standstill.reset()
+        for motor in self.motors:
+            motor.begin()
         for vibration in self._vibrations:
             vibration.reset()
 

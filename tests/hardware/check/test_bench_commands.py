@@ -38,6 +38,7 @@ def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_
     assert "deflection.sign is not given" in " ".join(result.output.split())
 
 
+@pytest.mark.exhaustive
 @pytest.mark.wall_clock
 def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
     """A rig in its own process, python-can in between: the record is written, all is left off."""

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import cantools
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import svsa
@@ -79,7 +79,6 @@ def test_modes_and_stall_protection_are_named():
     assert str(error["code"]) == "stall_protection"
 
 
-@settings(deadline=None)
 @given(data=st.data(), width=st.sampled_from([16, 24, 32]), flags=st.tuples(*[st.booleans()] * 3))
 def test_the_encoder_lies_where_the_bench_says(data, width, flags):
     big_endian, signed, extended = flags

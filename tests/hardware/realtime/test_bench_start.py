@@ -12,7 +12,7 @@ from svsa.bench.realtime.launch import BenchError, BenchProcesses
 from svsa.bench.realtime.link import LinkClosedError
 from svsa.compilation import watch_compilation
 from svsa.paper import get_figure
-from svsa_server.bench_start import show_steps
+from svsa_server.sessions.bench_start import show_steps
 
 
 class ScriptedLink:

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from svsa.bench.realtime.configuration import build_bench_configuration
+from svsa.bench.realtime.configuration import build_bench_configuration, read_actuation
 from svsa.bench.realtime.loop import BenchLoop
+from svsa.bench.realtime.sample_array import SampleArray
 from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
 from svsa.paper import get_figure
-from svsa.result.bench_run import SampleArray
 from svsa.signals import State
 from tests.hardware.wired_bench import WiredBench
 
@@ -20,7 +20,9 @@ def begin(bench: WiredBench) -> BenchLoop:
     """The bench's own loop on Figure 4A, at tick 0."""
     wanted = get_figure("4a").build_configuration(load=False)
     configuration = build_bench_configuration(bench.bench, wanted)
-    loop = BenchLoop(bench.plant, bench.bench, configuration, SampleArray(MOVING_TICKS + 100))
+    actuation, mu0 = read_actuation(bench.bench), bench.bench.home.lever_ratio
+    sink = SampleArray(MOVING_TICKS + 100)
+    loop = BenchLoop(bench.plant, actuation, mu0, configuration, sink)
     bench.plant.arm(bench.now)
     while bench.plant.status is not BenchStatus.READY:
         bench.drive(loop)
@@ -109,6 +111,21 @@ def test_in_a_fault_it_says_so_and_not_that_it_was_not_read_yet() -> None:
         bench.drive(loop, 100)
         with pytest.raises(StateError, match="The bench is fault"):
             loop.start(bench.now)
+
+
+def test_a_link_that_a_load_has_turned_away_begins_no_run() -> None:
+    """Where nobody takes it off after a stop it goes on turning; the motors get no torque."""
+    with WiredBench() as bench:
+        loop = begin(bench)
+        bench.drive(loop, 10)
+        bench.plant.stop(bench.now, "a test")
+        while bench.plant.status is not BenchStatus.READY:
+            bench.drive(loop)
+        loop._known[0] = 21.0
+        with pytest.raises(StateError, match=r"21\.0 rad from its mark.*take off what hangs"):
+            loop.start(bench.now)
+        loop.load(loop.run.configuration)
+        assert bench.plant.status is BenchStatus.READY
 
 
 LATE_TICKS = 60

@@ -71,7 +71,7 @@ def test_a_warm_motor_is_held_to_its_nominal_current() -> None:
     assert sent[1].u2 == -5.0, "cold, it has the peak"
     assert sent[-1].u2 == pytest.approx(-nominal, rel=0.01)
     assert max(abs(step) for step in falling) < 0.1, "no switching to and fro"
-    assert guard.motor2.heat <= 1.0
+    assert guard.motor2.winding.heat <= 1.0
     for _ in range(60_000):
         guard.note(Torque(0.0, 0.0), CALM)
     assert guard.limit(FULL, AT_REST).u2 == -5.0, "rested, it has the peak again"
@@ -97,8 +97,8 @@ def test_heat_counts_the_time_that_has_really_passed() -> None:
         late.note(PEAK, CALM)
     for _ in range(3000):
         punctual.note(PEAK, CALM)
-    assert punctual.motor2.heat > 1.0
-    assert late.motor2.heat == pytest.approx(punctual.motor2.heat, rel=0.01)
+    assert punctual.motor2.winding.heat > 1.0
+    assert late.motor2.winding.heat == pytest.approx(punctual.motor2.winding.heat, rel=0.01)
 
 
 def test_a_drive_that_the_supervisor_has_stopped_is_warmed_no_longer() -> None:
@@ -106,7 +106,7 @@ def test_a_drive_that_the_supervisor_has_stopped_is_warmed_no_longer() -> None:
     guard = build()
     guard.note(PEAK, CALM)
     guard.pass_ticks(60_000, 0.02, CALM)
-    assert guard.motor2.heat < 0.02
+    assert guard.motor2.winding.heat < 0.02
     assert guard.motor2.last == 0.0
 
 

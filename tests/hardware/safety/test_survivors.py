@@ -13,6 +13,7 @@ import pytest
 
 from svsa.bench.file import read_bench
 from svsa.rig.launch import RunningRig, start_rig
+from tests.exhaustive import exhaust
 from tests.hardware.live_bench import write_bench
 from tests.hardware.wired_bench import RIG_BENCH
 
@@ -33,6 +34,9 @@ CASES = [
     (STOP, ("server",), ()),
     (STOP, ("loop", "supervisor"), ("loop_and_supervisor_lost",)),
 ]
+SHOWN = [case for case in CASES if case[:2] in ((KILL, ("server",)), (KILL, ("loop", "server")))]
+"""A loop that is left with its supervisor, and a supervisor alone; a server alone is shown by
+`test_bench_loss`."""
 
 _SAFETY = read_bench(RIG_BENCH).safety
 WAITS = {name: getattr(_SAFETY, name) for name in ("loop_s", "supervisor_s", "server_s")}
@@ -46,17 +50,14 @@ def rig() -> Iterator[RunningRig]:
 
 
 @pytest.mark.parametrize(
-    ("number", "victims", "codes"),
-    CASES,
-    ids=[f"{number.name}-{'-'.join(victims)}" for number, victims, _ in CASES],
+    "case", exhaust(CASES, SHOWN), ids=lambda case: f"{case[0].name}-{'-'.join(case[1])}"
 )
 def test_whoever_is_left_stops_the_drives(
     rig: RunningRig,
     tmp_path: Path,
-    number: signal.Signals,
-    victims: tuple[str, ...],
-    codes: tuple[str, ...],
+    case: tuple[signal.Signals, tuple[str, ...], tuple[str, ...]],
 ) -> None:
+    number, victims, codes = case
     bench = write_bench(tmp_path, rig, lockstep=False, **WAITS)
     outcome = measure(rig, bench, victims, number, codes)
     what = f"{number.name} {' + '.join(victims)}"

@@ -14,7 +14,7 @@ from svsa.records.catalogue.entry import SORTS
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.header import BranchPoint, read_header, write_header
 from svsa.run.configuration import Lane
-from svsa_server.recording import open_catalogue
+from svsa_server.sessions.recording import open_catalogue
 from tests.records.records import Command, add, list_ids, wait_until
 
 OLDER = """

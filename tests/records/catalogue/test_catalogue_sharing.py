@@ -30,6 +30,7 @@ def work(folder: str, first: int, failures: "multiprocessing.Queue[str]") -> Non
         raise
 
 
+@pytest.mark.long
 def test_two_processes_and_many_threads_share_a_folder(catalogue: Catalogue) -> None:
     context = multiprocessing.get_context("spawn")
     failures = context.Queue()

@@ -2,13 +2,23 @@
 
 import asyncio
 import json
+import time
 from collections import Counter
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
+from svsa.paper import get_figure
+from svsa.session.simulated import SimulatedSession
 from svsa_server.access import audit
-from svsa_server.quota import DiskQuota
+from svsa_server.control.hand import Holder
+from svsa_server.control.queue import ControlQueue
+from svsa_server.sessions.control_log import note_settled
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.quota import DiskQuota
 from tests.server.access.classroom import SHARED, read_kind, read_person, run_class
+
+ADA, BOB, EVE = Holder("p-1", "Ada"), Holder("p-2", "Bob"), Holder("p-3", "Eve")
 
 
 def test_what_changed_something_is_written_down_without_a_secret(tmp_path: Path) -> None:
@@ -41,6 +51,43 @@ def test_what_changed_something_is_written_down_without_a_secret(tmp_path: Path)
     assert stepped["time"].endswith("+00:00")
     for secret in (room.told.code, room.told.instructor_token, token):
         assert secret not in text
+
+
+def test_control_that_goes_on_by_itself_is_written_down_with_why_and_tick(tmp_path: Path) -> None:
+    session = SimulatedSession("lab", get_figure("4a").build_configuration())
+    log = audit.AuditLog(tmp_path)
+    hand = ControlQueue("lab", lambda client: client == "instructor", 90.0)
+    hosted = HostedSession(session, hand=hand, note_settled=partial(note_settled, log))
+    begin = time.monotonic()
+    for person in (ADA, BOB, EVE):
+        hosted.take_control(person, False)
+    session.step(7)
+    for later, here in ((91.0, (ADA, BOB, EVE)), (107.0, (BOB,)), (200.0, ())):
+        for person in here:
+            hand.hear(person.client, begin + later)
+        hosted.free_hand_if_left(begin + later, 15.0)
+    log.close()
+    text = (tmp_path / audit.FILE).read_text(encoding="utf-8")
+    lines = [json.loads(line) for line in text.splitlines()]
+    assert [(one["why"], one["name"], one["in_control"]) for one in lines] == [
+        ("idle", "Ada", "p-2"),
+        ("gone_from_queue", "Eve", "p-2"),
+        ("gone", "Bob", None),
+    ]
+    assert {(one["event"], one["session"], one["tick"]) for one in lines} == {("control", "lab", 7)}
+
+
+def test_a_class_writes_down_who_was_idle(tmp_path: Path) -> None:
+    with run_class(tmp_path, idle_operator_s="1", control_s="1000") as room:
+        ada, bob = room.join("Ada"), room.join("Bob")
+        for one in (ada, bob):
+            one.put(SHARED + "/control", json={"by": "x"}).raise_for_status()
+        while not bob.get(SHARED).json()["control"]["mine"]:
+            time.sleep(0.05)
+        ids = [read_person(one)["id"] for one in (ada, bob)]
+    last = json.loads((tmp_path / audit.FILE).read_text(encoding="utf-8").splitlines()[-1])
+    assert [last[name] for name in ("why", "person", "in_control")] == ["idle", *ids]
+    assert last["tick"] >= 0
 
 
 def test_who_has_no_room_left_records_nothing(tmp_path: Path) -> None:

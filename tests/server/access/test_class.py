@@ -108,6 +108,7 @@ def test_a_stranger_is_told_to_join_and_may_only_stop(classroom: Classroom) -> N
         "id": "",
         "name": "",
         "role": None,
+        "removed": False,
     }
     refused = stranger.get(SHARED)
     assert (refused.status_code, read_kind(refused)) == (401, "join_needed")

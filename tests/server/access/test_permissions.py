@@ -12,6 +12,7 @@ from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.doors import ClassDoor
 from svsa_server.access.guard import AccessGuard
+from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.permissions import (
     INSTRUCTOR_ONLY,
@@ -22,7 +23,7 @@ from svsa_server.access.permissions import (
 )
 from svsa_server.access.roles import INSTRUCTOR, Person, Role
 from svsa_server.app import build_app
-from svsa_server.viser_proxy import ViserProxy
+from svsa_server.scene.viser_proxy import ViserProxy
 
 
 async def find_no_port(name: str) -> int:
@@ -143,8 +144,12 @@ def test_each_route_and_websocket_lets_in_who_may_and_nobody_else(
     tmp_path: Path, role: Role | None
 ) -> None:
     keys, _ = ClassKeys.open(tmp_path)
-    guard = AccessGuard(answer, ClassDoor(keys, People()), frozenset(), see_all)  # type: ignore[arg-type]
+    members = Memberships(tmp_path / "members.sqlite")
+    door = ClassDoor(keys, People(), members)
+    guard = AccessGuard(answer, door, frozenset(), see_all)  # type: ignore[arg-type]
     person = PEOPLE[role]
+    if person is not None:
+        members.keep(Membership(person))
     cookie = keys.sign(person) if person else ""
 
     def expect(permission: Permission) -> int:

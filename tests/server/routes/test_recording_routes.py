@@ -79,9 +79,11 @@ def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
 
 def test_what_cannot_be_done_while_recording_is_told(lab: Lab) -> None:
     lab.client.post(lab.session + "/recording", json={}).raise_for_status()
+    before = lab.client.get("/api/v1/runs").json()["total"]
     again = lab.client.post(lab.session + "/recording", json={})
     assert again.status_code == 409
     assert "already" in again.json()["detail"]
+    assert lab.client.get("/api/v1/runs").json()["total"] == before, "no empty run is left"
     lanes = lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
     assert lanes.status_code == 409
     assert "recording" in lanes.json()["detail"]

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+import svsa
 from tests.lab import Lab
 
 UNSTABLE = {"position_poles_rad_per_s": [-60, -60, [5, 30], [5, -30]]}
@@ -42,6 +43,31 @@ def test_the_response_is_that_of_the_poles_that_are_tried(lab: Lab) -> None:
     magnitude = slower["disturbance"]["magnitude_rad_per_nm"]
     assert max(magnitude) > max(present["disturbance"]["magnitude_rad_per_nm"])
     assert len(magnitude) == len(slower["disturbance"]["frequency_hz"])
+
+
+def test_a_response_says_that_on_the_rig_the_loop_is_unstable(lab: Lab) -> None:
+    """β 400 settles without counts and delay, where its curves are best; 249 is the most there."""
+    lab.load_figure(law="ndobc")
+    fast = {"observer": {"bandwidth_rad_per_s": [400.0] * 3}}
+    present, found = ask(lab, "response"), ask(lab, "response", **fast)
+    assert found["load"]["fault"] is None
+    magnitudes = [one["disturbance"]["magnitude_rad_per_nm"] for one in (present, found)]
+    assert max(magnitudes[1]) < 0.6 * max(magnitudes[0])
+    assert present["encoders"] == found["encoders"] == "rig"
+    assert present["largest_pole"] < 1.0 < found["largest_pole"]
+    assert found["largest_pole"] == pytest.approx(
+        ask(lab, "stability", **fast)["largest_pole"], rel=1e-12
+    )
+
+
+def test_a_session_with_encoders_is_told_of_its_own_loop(lab: Lab) -> None:
+    lab.load_figure(law="ndobc")
+    rig = svsa.RIG.model_dump(mode="json")
+    lab.client.put(f"{lab.session}/effects", json=rig).raise_for_status()
+    found = ask(lab, "response", observer={"bandwidth_rad_per_s": [400.0] * 3})
+    assert found["encoders"] == "session"
+    assert found["disturbance"] is None
+    assert found["largest_pole"] > 1.0
 
 
 def test_poles_right_of_the_axis_are_shown_to_fail(lab: Lab) -> None:

@@ -8,9 +8,10 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from svsa.study.metrics import METRICS
 from svsa.study.store import find_missing, open_study, read_rows
 from svsa.study.summary import summarize_laws
-from svsa_server.study_rows import thin_out
+from svsa_server.jobs.study_rows import thin_out
 from tests.lab_in_process import run_lab_in_process
 
 STUDIES = "/api/v1/studies"
@@ -100,6 +101,24 @@ def test_a_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, whol
     assert 0 < sum(ended) < 48
     file = lab.get(f"{STUDIES}/whole/rows.parquet")
     assert file.content == (open_study("whole").folder / "rows.parquet").read_bytes()
+
+
+def test_a_study_asked_for_some_metrics_keeps_those(lab):
+    offered = lab.get(STUDIES).json()["metrics"]
+    assert {"name": "effort_n2m2_s", "label": "effort", "unit": "N²·m²·s"} in offered
+    assert [one["name"] for one in offered] == [*METRICS]
+    kept = ["peak_torque1_nm", "limit_share"]
+    few = run_study(lab, name="few", runs=4, metrics=kept, success={"limit_share": 0.5})
+    assert [one["name"] for one in few["columns"] if one["role"] == "metric"] == kept
+    told = [(one["label"], one["unit"]) for one in few["columns"] if one["role"] == "varied"]
+    assert told == [("Load on the link", "N·m"), ("Effects", "")]
+    assert [*lab.get(f"{STUDIES}/few/summary").json()["laws"][0]["quantiles"]] == kept
+    row = lab.get(f"{STUDIES}/few/rows/0").json()
+    assert {name for name in row if name in METRICS} == {*kept}
+    wrong = lab.post(f"{STUDIES}/check", json={"text": 'metrics = ["energy"]\n' + TEXT})
+    assert wrong.status_code == 422
+    for told in ("line 1", "metrics[0] is 'energy'", "effort_n2m2_s"):
+        assert told in wrong.json()["detail"]
 
 
 def test_of_many_rows_some_draws_come_each_under_every_law(lab, whole):

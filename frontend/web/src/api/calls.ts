@@ -16,8 +16,9 @@ export interface Call {
 const MAX_CALLS = 200;
 /** What carries a secret of the lab is shown nowhere. */
 const SECRET_PATHS = ["login", "join"];
-/** What is only looked at, at every key that is pressed. */
+/** What is only looked at, at every key that is pressed: where its path begins, or ends. */
 const LOOKED_AT = "references/";
+const FORETOLD = "/bench/endurance";
 
 export const calls = signal<readonly Call[]>([]);
 let lastId = 0;
@@ -36,6 +37,7 @@ export function noteCall(
   answer: unknown = null,
 ): number | null {
   if (method === "get" || SECRET_PATHS.includes(path) || path.startsWith(LOOKED_AT)) return null;
+  if (path.endsWith(FORETOLD)) return null;
   return addCall({ method, path, body, status, timeS: readTime(answer) });
 }
 

@@ -1,8 +1,8 @@
 /** The public REST API, one function a call. The page has no other door to the server. */
-import { UnansweredError } from "./errors";
+import { ChangedError, RefusedError, UnansweredError } from "./errors";
 import { client } from "./identity";
 import { learnOutcome } from "./outcome";
-import { API, request, sessionName } from "./request";
+import { API, LONGEST_WAIT_MS, request, sessionName } from "./request";
 import type {
   Axis,
   Body,
@@ -25,9 +25,45 @@ import type {
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
 const LONGEST_STOP_MS = 1500;
 
+const SETTINGS =
+  /^\/(position|stiffness|law|gains|parameters|observer|actuator|nominal|effects|lanes)(\/|$)/;
+const takesRevision = (method: Method, path: string): boolean =>
+  (method === "put" || method === "patch") && SETTINGS.test(path);
+
+let seen: string | null = null;
+
+/** What this page has set last, by the path below the session, as the server answered. */
+const set = new Map<string, SessionState>();
+export const lastSet = (path: string): SessionState | null => set.get(path) ?? null;
+
+/** The revision of the state that the next setting was chosen for; another refuses it. */
+export function expectRevision(revision: string | null): void {
+  seen = revision;
+}
+
+async function sendSetting(method: Method, path: string, body: unknown): Promise<SessionState> {
+  const match = seen === null ? {} : { "If-Match": `"${seen}"` };
+  try {
+    const state = (await request(
+      method,
+      SESSION + path,
+      body,
+      LONGEST_WAIT_MS,
+      match,
+    )) as SessionState;
+    seen = state.revision;
+    set.set(path, state);
+    return state;
+  } catch (error) {
+    const isOld = error instanceof RefusedError && error.status === 412;
+    throw isOld ? new ChangedError(error.message, path) : error;
+  }
+}
+
 /** Where no answer comes, the server is asked what became of it, and for its state. */
 async function send(method: Method, path: string, body?: unknown): Promise<SessionState> {
   try {
+    if (takesRevision(method, path)) return await sendSetting(method, path, body);
     return (await request(method, SESSION + path, body)) as SessionState;
   } catch (error) {
     if (!(error instanceof UnansweredError) || error.request === null) throw error;
@@ -49,6 +85,9 @@ export const putPosition = (reference: Sent<PositionReference>) =>
   call("put", "/position", reference);
 export const putStiffness = (reference: Sent<StiffnessReference>) =>
   call("put", "/stiffness", reference);
+/** Begins the one that is followed again, faded over. */
+export const repeatPosition = () => call("post", "/position/repeat");
+export const repeatStiffness = () => call("post", "/stiffness/repeat");
 /** rivals: laws of the lanes beside, from the first on; those left out keep theirs. */
 export const putLaw = (law: Law, rivals: readonly Law[]) =>
   call("put", "/law", rivals.length === 0 ? { law } : { law, rival_laws: [...rivals] });

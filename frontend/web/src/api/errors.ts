@@ -14,6 +14,18 @@ export class RefusedError extends Error {
   }
 }
 
+/** Somebody has changed the session since its revision was read (HTTP 412); nothing was set. */
+export class ChangedError extends RefusedError {
+  constructor(
+    message: string,
+    /** What was to be set: a path below the session, such as "/position". */
+    readonly path: string,
+  ) {
+    super(412, message);
+    this.name = "ChangedError";
+  }
+}
+
 /** The server asks for the shared secret (HTTP 401). */
 export class LockedError extends RefusedError {
   constructor(message: string) {

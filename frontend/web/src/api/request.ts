@@ -12,7 +12,7 @@ export const isPrivate = sessionName !== SHARED;
 const CLIENT_HEADER = "SVSA-Client";
 /** What the server knows a changing request by, should its answer be lost. */
 const REQUEST_HEADER = "SVSA-Request";
-const LONGEST_WAIT_MS = 6000;
+export const LONGEST_WAIT_MS = 6000;
 
 export async function request(
   method: Method,
@@ -43,10 +43,18 @@ export async function request(
   }
   noteCall(method, path, body, response.status, answer);
   if (response.ok) return answer;
+  throw buildRefusal(response, answer);
+}
+
+/** Why the server did not answer with what was asked for. */
+export const readRefusal = async (response: Response): Promise<Error> =>
+  buildRefusal(response, parse(await response.text()));
+
+function buildRefusal(response: Response, answer: unknown): Error {
   const refusal = answer as Partial<Refusal> | null;
   const message = refusal?.detail ?? `${response.status} ${response.statusText}`;
-  if (response.status === 401) throw new LockedError(message);
-  throw new RefusedError(response.status, message, refusal?.violations ?? []);
+  if (response.status === 401) return new LockedError(message);
+  return new RefusedError(response.status, message, refusal?.violations ?? []);
 }
 
 function parse(text: string): unknown {

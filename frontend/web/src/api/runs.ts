@@ -1,5 +1,5 @@
 /** The public REST API of the recorded runs, one function a call. */
-import { API, request, sessionName } from "./request";
+import { API, readRefusal, request, sessionName } from "./request";
 import type {
   ExportName,
   RunDetails,
@@ -9,10 +9,13 @@ import type {
   RunPatch,
   RunSamples,
   RunSummary,
+  RunVerdict,
   SessionState,
+  VerdictRequest,
 } from "./types";
 
 const LONG_WAIT_MS = 60_000;
+const LONGEST_MAKING_MS = 300_000;
 
 export interface RunsWanted {
   search: string;
@@ -51,6 +54,9 @@ export function readDifference(run: string, others: readonly string[]): Promise<
   return request("get", pathOf(run, `/difference?${query}`)) as Promise<RunDifference>;
 }
 
+export const judgeRun = (run: string, wanted: VerdictRequest) =>
+  request("post", pathOf(run, "/verdict"), wanted, LONG_WAIT_MS) as Promise<RunVerdict>;
+
 export const branchRun = (run: string, tick: number) =>
   request("post", pathOf(run, "/branch"), { tick }, LONG_WAIT_MS) as Promise<SessionState>;
 
@@ -74,6 +80,16 @@ export const readOrigin = () =>
 
 export const exportPath = (run: string, kind: ExportName | "html"): string =>
   pathOf(run, kind === "html" ? "/replay.html" : `/export?kind=${kind}`);
+/** What an export holds, once the server has made it; what takes minutes has not been made. */
+export async function fetchFile(path: string): Promise<{ name: string; content: Blob }> {
+  const answer = await fetch(addressOf(path), { signal: AbortSignal.timeout(LONGEST_MAKING_MS) });
+  if (!answer.ok) throw await readRefusal(answer);
+  const named = answer.headers.get("Content-Disposition") ?? "";
+  const name = /filename="?([^";]+)"?/.exec(named)?.[1] ?? "replay.html";
+  return { name, content: await answer.blob() };
+}
 export const addressOf = (path: string): string => String(new URL(path, API));
-export const replayAddress = (run: string, timeS: number): string =>
-  addressOf(pathOf(run, timeS > 0 ? `/replay?t=${timeS}` : "/replay"));
+export const replayAddress = (run: string): string => addressOf(pathOf(run, "/replay"));
+/** Where a replay stands when it opens, s after its first sample. */
+export const atMoment = (replay: string, timeS: number): string =>
+  timeS > 0 ? `${replay}?t=${timeS}` : replay;

@@ -160,9 +160,50 @@ export interface paths {
          * Join
          * @description Join the class with a name and its code; a cookie says from then on who one is.
          *
-         *     A name that somebody here has already gets a number.
+         *     A name that somebody here has already gets a number. `return_code` is told once: by it one comes
+         *     back as the same person from any browser.
          */
         post: operations["join"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/return": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Come Back
+         * @description Come back as who one was, with one's runs and exercises, by the code that joining told.
+         */
+        post: operations["come_back"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/return-code": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Renew Return Code
+         * @description A new return code, told once; the one before lets nobody back in any more.
+         */
+        post: operations["renew_return_code"];
         delete?: never;
         options?: never;
         head?: never;
@@ -231,6 +272,49 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/class/people/{person}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Remove Person
+         * @description Remove a person at once: what they carry is worth nothing, and control and place are free.
+         *
+         *     What they made stays. Whoever knows the class code may join again as somebody else:
+         *     `POST /class/code` makes a new one.
+         */
+        delete: operations["remove_person"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/class/people/{person}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Person
+         * @description Let a person in again who was removed: what they carry is as good as before.
+         */
+        post: operations["restore_person"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/class/code": {
         parameters: {
             query?: never;
@@ -265,6 +349,29 @@ export interface paths {
          * @description Give every private session law, gains, observer and references of the shared session.
          */
         post: operations["broadcast"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/class/audit": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Audit Log
+         * @description Who did what, where and at which tick, done or refused, the newest first.
+         *
+         *     person: an id. kind: one of `kinds`. until: of the first page, so that the next ones go on from
+         *     it while more is done.
+         */
+        get: operations["read_audit_log"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -475,7 +582,7 @@ export interface paths {
         put?: never;
         /**
          * Load Experiment
-         * @description Start one of the paper's figures from t = 0, with its load at 5 s unless told not to.
+         * @description Begin one of the paper's figures at t = 0, with its load at 5 s unless told not to.
          *
          *     What is set comes from the figure; lanes and effects from the request. A bench has its own.
          */
@@ -497,7 +604,7 @@ export interface paths {
          * Describe
          * @description Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a plain GET is answered with 426.
          *
-         *     Text messages are JSON, told apart by `type`: `hello` first, `state` after every change, and with the fields that move by themselves five times a second in the first seconds of a window and once a second later, `error` before the stream is closed for a wrong address. Their schema is that of the answer 101.
+         *     Text messages are JSON, told apart by `type`: `hello` first, `state` after every change, and with the fields that move by themselves five times a second in the first seconds of a window and once a second later, `error` before the stream is closed for a wrong address. Their schema is that of the answer 101. What is over is told once: a `state` has events, windows and stretches that have ended from its `since_tick` on, and those before stay as they were told.
          *
          *     Binary messages are batches of samples, about 30 a second, little-endian: a header of 32 bytes,
          *
@@ -682,6 +789,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/bench/endurance": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Foretell Heat
+         * @description The motor that is too warm for this load within 30 s, and when; null where neither is.
+         *
+         *     As the bench is set now, beside the loads that are on; worked out on its simulated twin with the
+         *     motors cold. Nothing is changed.
+         */
+        post: operations["foretell_heat"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/position": {
         parameters: {
             query?: never;
@@ -702,6 +832,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions/{session}/position/repeat": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Repeat Position
+         * @description Begin the present position reference again, faded over as another one would be.
+         */
+        post: operations["repeat_position"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session}/stiffness": {
         parameters: {
             query?: never;
@@ -716,6 +866,26 @@ export interface paths {
          */
         put: operations["set_stiffness"];
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/stiffness/repeat": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Repeat Stiffness
+         * @description Begin the present stiffness reference again, faded over as another one would be.
+         */
+        post: operations["repeat_stiffness"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1140,6 +1310,283 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/course": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Course
+         * @description The exercises, and how far one is in each.
+         */
+        get: operations["read_course"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/course/{exercise}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Exercise
+         * @description An exercise with the text of its steps, and one's own progress in it.
+         */
+        get: operations["read_exercise"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/course/{exercise}/place": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Visit
+         * @description Where one is, for another browser; what is only read before it has been read.
+         */
+        put: operations["visit"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/course/{exercise}/steps/{step}/answer": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Answer
+         * @description Keep a prediction, until the run that judges it is set up; or choose an answer, once.
+         */
+        put: operations["answer"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session}/exercise": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Set Up
+         * @description Set a session as an experiment asks, at t = 0 and paused; its predictions are kept now.
+         *
+         *     A bench has plant, effects and limits of its own: it gets law, references, loads, gains and
+         *     observer. Refused where a prediction is missing, and on a bench that moves, or for a step that
+         *     is simulated and nothing else.
+         */
+        post: operations["set_up"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/course/{exercise}/steps/{step}/check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check
+         * @description Judge a recorded run of one's own, and with it the predictions; the best one is kept.
+         */
+        post: operations["check"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/course/{exercise}/law": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Try Law
+         * @description Try a law in a process of its own on a scenario that everybody may see, and keep it.
+         *
+         *     The one that was kept last is handed in. It is kept also where it fails, or where this machine
+         *     cannot isolate it and leaves it untried.
+         */
+        put: operations["try_law"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/course/{exercise}/hand-in": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Hand In
+         * @description Hand in what is kept of an exercise, once; it is judged from its runs, and stands in a file.
+         *
+         *     Refused while a step is not done, and while a law is missing that belongs to it.
+         */
+        post: operations["hand_in"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/grades": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Grades
+         * @description Who handed in what, its points by criterion, and why something has no grade.
+         */
+        get: operations["read_grades"];
+        put?: never;
+        /**
+         * Grade Class
+         * @description Grade what was handed in and has no grade, or all of it again: a job.
+         *
+         *     Runs are simulated again from their records, laws run in isolation on draws of the class's
+         *     secret and the submission: graded again, a submission has the grade that it had. Where nothing
+         *     isolates, a law gets no grade, and the table says why.
+         */
+        post: operations["grade_class"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/grades/class.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Grades
+         * @description All grades, a line each, with a column for every criterion.
+         */
+        get: operations["download_grades"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/grades/class.html": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Grades
+         * @description The same as a page to be read or printed, of the class or of one student.
+         */
+        get: operations["show_grades"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/grades/mine": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Own Grades
+         * @description What one handed in oneself, with points and reasons.
+         */
+        get: operations["read_own_grades"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/grades/mine.html": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Own Grades
+         * @description The same as a page.
+         */
+        get: operations["show_own_grades"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/references/csv": {
         parameters: {
             query?: never;
@@ -1380,6 +1827,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run_id}/verdict": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Judge Run
+         * @description Judge a run against another: each channel held or not, with its worst moment and the band.
+         */
+        post: operations["judge_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs": {
         parameters: {
             query?: never;
@@ -1459,7 +1926,7 @@ export interface paths {
         };
         /**
          * List Jobs
-         * @description The last tunings, studies and searches of this server, the newest first.
+         * @description The last jobs of every kind, the newest first; in a class one's own.
          */
         get: operations["list_jobs"];
         put?: never;
@@ -1503,7 +1970,7 @@ export interface paths {
         };
         /**
          * List Tunings
-         * @description The last tunings of this server, the newest first, without what they tried.
+         * @description The last tunings, the newest first, without what they tried; in a class one's own.
          */
         get: operations["list_tunings"];
         put?: never;
@@ -1574,12 +2041,16 @@ export interface paths {
         /**
          * List All
          * @description The studies that come with the lab, and those that were begun here, the last one first.
+         *
+         *     In a class those that one began oneself, and those that nobody of it did.
          */
         get: operations["list_all"];
         put?: never;
         /**
          * Start Study
          * @description Begin a study, or go on with one of this name: a job, that makes no live session late.
+         *
+         *     In a class it is one's own and the instructor's, with every run of its rows.
          */
         post: operations["start_study"];
         delete?: never;
@@ -1622,7 +2093,13 @@ export interface paths {
         get: operations["read_study"];
         put?: never;
         post?: never;
-        delete?: never;
+        /**
+         * Delete Study
+         * @description Delete a study with all its rows, for good; one that is being run is cancelled first.
+         *
+         *     Runs that were recorded of its rows stay.
+         */
+        delete: operations["delete_study"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1780,7 +2257,7 @@ export interface paths {
         };
         /**
          * List Falsifications
-         * @description The last searches of this server, the newest first.
+         * @description The last searches, the newest first; in a class one's own.
          */
         get: operations["list_falsifications"];
         put?: never;
@@ -1859,6 +2336,114 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/scenarios": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Kept
+         * @description The scenarios that are kept in this lab, by name.
+         */
+        get: operations["list_kept"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenarios/runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Run Scenario
+         * @description Put laws through a scenario: what came of each, and its errors over time.
+         */
+        post: operations["run_scenario"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenarios/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Open Scenario Session
+         * @description A private session, running, of laws beside each other in a scenario.
+         */
+        post: operations["open_scenario_session"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenarios/{scenario}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Scenario
+         * @description One that is kept.
+         */
+        get: operations["read_scenario"];
+        /**
+         * Keep
+         * @description Keep a scenario by a name, which no other one may have.
+         */
+        put: operations["keep"];
+        post?: never;
+        /**
+         * Forget
+         * @description Keep it no longer.
+         */
+        delete: operations["forget"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scenarios/{scenario}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Scenario
+         * @description Its file (TOML), through which `svsa falsify run` puts any law.
+         */
+        get: operations["download_scenario"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/arena": {
         parameters: {
             query?: never;
@@ -1921,6 +2506,91 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/leaderboard": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Leaderboard
+         * @description Every entry of the season, the best first: the lab's laws and those that were submitted.
+         */
+        get: operations["read_leaderboard"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/leaderboard/entries/{key}/replay": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Worst Run
+         * @description The entry's worst run in 3D beside NDOBC, as a page of its own; `?t=5` opens it at 5 s.
+         *
+         *     Of a submitted law, what it answered then is played: it does not run again.
+         */
+        get: operations["show_worst_run"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/leaderboard/submissions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Submit Law
+         * @description Put a law through the season, in a process of its own: a job of some minutes.
+         *
+         *     The same text has one entry, which stays as it is. Nothing is measured where this machine
+         *     cannot isolate a law.
+         */
+        post: operations["submit_law"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/leaderboard/laws": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Measure Installed Laws
+         * @description Measure the lab's laws that have no entry on this season: a job of a minute or two.
+         */
+        post: operations["measure_installed_laws"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/requests/{request_name}": {
         parameters: {
             query?: never;
@@ -1976,6 +2646,12 @@ export interface components {
              * @description null: not inside
              */
             role: ("observer" | "operator" | "instructor") | null;
+            /**
+             * Removed
+             * @description The instructor has removed whoever this is from the class
+             * @default false
+             */
+            removed: boolean;
         };
         /**
          * ActuatorParameters
@@ -2089,6 +2765,67 @@ export interface components {
             reaction_torque?: "energy" | "printed";
         };
         /**
+         * Adversary
+         * @description Bounds on loads and perturbations, under which a law is hurt. Raises `ParameterError`.
+         *
+         *     terms: loads that come together. vary: settings that are perturbed, as of a study, but no grids;
+         *     what a run begins from is their nominal value. harm: a fault; or the greatest position error, or
+         *     the longest recovery, than each of which a fault is worse.
+         */
+        Adversary: {
+            /**
+             * Title
+             * @description What the adversary may do
+             */
+            title: string;
+            /**
+             * Law
+             * @description Law that is to be hurt
+             * @default ndobc
+             */
+            law: string;
+            /**
+             * Harm
+             * @description What it is after: fault, peak, recovery
+             * @default fault
+             * @enum {string}
+             */
+            harm: "fault" | "peak" | "recovery";
+            /**
+             * Base
+             * @description Settings that all runs begin from
+             * @default {
+             *       "figure": "4a"
+             *     }
+             */
+            base: {
+                [key: string]: unknown;
+            };
+            /**
+             * Duration S
+             * @description How long a run is, s
+             * @default 10
+             */
+            duration_s: number;
+            /**
+             * Measure From S
+             * @description From when on it is measured, s
+             * @default 0
+             */
+            measure_from_s: number;
+            /**
+             * Terms
+             * @description Loads that it may choose
+             */
+            terms: (components["schemas"]["StepTerm"] | components["schemas"]["PulseTerm"] | components["schemas"]["SineTerm"])[];
+            /**
+             * Vary
+             * @description Settings that it may perturb
+             * @default []
+             */
+            vary: (components["schemas"]["Uniform"] | components["schemas"]["LogUniform"] | components["schemas"]["Normal"] | components["schemas"]["Choice"] | components["schemas"]["Grid"] | components["schemas"]["Steps"])[];
+        };
+        /**
          * AdversaryState
          * @description An adversary that comes with the lab.
          */
@@ -2102,6 +2839,21 @@ export interface components {
              * @description Its file, to be changed and sent back
              */
             text: string;
+            /**
+             * Definition
+             * @description The same as JSON
+             */
+            definition: {
+                [key: string]: unknown;
+            };
+        };
+        /**
+         * AnswerRequest
+         * @description What was predicted, in the step's unit, or the name of the option that was chosen.
+         */
+        AnswerRequest: {
+            /** Answer */
+            answer: number | string;
         };
         /**
          * ApplyLoad
@@ -2123,6 +2875,100 @@ export interface components {
             argument: components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
         };
         /**
+         * AuditLine
+         * @description One thing that was done or refused, or that went on by itself.
+         */
+        AuditLine: {
+            /**
+             * Time
+             * @description UTC, ISO 8601
+             */
+            time: string;
+            /**
+             * Person
+             * @description Id of who did it; null for somebody who was not let in
+             */
+            person: string | null;
+            /** Name */
+            name: string | null;
+            /** Role */
+            role: ("observer" | "operator" | "instructor") | null;
+            /**
+             * Kind
+             * @description What it is about: the tag of its operation
+             */
+            kind: string;
+            /**
+             * Did
+             * @description The operation in words
+             */
+            did: string;
+            /**
+             * Path
+             * @description Null for what nobody called for
+             */
+            path: string | null;
+            /** Status */
+            status: number | null;
+            /** Refused */
+            refused: boolean;
+            /**
+             * Why
+             * @description Of what went on by itself, and of what failed elsewhere
+             */
+            why: string | null;
+            /** Session */
+            session: string | null;
+            /**
+             * Run Number
+             * @description That of the session then
+             */
+            run_number: number | null;
+            /**
+             * Tick
+             * @description Tick of the session when it was answered
+             */
+            tick: number | null;
+        };
+        /**
+         * AuditPage
+         * @description A page of the log, the newest first.
+         */
+        AuditPage: {
+            /** Lines */
+            lines: components["schemas"]["AuditLine"][];
+            /**
+             * Total
+             * @description Of all pages
+             */
+            total: number;
+            /**
+             * Until
+             * @description Time of the newest line that was there: for the next pages
+             */
+            until: string;
+            /**
+             * People
+             * @description The last one to do something first
+             */
+            people: components["schemas"]["AuditedPerson"][];
+            /** Kinds */
+            kinds: string[];
+        };
+        /**
+         * AuditedPerson
+         * @description Somebody of whom the log knows.
+         */
+        AuditedPerson: {
+            /** Id */
+            id: string;
+            /**
+             * Name
+             * @description By which they were known last
+             */
+            name: string;
+        };
+        /**
          * AxisState
          * @description A number that is searched.
          */
@@ -2140,6 +2986,18 @@ export interface components {
             low: number;
             /** High */
             high: number;
+        };
+        /**
+         * Band
+         * @description What a channel may be, in the time of the run that it should be; null: not known there.
+         */
+        Band: {
+            /** Time S */
+            time_s: number[];
+            /** Low */
+            low: (number | null)[];
+            /** High */
+            high: (number | null)[];
         };
         /**
          * BatchField
@@ -2237,6 +3095,14 @@ export interface components {
                 number
             ] | null;
             /**
+             * Motors
+             * @description Heat of motor 1 and motor 2; null where no loop ticks that would know it
+             */
+            motors: [
+                components["schemas"]["MotorState"],
+                components["schemas"]["MotorState"]
+            ] | null;
+            /**
              * Ages S
              * @description Of motor 1, motor 2, deflection
              */
@@ -2271,6 +3137,27 @@ export interface components {
              */
             dead_man: boolean;
             loop: components["schemas"]["LoopState"];
+        };
+        /**
+         * BenchStepState
+         * @description An experiment as it is run on a bench.
+         */
+        BenchStepState: {
+            /**
+             * Criteria
+             * @description What is asked of its run
+             */
+            criteria: string[];
+            /**
+             * By Hand
+             * @description What whoever stands at the bench does with its loads
+             */
+            by_hand: string;
+            /**
+             * Hands
+             * @description When, in the order of time
+             */
+            hands: components["schemas"]["HandState"][];
         };
         /**
          * BranchOrigin
@@ -2358,6 +3245,52 @@ export interface components {
             unit: string;
             /** Label */
             label: string;
+        };
+        /**
+         * ChannelJudged
+         * @description How a channel of a lane was judged; times are those of the run that is judged.
+         */
+        ChannelJudged: {
+            /** Lane */
+            lane: string;
+            /** Channel */
+            channel: string;
+            /** Unit */
+            unit: string;
+            /** Held */
+            held: boolean;
+            /**
+             * Worst S
+             * @description When it leaves the band furthest, or is nearest to it
+             */
+            worst_s: number;
+            /**
+             * Value
+             * @description Then; null where it is no finite number
+             */
+            value: number | null;
+            /** Low */
+            low: number | null;
+            /** High */
+            high: number | null;
+            /**
+             * Excess
+             * @description How far outside then, negative inside; null where one of both is not known
+             */
+            excess: number | null;
+            /**
+             * Outside
+             * @description From when to when it is outside; what is nearly one stretch is one
+             */
+            outside: [
+                number,
+                number
+            ][];
+            /**
+             * Outside S
+             * @description How long in all, every tick counted
+             */
+            outside_s: number;
         };
         /**
          * ChirpPosition
@@ -2457,6 +3390,39 @@ export interface components {
             amplitude_nm_per_rad: number;
         };
         /**
+         * Choice
+         * @description One of these, each as often.
+         */
+        Choice: {
+            /**
+             * Path
+             * @description Setting that varies, as actuator.link_inertia_kg_m2
+             */
+            path: string;
+            /**
+             * Relative
+             * @description Whether values are factors of what the study begins from
+             * @default false
+             */
+            relative: boolean;
+            /**
+             * Values
+             * @description Values
+             */
+            values: unknown[];
+            /**
+             * Names
+             * @description What the values are called; left out, as they are written
+             * @default []
+             */
+            names: string[];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "choice";
+        };
+        /**
          * ClassCode
          * @description A new class code, told once.
          */
@@ -2505,6 +3471,11 @@ export interface components {
         ClassState: {
             /** People */
             people: components["schemas"]["PersonState"][];
+            /**
+             * Removed
+             * @description Whom the instructor has removed; for nobody else to know
+             */
+            removed: components["schemas"]["MemberState"][];
             /** Sessions */
             sessions: components["schemas"]["ClassSession"][];
         };
@@ -2666,6 +3637,71 @@ export interface components {
             watching: number;
         };
         /**
+         * CourseState
+         * @description The exercises, in their order.
+         */
+        CourseState: {
+            /** Exercises */
+            exercises: components["schemas"]["ExerciseSummary"][];
+        };
+        /**
+         * Criterion
+         * @description One criterion of a grade, as `CriterionResult`.
+         */
+        Criterion: {
+            /**
+             * Step
+             * @description Step that it belongs to
+             */
+            step: string;
+            /**
+             * Name
+             * @description What is asked
+             */
+            name: string;
+            /**
+             * Points
+             * @description Points
+             */
+            points: number;
+            /**
+             * Max Points
+             * @description Points that there are
+             */
+            max_points: number;
+            /**
+             * Feedback
+             * @description What differs, or that it is right
+             */
+            feedback: string;
+        };
+        /**
+         * CriterionState
+         * @description A criterion as it was judged.
+         */
+        CriterionState: {
+            /** Step */
+            step: string;
+            /** Name */
+            name: string;
+            /** Points */
+            points: number;
+            /** Max Points */
+            max_points: number;
+            /** Feedback */
+            feedback: string;
+            /**
+             * Channel
+             * @description Where to look; null where it is about no sample
+             */
+            channel: string | null;
+            /**
+             * Time S
+             * @description When, in the run's time
+             */
+            time_s: number | null;
+        };
+        /**
          * CurrentLag
          * @description The current loop of the drives as a first-order lag.
          */
@@ -2785,6 +3821,76 @@ export interface components {
             lanes: (components["schemas"]["Metrics"] | null)[];
         };
         /**
+         * EnduranceState
+         * @description A motor that a load is too much for: from when on heat holds its torque back.
+         */
+        EnduranceState: {
+            /**
+             * Motor
+             * @enum {string}
+             */
+            motor: "motor1" | "motor2";
+            /**
+             * Torque Nm
+             * @description Asked for under the load, rms
+             */
+            torque_nm: number;
+            /**
+             * Lasting Torque Nm
+             * @description What it bears for ever
+             */
+            lasting_torque_nm: number;
+            /**
+             * Seconds
+             * @description From the load's onset until it is held back, from cold
+             */
+            seconds: number;
+        };
+        /**
+         * Entry
+         * @description A law on the board. key: its name where it is installed, else SHA-256 of its text.
+         */
+        Entry: {
+            /**
+             * Key
+             * @description Name of an installed law, or SHA-256 of a law's text
+             */
+            key: string;
+            /**
+             * Name
+             * @description What it is called on the board
+             */
+            name: string;
+            /**
+             * Author
+             * @description Who submitted it, or empty
+             * @default
+             */
+            author: string;
+            /**
+             * Is Installed
+             * @description Whether it is a law of the lab, compiled
+             */
+            is_installed: boolean;
+            /**
+             * Entered
+             * @description When it was measured, UTC, ISO 8601
+             */
+            entered: string;
+            /**
+             * Suite
+             * @description Version of the suite
+             */
+            suite: string;
+            /**
+             * Version
+             * @description Version of the lab
+             */
+            version: string;
+            /** @description What it shows */
+            standing: components["schemas"]["Standing"];
+        };
+        /**
          * Estimate
          * @description An estimate, and between which ends the truth lies with 95 %; null where there is none.
          */
@@ -2833,8 +3939,113 @@ export interface components {
             duration_s: number;
         };
         /**
+         * ExerciseState
+         * @description An exercise with its steps.
+         */
+        ExerciseState: {
+            /** Name */
+            name: string;
+            /** Number */
+            number: number;
+            /** Title */
+            title: string;
+            /** Goal */
+            goal: string;
+            /** Minutes */
+            minutes: number;
+            /** Max Points */
+            max_points: number;
+            /**
+             * Law Points
+             * @description Points of a law besides, which svsa grade gives
+             */
+            law_points: number;
+            /** Steps */
+            steps: number;
+            /** Done */
+            done: number;
+            /**
+             * At
+             * @description Step that was looked at last
+             */
+            at: string | null;
+            /**
+             * Handed In
+             * @description When, as ISO 8601; null where it was not
+             */
+            handed_in: string | null;
+            /**
+             * Points
+             * @description Of the hand-in
+             */
+            points: number | null;
+            /**
+             * Changes
+             * @description How often one's progress in it was changed
+             */
+            changes: number;
+            /** Html */
+            html: string;
+            /**
+             * Missing
+             * @description Steps that are to be done before it is handed in
+             */
+            missing: string[];
+            /** @description The law that was tried last, which is handed in */
+            law: components["schemas"]["KeptLaw"] | null;
+            /** Parts */
+            parts: components["schemas"]["StepState"][];
+        };
+        /**
+         * ExerciseSummary
+         * @description An exercise in the list.
+         */
+        ExerciseSummary: {
+            /** Name */
+            name: string;
+            /** Number */
+            number: number;
+            /** Title */
+            title: string;
+            /** Goal */
+            goal: string;
+            /** Minutes */
+            minutes: number;
+            /** Max Points */
+            max_points: number;
+            /**
+             * Law Points
+             * @description Points of a law besides, which svsa grade gives
+             */
+            law_points: number;
+            /** Steps */
+            steps: number;
+            /** Done */
+            done: number;
+            /**
+             * At
+             * @description Step that was looked at last
+             */
+            at: string | null;
+            /**
+             * Handed In
+             * @description When, as ISO 8601; null where it was not
+             */
+            handed_in: string | null;
+            /**
+             * Points
+             * @description Of the hand-in
+             */
+            points: number | null;
+            /**
+             * Changes
+             * @description How often one's progress in it was changed
+             */
+            changes: number;
+        };
+        /**
          * ExperimentRequest
-         * @description One of the paper's figures, from t = 0; with other lanes and effects than it has.
+         * @description One of the paper's figures, from t = 0.
          */
         ExperimentRequest: {
             /**
@@ -2869,10 +4080,16 @@ export interface components {
              *     }
              */
             effects: components["schemas"]["Effects"];
+            /**
+             * Start
+             * @description Begins at once; else it is at rest at t = 0
+             * @default true
+             */
+            start: boolean;
         };
         /**
          * FalsificationRequest
-         * @description A search: the adversary of the package, or a text, and the law that is to be hurt.
+         * @description A search: an adversary of the package or one of one's own, and the law to be hurt.
          */
         FalsificationRequest: {
             /**
@@ -2885,6 +4102,8 @@ export interface components {
              * @description An adversary as TOML, in place of a name
              */
             text?: string | null;
+            /** @description An adversary of one's own, in place of a name */
+            definition?: components["schemas"]["Adversary"] | null;
             /**
              * Law
              * @description Law to be hurt; else the adversary's
@@ -2914,7 +4133,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "tuning" | "study" | "falsification";
+            kind: "tuning" | "study" | "falsification" | "submission" | "grading";
             /**
              * Title
              * @description What it is about
@@ -2933,7 +4152,7 @@ export interface components {
             status: "waiting" | "running" | "done" | "cancelled" | "failed";
             /**
              * Done
-             * @description How much is done, in what it counts: candidates, runs
+             * @description How much is done, in what it counts: candidates, runs, hand-ins
              */
             done: number;
             /**
@@ -2963,10 +4182,19 @@ export interface components {
             /** Seed */
             seed: number;
             /**
-             * Worst
-             * @description How much the worst run hurts so far, in words
+             * Adversary
+             * @description Within which bounds it searches
              */
-            worst: string | null;
+            adversary: {
+                [key: string]: unknown;
+            };
+            /**
+             * Worst
+             * @description The worst so far, as it was found; in `found` how much it hurts, in words
+             */
+            worst: {
+                [key: string]: unknown;
+            } | null;
             /**
              * Scenario
              * @description The simplest load that still does it; null before the end
@@ -2974,6 +4202,11 @@ export interface components {
             scenario: {
                 [key: string]: unknown;
             } | null;
+            /**
+             * Steps
+             * @description How it was made simple, step by step
+             */
+            steps: string[];
             /**
              * Outcomes
              * @description Of the law, and of another one beside it
@@ -3058,6 +4291,57 @@ export interface components {
             stiffness: components["schemas"]["SineStiffness"] | components["schemas"]["ConstantStiffness"] | components["schemas"]["StepsStiffness"] | components["schemas"]["MinimumJerkStiffness"] | components["schemas"]["ChirpStiffness"] | components["schemas"]["SeriesStiffness"];
             /** Claim */
             claim: string;
+        };
+        /**
+         * Finding
+         * @description How a scenario was found.
+         */
+        Finding: {
+            /**
+             * Law
+             * @description Law that it hurts
+             */
+            law: string;
+            /**
+             * Harm
+             * @description What was looked for
+             */
+            harm: string;
+            /**
+             * Outcome
+             * @description What came of the law
+             */
+            outcome: string;
+            /**
+             * Adversary
+             * @description Among what was searched
+             */
+            adversary: string;
+            /**
+             * Method
+             * @description How
+             */
+            method: string;
+            /**
+             * Seed
+             * @description Seed of the search
+             */
+            seed: number;
+            /**
+             * At Run
+             * @description Which run of the search showed it
+             */
+            at_run: number;
+            /**
+             * Runs
+             * @description Runs of the search
+             */
+            runs: number;
+            /**
+             * Version
+             * @description Version that found it
+             */
+            version: string;
         };
         /**
          * FrequencyResponseState
@@ -3205,7 +4489,190 @@ export interface components {
             /** Tick */
             tick: number;
             /** Command */
-            command: components["schemas"]["SetPosition"] | components["schemas"]["SetStiffness"] | components["schemas"]["SetLaw"] | components["schemas"]["SetLaws"] | components["schemas"]["SetGains"] | components["schemas"]["SetParameters"] | components["schemas"]["SetObserver"] | components["schemas"]["SetActuator"] | components["schemas"]["SetNominal"] | components["schemas"]["SetEffects"] | components["schemas"]["SetRivals"] | components["schemas"]["SetLane"] | components["schemas"]["ApplyLoad"] | components["schemas"]["RemoveLoad"];
+            command: components["schemas"]["SetPosition"] | components["schemas"]["SetStiffness"] | components["schemas"]["SetLaw"] | components["schemas"]["SetLaws"] | components["schemas"]["SetGains"] | components["schemas"]["SetParameters"] | components["schemas"]["SetObserver"] | components["schemas"]["SetActuator"] | components["schemas"]["SetNominal"] | components["schemas"]["SetEffects"] | components["schemas"]["SetRivals"] | components["schemas"]["SetLane"] | components["schemas"]["ApplyLoad"] | components["schemas"]["RemoveLoad"] | components["schemas"]["Stop"];
+        };
+        /**
+         * Grade
+         * @description What a submission is worth, and what it was graded with.
+         *
+         *     submission: digest of everything that was handed in. seed: of the draws that its law went
+         *     through, in hexadecimal, None without a law. is_isolated: false for a law that ran without
+         *     walls, which is no grade for a class.
+         */
+        Grade: {
+            /**
+             * Student
+             * @description Who handed it in
+             */
+            student: string;
+            /**
+             * Exercise
+             * @description Name of the exercise
+             */
+            exercise: string;
+            /**
+             * Submission
+             * @description SHA-256 of what was handed in
+             */
+            submission: string;
+            /**
+             * Points
+             * @description Points in all
+             */
+            points: number;
+            /**
+             * Max Points
+             * @description Points that there are
+             */
+            max_points: number;
+            /**
+             * Criteria
+             * @description Points by criterion
+             */
+            criteria: components["schemas"]["Criterion"][];
+            /**
+             * Runs
+             * @description Runs, and what was verified
+             * @default []
+             */
+            runs: components["schemas"]["VerifiedRun"][];
+            /**
+             * Seed
+             * @description Seed of the draws
+             */
+            seed?: string | null;
+            /**
+             * Is Isolated
+             * @description Whether its law had nothing but its task
+             * @default true
+             */
+            is_isolated: boolean;
+            /**
+             * Version
+             * @description Version of the lab
+             * @default 0.1.0
+             */
+            version: string;
+        };
+        /**
+         * GradedExercise
+         * @description An exercise of the table.
+         */
+        GradedExercise: {
+            /** Name */
+            name: string;
+            /** Number */
+            number: number;
+            /** Title */
+            title: string;
+        };
+        /**
+         * GradesState
+         * @description A class's grades, students in the order of their names.
+         */
+        GradesState: {
+            /**
+             * Not Isolated
+             * @description Why no law is graded on this machine; null where laws can be isolated
+             */
+            not_isolated: string | null;
+            /** Exercises */
+            exercises: components["schemas"]["GradedExercise"][];
+            /** Students */
+            students: components["schemas"]["StudentState"][];
+        };
+        /**
+         * GradingRequest
+         * @description What is to be graded: what was handed in and has no grade, or all of it.
+         */
+        GradingRequest: {
+            /**
+             * Again
+             * @description Run again also what has its grade
+             * @default false
+             */
+            again: boolean;
+        };
+        /**
+         * Grid
+         * @description Each of these with every value of every other grid.
+         */
+        Grid: {
+            /**
+             * Path
+             * @description Setting that varies, as actuator.link_inertia_kg_m2
+             */
+            path: string;
+            /**
+             * Relative
+             * @description Whether values are factors of what the study begins from
+             * @default false
+             */
+            relative: boolean;
+            /**
+             * Values
+             * @description Values
+             */
+            values: unknown[];
+            /**
+             * Names
+             * @description What the values are called; left out, as they are written
+             * @default []
+             */
+            names: string[];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "grid";
+        };
+        /** HTTPValidationError */
+        HTTPValidationError: {
+            /** Detail */
+            detail?: components["schemas"]["ValidationError"][];
+        };
+        /**
+         * HandInRequest
+         * @description Who hands in; in a class it is the person who asks.
+         */
+        HandInRequest: {
+            /**
+             * Student
+             * @description Name
+             * @default
+             */
+            student: string;
+        };
+        /**
+         * HandState
+         * @description A time at which somebody hangs or takes off a load of a bench by hand.
+         */
+        HandState: {
+            /**
+             * Time S
+             * @description Of the run
+             */
+            time_s: number;
+            /**
+             * Is On
+             * @description Whether it is hung then, or taken off
+             */
+            is_on: boolean;
+        };
+        /**
+         * HandedState
+         * @description What somebody handed in of an exercise.
+         */
+        HandedState: {
+            /** Exercise */
+            exercise: string;
+            /** @description Null where it is not graded yet */
+            grade: components["schemas"]["Grade"] | null;
+            /**
+             * Problem
+             * @description Why it got no grade when it was graded last, or empty
+             */
+            problem: string;
         };
         /**
          * HandoverRequest
@@ -3293,7 +4760,7 @@ export interface components {
         };
         /**
          * JobState
-         * @description A tuning, a study, a search: work of minutes or hours.
+         * @description A tuning, a study, a search, a law for the leaderboard, grades: work of minutes or hours.
          */
         JobState: {
             /** Id */
@@ -3302,7 +4769,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "tuning" | "study" | "falsification";
+            kind: "tuning" | "study" | "falsification" | "submission" | "grading";
             /**
              * Title
              * @description What it is about
@@ -3321,7 +4788,7 @@ export interface components {
             status: "waiting" | "running" | "done" | "cancelled" | "failed";
             /**
              * Done
-             * @description How much is done, in what it counts: candidates, runs
+             * @description How much is done, in what it counts: candidates, runs, hand-ins
              */
             done: number;
             /**
@@ -3369,6 +4836,105 @@ export interface components {
             role: "observer" | "operator";
         };
         /**
+         * JoinState
+         * @description As whom one has joined.
+         */
+        JoinState: {
+            /** Return Code */
+            return_code: string;
+            /**
+             * Door
+             * @description open: everybody on this machine; secret: with the shared secret; class: with a name and the class code
+             * @enum {string}
+             */
+            door: "open" | "secret" | "class";
+            /**
+             * Inside
+             * @description Whether the lab knows who asks
+             */
+            inside: boolean;
+            /**
+             * Id
+             * @description Of the person, in a class; empty elsewhere
+             */
+            id: string;
+            /**
+             * Name
+             * @description Of the person, in a class; empty elsewhere
+             */
+            name: string;
+            /**
+             * Role
+             * @description null: not inside
+             */
+            role: ("observer" | "operator" | "instructor") | null;
+            /**
+             * Removed
+             * @description The instructor has removed whoever this is from the class
+             * @default false
+             */
+            removed: boolean;
+        };
+        /**
+         * JudgementState
+         * @description A hand-in as it was judged.
+         */
+        JudgementState: {
+            /** Exercise */
+            exercise: string;
+            /** Points */
+            points: number;
+            /** Max Points */
+            max_points: number;
+            /** Criteria */
+            criteria: components["schemas"]["CriterionState"][];
+        };
+        /**
+         * KeptLaw
+         * @description A law's file, and the verdict of its trial. output: the end of what it printed.
+         */
+        KeptLaw: {
+            /**
+             * Text
+             * @description Text of a law's Python file
+             */
+            text: string;
+            /**
+             * Verdict
+             * @description What came of trying it
+             * @enum {string}
+             */
+            verdict: "held" | "ran" | "ended" | "failed" | "untried";
+            /**
+             * Feedback
+             * @description The same in words
+             */
+            feedback: string;
+            /**
+             * Output
+             * @description End of what it printed, where it failed
+             * @default
+             */
+            output: string;
+        };
+        /**
+         * KeptScenario
+         * @description A scenario that is kept by a name.
+         */
+        KeptScenario: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /**
+             * Scenario
+             * @description As it would stand in its file
+             */
+            scenario: {
+                [key: string]: unknown;
+            };
+        };
+        /**
          * Lane
          * @description A controller with a plant of its own: same references, loads and noise as the others.
          */
@@ -3392,7 +4958,8 @@ export interface components {
         };
         /**
          * LaneMetrics
-         * @description How well a lane does; null where it was not there at the beginning of what is measured.
+         * @description How well a lane does; null where it was not there at the beginning of what is measured, and
+         *     half a second after it ended: a twin of a bench that left the domain of the model.
          */
         LaneMetrics: {
             /** @description Of the whole run, whatever was changed */
@@ -3492,7 +5059,7 @@ export interface components {
         };
         /**
          * LawOutcomeState
-         * @description What came of a law in the scenario.
+         * @description What came of a law in a scenario.
          */
         LawOutcomeState: {
             /** Law */
@@ -3549,23 +5116,6 @@ export interface components {
             };
         };
         /**
-         * LawRequest
-         * @description Which law controls, and which the lanes beside; every plant stays where it is.
-         */
-        LawRequest: {
-            /**
-             * Law
-             * @description Name of a law that is installed: see GET /laws
-             */
-            law: string;
-            /**
-             * Rival Laws
-             * @description Laws of the lanes beside, from the first on; those left out keep theirs
-             * @default []
-             */
-            rival_laws: string[];
-        };
-        /**
          * LawState
          * @description A law that is installed, in its own words.
          */
@@ -3583,7 +5133,7 @@ export interface components {
             equation: string;
             /**
              * Source
-             * @description Number of the paper's equation, a DOI, or empty
+             * @description Number of the paper's equation, a citation, or empty
              */
             source: string;
             /**
@@ -3612,6 +5162,90 @@ export interface components {
              * @description Why it cannot be used; null where it can
              */
             problem: string | null;
+        };
+        /**
+         * LawSubmission
+         * @description A law that is to be put through the season.
+         */
+        LawSubmission: {
+            /**
+             * Name
+             * @description What it is called on the board
+             */
+            name: string;
+            /**
+             * Law
+             * @description Text of its file, Python: see docs/grading.md
+             */
+            law: string;
+            /**
+             * Author
+             * @description Who submits it; in a class it is the person who asks
+             * @default
+             */
+            author: string;
+        };
+        /**
+         * LawTraceState
+         * @description What came of a law, and its errors over time; null from a fault on.
+         */
+        LawTraceState: {
+            /** Law */
+            law: string;
+            /**
+             * Fault
+             * @description Code of the fault that the run ended in
+             */
+            fault: string | null;
+            /**
+             * Fault S
+             * @description When, s
+             */
+            fault_s: number | null;
+            /**
+             * Metrics
+             * @description SI; of a fault those until then
+             */
+            metrics: {
+                [key: string]: number | null;
+            };
+            /** Position Error Rad */
+            position_error_rad: (number | null)[];
+            /** Stiffness Error Nm Per Rad */
+            stiffness_error_nm_per_rad: (number | null)[];
+        };
+        /**
+         * LeaderboardState
+         * @description A season: who is on the board, the best first.
+         */
+        LeaderboardState: {
+            /**
+             * Suite
+             * @description Version of the suite; scores compare within one
+             */
+            suite: string;
+            /**
+             * Began
+             * @description When the season began, UTC, ISO 8601
+             */
+            began: string;
+            /**
+             * Not Isolated
+             * @description Why this machine takes no law, as it cannot isolate one; null where it can
+             */
+            not_isolated: string | null;
+            /**
+             * Runs
+             * @description How many runs a law is put through
+             */
+            runs: number;
+            /** Entries */
+            entries: components["schemas"]["Entry"][];
+            /**
+             * Missing
+             * @description Laws of the lab that are not measured on it yet
+             */
+            missing: string[];
         };
         /**
          * Limits
@@ -3689,6 +5323,58 @@ export interface components {
             fault: string | null;
         };
         /**
+         * LoadScenario
+         * @description Loads on a run, and settings of it, with a name. Raises `ParameterError`.
+         *
+         *     base: the configuration that it begins from, as of a study: `figure`, and settings in its place.
+         *     settings: by their paths, as actuator.link_inertia_kg_m2. loads: besides those of the base.
+         */
+        LoadScenario: {
+            /**
+             * Title
+             * @description The scenario in words
+             */
+            title: string;
+            /**
+             * Base
+             * @description What it begins from
+             * @default {
+             *       "figure": "4a"
+             *     }
+             */
+            base: {
+                [key: string]: unknown;
+            };
+            /**
+             * Duration S
+             * @description How long it is, s
+             * @default 20
+             */
+            duration_s: number;
+            /**
+             * Measure From S
+             * @description From when on it is measured, s
+             * @default 0
+             */
+            measure_from_s: number;
+            /**
+             * Settings
+             * @description Settings by their paths
+             * @default {}
+             */
+            settings: {
+                [key: string]: unknown;
+            };
+            /**
+             * Loads
+             * @description Loads
+             * @default []
+             */
+            loads: (components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"])[];
+            /** @description How it was found */
+            found?: components["schemas"]["Finding"] | null;
+        };
+        /**
          * LoadState
          * @description A load of the session; `end_s` is null for one that stays.
          */
@@ -3714,6 +5400,38 @@ export interface components {
              * @description Whether nobody but the instructor is in control
              */
             locked: boolean;
+        };
+        /**
+         * LogUniform
+         * @description The logarithm uniform.
+         */
+        LogUniform: {
+            /**
+             * Path
+             * @description Setting that varies, as actuator.link_inertia_kg_m2
+             */
+            path: string;
+            /**
+             * Relative
+             * @description Whether values are factors of what the study begins from
+             * @default false
+             */
+            relative: boolean;
+            /**
+             * Low
+             * @description Least
+             */
+            low: number;
+            /**
+             * High
+             * @description Greatest
+             */
+            high: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "log_uniform";
         };
         /**
          * LoginRequest
@@ -3792,9 +5510,20 @@ export interface components {
             rate_hz: number;
             /** Ticks */
             ticks: number;
-            /** Skipped Ticks */
+            /**
+             * Skipped Ticks
+             * @description Since the loop started
+             */
             skipped_ticks: number;
-            /** Lateness P50 S */
+            /**
+             * Skipped In Run
+             * @description Of those the ones that the present run has missed
+             */
+            skipped_in_run: number;
+            /**
+             * Lateness P50 S
+             * @description Half of the ticks since the loop started
+             */
             lateness_p50_s: number;
             /** Lateness P99 S */
             lateness_p99_s: number;
@@ -3893,6 +5622,21 @@ export interface components {
              * @default false
              */
             load_ended: boolean;
+        };
+        /**
+         * MemberState
+         * @description Somebody who has joined.
+         */
+        MemberState: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "observer" | "operator" | "instructor";
         };
         /**
          * Metrics
@@ -3997,6 +5741,32 @@ export interface components {
              */
             end_nm_per_rad: number;
         };
+        /**
+         * MotorState
+         * @description How warm a motor's winding is, by the current that it had (I²t), and what that allows.
+         */
+        MotorState: {
+            /**
+             * Heat
+             * @description 1 is all that its winding bears; from 0.9 on it gives less
+             */
+            heat: number;
+            /**
+             * Lasting Torque Nm
+             * @description What it bears for ever: heat stays at 1
+             */
+            lasting_torque_nm: number;
+            /**
+             * Allowed Torque Nm
+             * @description The greatest torque that its heat allows now
+             */
+            allowed_torque_nm: number;
+            /**
+             * Held Back
+             * @description More than that was asked for, now or within the last half second
+             */
+            held_back: boolean;
+        };
         /** NominalPatch */
         NominalPatch: {
             /**
@@ -4052,6 +5822,48 @@ export interface components {
             reaction_torque?: "energy" | "printed";
         };
         /**
+         * Normal
+         * @description Normal with this mean and standard deviation, nothing of it outside low to high.
+         */
+        Normal: {
+            /**
+             * Path
+             * @description Setting that varies, as actuator.link_inertia_kg_m2
+             */
+            path: string;
+            /**
+             * Relative
+             * @description Whether values are factors of what the study begins from
+             * @default false
+             */
+            relative: boolean;
+            /**
+             * Low
+             * @description Least
+             */
+            low: number;
+            /**
+             * High
+             * @description Greatest
+             */
+            high: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "normal";
+            /**
+             * Mean
+             * @description Mean, before it is cut
+             */
+            mean: number;
+            /**
+             * Std
+             * @description Standard deviation, before it is cut
+             */
+            std: number;
+        };
+        /**
          * ObserverBandwidth
          * @description β_i = k_i/J_i: how fast the estimation error decays (Eq 12) on channels 2, 4, 6.
          */
@@ -4065,6 +5877,16 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /**
+         * OptionState
+         * @description An answer that can be chosen.
+         */
+        OptionState: {
+            /** Name */
+            name: string;
+            /** Text */
+            text: string;
         };
         /**
          * Outcome
@@ -4206,6 +6028,17 @@ export interface components {
             sees: string[];
         };
         /**
+         * PlaceRequest
+         * @description Where the reader is.
+         */
+        PlaceRequest: {
+            /**
+             * Step
+             * @description Name of the step
+             */
+            step: string;
+        };
+        /**
          * PositionSeries
          * @description A CSV with angles, as `PUT …/position` takes it.
          */
@@ -4330,6 +6163,46 @@ export interface components {
              * @description Duration, s
              */
             duration_s: number;
+        };
+        /**
+         * PulseTerm
+         * @description A torque for a while.
+         */
+        PulseTerm: {
+            /**
+             * Bodies
+             * @description On what: link, motor1, motor2
+             * @default [
+             *       "link"
+             *     ]
+             */
+            bodies: ("link" | "motor1" | "motor2")[];
+            /**
+             * Torque Nm
+             * @description Greatest size on each body, either way, N·m
+             */
+            torque_nm: number;
+            /**
+             * Start S
+             * @description Onset, from and to, s
+             */
+            start_s: [
+                number,
+                number
+            ];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "pulse";
+            /**
+             * Duration S
+             * @description How long, from and to, s
+             */
+            duration_s: [
+                number,
+                number
+            ];
         };
         /**
          * PushLoad
@@ -4573,10 +6446,21 @@ export interface components {
             load: components["schemas"]["LoadResponseState"];
             /** @description Null where it is unstable */
             disturbance: components["schemas"]["FrequencyResponseState"] | null;
+            /**
+             * Largest Pole
+             * @description Largest |z| of the loop with the sensing named; from 1 on the curves are not what it would do there
+             */
+            largest_pole: number;
+            /**
+             * Encoders
+             * @description Whose sensing that is: the session's, or else the paper's rig's, whose counts and delay the curves do not have
+             * @enum {string}
+             */
+            encoders: "session" | "rig";
         };
         /**
          * Results
-         * @description Rows, and what they were measured with.
+         * @description Rows, and the suite and the draws that they were measured on.
          */
         Results: {
             /**
@@ -4584,11 +6468,6 @@ export interface components {
              * @description Version of the suite
              */
             suite: string;
-            /**
-             * Version
-             * @description Version of the lab
-             */
-            version: string;
             /**
              * Is Public
              * @description Whether the draws are those of the public seed
@@ -4604,6 +6483,25 @@ export interface components {
              * @description A row a law
              */
             rows: components["schemas"]["Row"][];
+        };
+        /**
+         * ReturnCode
+         * @description A code by which a person comes back to their work from any browser; told once.
+         */
+        ReturnCode: {
+            /** Return Code */
+            return_code: string;
+        };
+        /**
+         * ReturnRequest
+         * @description Comes back as somebody who has joined before.
+         */
+        ReturnRequest: {
+            /**
+             * Code
+             * @description One's own return code
+             */
+            code: string;
         };
         /**
          * RigErrors
@@ -4651,6 +6549,11 @@ export interface components {
              * @description Name of the law
              */
             law: string;
+            /**
+             * Version
+             * @description Version of the lab that measured it
+             */
+            version: string;
             /** @description Figure 4A, ideal */
             ideal_4a: components["schemas"]["FigureErrors"];
             /** @description Figure 4A on the rig */
@@ -4665,6 +6568,11 @@ export interface components {
              * @description Unloadings that ended in a fault
              */
             unloading_faults_of_48: number;
+            /**
+             * Unloading Settled Deg
+             * @description rms 3–5 s after the load is taken off, worst of 48; None if one ended in a fault, °
+             */
+            unloading_settled_deg: number | null;
             /**
              * Sine 2Hz Rms Deg
              * @description rms under 1.5 N·m at 2 Hz, °
@@ -4717,6 +6625,11 @@ export interface components {
              * @description Names of the unloadings that ended in a fault
              */
             unloadings_failed: string[];
+            /**
+             * Unloading Worst
+             * @description Name of the unloading that settled worst; the first of those that ended in a fault
+             */
+            unloading_worst: string;
             /**
              * Draws Failed
              * @description Names of the draws that did not hold
@@ -5042,6 +6955,17 @@ export interface components {
             notes?: string | null;
         };
         /**
+         * RunRequest
+         * @description The run that is to be judged.
+         */
+        RunRequest: {
+            /**
+             * Run Id
+             * @description Id of a recorded run
+             */
+            run_id: string;
+        };
+        /**
          * RunSamples
          * @description Samples of a run, thinned out for a plot.
          *
@@ -5187,6 +7111,49 @@ export interface components {
             deleted: string | null;
         };
         /**
+         * RunVerdict
+         * @description A run judged against another. held: every channel, and both are as long from there on.
+         */
+        RunVerdict: {
+            /** Held */
+            held: boolean;
+            /**
+             * Ticks
+             * @description So many were compared
+             */
+            ticks: number;
+            /**
+             * Compared S
+             * @description As a time
+             */
+            compared_s: number;
+            /** Own Ticks */
+            own_ticks: number;
+            /** Other Ticks */
+            other_ticks: number;
+            /**
+             * Begin S
+             * @description Time of the first sample compared
+             */
+            begin_s: number;
+            /**
+             * Other Begin S
+             * @description The same of the other run
+             */
+            other_begin_s: number;
+            /** Channels */
+            channels: components["schemas"]["ChannelJudged"][];
+            /**
+             * Bands
+             * @description By channel and lane
+             */
+            bands: {
+                [key: string]: {
+                    [key: string]: components["schemas"]["Band"];
+                };
+            };
+        };
+        /**
          * ScenarioRequest
          * @description A law in a scenario of the suite.
          */
@@ -5198,6 +7165,56 @@ export interface components {
              * @description Name of the run, such as rig_4a or draw_12
              */
             scenario: string;
+        };
+        /**
+         * ScenarioRuns
+         * @description Laws that are to be put through a scenario.
+         */
+        ScenarioRuns: {
+            /** @description Loads, and settings */
+            scenario: components["schemas"]["LoadScenario"];
+            /**
+             * Laws
+             * @description Laws, each by itself
+             */
+            laws: string[];
+        };
+        /**
+         * ScenarioSession
+         * @description Laws beside each other in a scenario, to be seen.
+         */
+        ScenarioSession: {
+            /** @description Loads, and settings */
+            scenario: components["schemas"]["LoadScenario"];
+            /**
+             * Laws
+             * @description Laws, the first one's the run's own
+             */
+            laws: string[];
+        };
+        /**
+         * ScenarioTraceState
+         * @description A scenario over time, thinned out with every peak kept.
+         */
+        ScenarioTraceState: {
+            /**
+             * Told
+             * @description Its loads and settings, each in words
+             */
+            told: string[];
+            /** Time S */
+            time_s: number[];
+            /**
+             * Torque Nm
+             * @description Of the loads on link, motor 1 and motor 2; a hung mass is none of them
+             */
+            torque_nm: [
+                number,
+                number,
+                number
+            ][];
+            /** Laws */
+            laws: components["schemas"]["LawTraceState"][];
         };
         /**
          * ScoreParts
@@ -5460,6 +7477,16 @@ export interface components {
             bench: components["schemas"]["BenchState"] | null;
             /** Session */
             session: string;
+            /**
+             * Instance
+             * @description Another one for every session, also of the same name: after a server was started anew, or a session was ended and opened again
+             */
+            instance: string;
+            /**
+             * Revision
+             * @description Of settings and loads: for If-Match of a change of them
+             */
+            revision: string;
             /** @description null unless its run is a branch */
             branch_of: components["schemas"]["BranchState"] | null;
             control: components["schemas"]["ControlState"];
@@ -5474,7 +7501,7 @@ export interface components {
             events: components["schemas"]["Event"][];
             /**
              * Ended Windows
-             * @description Those that reach into the last 60 s, the newest last; not `window`
+             * @description Those that reach into the last 60 s, the newest last, at most 50; not `window`
              */
             ended_windows: components["schemas"]["EndedWindowState"][];
             /**
@@ -5732,6 +7759,22 @@ export interface components {
             values: (string | number | boolean | null)[];
         };
         /**
+         * SetupRequest
+         * @description An experiment of the course.
+         */
+        SetupRequest: {
+            /**
+             * Exercise
+             * @description Name of the exercise
+             */
+            exercise: string;
+            /**
+             * Step
+             * @description Name of the step
+             */
+            step: string;
+        };
+        /**
          * SineLoad
          * @description torque · sin(2π f (t − onset) + phase).
          */
@@ -5843,6 +7886,46 @@ export interface components {
              * @default 1
              */
             transition_s: number;
+        };
+        /**
+         * SineTerm
+         * @description A sine from its onset on, its phase searched too.
+         */
+        SineTerm: {
+            /**
+             * Bodies
+             * @description On what: link, motor1, motor2
+             * @default [
+             *       "link"
+             *     ]
+             */
+            bodies: ("link" | "motor1" | "motor2")[];
+            /**
+             * Torque Nm
+             * @description Greatest size on each body, either way, N·m
+             */
+            torque_nm: number;
+            /**
+             * Start S
+             * @description Onset, from and to, s
+             */
+            start_s: [
+                number,
+                number
+            ];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "sine";
+            /**
+             * Frequency Hz
+             * @description Frequency, from and to, Hz
+             */
+            frequency_hz: [
+                number,
+                number
+            ];
         };
         /**
          * SobolIndices
@@ -5979,6 +8062,54 @@ export interface components {
             present: number;
         };
         /**
+         * Standing
+         * @description What a law shows in a season.
+         *
+         *     low, high: the score with the draws' share at the ends of its 95 % interval (Wilson). Chance in
+         *     the sweeps is not in it, nor what a law was tuned to in the scenarios that everybody knows.
+         */
+        Standing: {
+            /**
+             * Score
+             * @description 0.5 robustness + 0.3 draws + 0.2 accuracy, 1
+             */
+            score: number;
+            /**
+             * Low
+             * @description Lower end of the score's 95 % interval, 1
+             */
+            low: number;
+            /**
+             * High
+             * @description Upper end of the score's 95 % interval, 1
+             */
+            high: number;
+            /** @description Parts of the score */
+            parts: components["schemas"]["ScoreParts"];
+            /**
+             * Sweeps
+             * @description The sweeps of robustness
+             */
+            sweeps: components["schemas"]["SweepOutcome"][];
+            /**
+             * Draws
+             * @description How many draws there were
+             */
+            draws: number;
+            /**
+             * Draws Held
+             * @description Draws that held
+             */
+            draws_held: number;
+            /**
+             * Tick Us
+             * @description Median over the draws of a tick by the clock, with plant, sensors and, for a law in a process of its own, the way there and back, µs
+             */
+            tick_us: number | null;
+            /** @description The worst of the runs that are told one by one */
+            worst: components["schemas"]["WorstRun"];
+        };
+        /**
          * StateEstimation
          * @description Velocities (and positions) from measured positions, by predictor and corrector.
          */
@@ -6001,6 +8132,11 @@ export interface components {
              * @constant
              */
             type: "state";
+            /**
+             * Since Tick
+             * @description Of `events`, of `ended_windows` and of the lanes' `stretches` that have ended only those at or after this tick are told, or that ended then; what was told of the time before holds. 0: all are told, and nothing else holds
+             */
+            since_tick: number;
             /** State */
             state: components["schemas"]["SessionState"] | components["schemas"]["SessionProgress"];
         };
@@ -6027,6 +8163,175 @@ export interface components {
              * @default 1
              */
             ticks: number;
+        };
+        /**
+         * StepState
+         * @description A step, what is known of it, and what may be done.
+         */
+        StepState: {
+            /** Name */
+            name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "read" | "predict" | "experiment" | "explain" | "hand-in";
+            /** Title */
+            title: string;
+            /**
+             * Html
+             * @description Its text; what is of class math is TeX
+             */
+            html: string;
+            /** Max Points */
+            max_points: number;
+            /**
+             * Asks
+             * @description What is predicted
+             * @default
+             */
+            asks: string;
+            /**
+             * Unit
+             * @default
+             */
+            unit: string;
+            /**
+             * Low
+             * @description Least plausible value
+             */
+            low?: number | null;
+            /**
+             * High
+             * @description Greatest plausible value
+             */
+            high?: number | null;
+            /**
+             * Judged By
+             * @description Step whose run judges it
+             */
+            judged_by?: string | null;
+            /**
+             * Options
+             * @default []
+             */
+            options: components["schemas"]["OptionState"][];
+            /**
+             * Duration S
+             * @description How long its run is
+             */
+            duration_s?: number | null;
+            /**
+             * Free
+             * @description What may be chosen before its run
+             * @default []
+             */
+            free: string[];
+            /**
+             * Criteria
+             * @description What is asked of its run
+             * @default []
+             */
+            criteria: string[];
+            /** @description How it is run on a bench; null where it is simulated only */
+            bench: components["schemas"]["BenchStepState"] | null;
+            /**
+             * Law
+             * @description Whether a law's file is handed in
+             * @default false
+             */
+            law: boolean;
+            /** Answer */
+            answer?: number | string | null;
+            /**
+             * Is Kept
+             * @description Whether the answer cannot be changed any more
+             */
+            is_kept: boolean;
+            /** Begun */
+            begun: boolean;
+            /** Run Id */
+            run_id: string | null;
+            /** Done */
+            done: boolean;
+            /** Results */
+            results: components["schemas"]["CriterionState"][];
+        };
+        /**
+         * StepTerm
+         * @description A torque from its onset on.
+         */
+        StepTerm: {
+            /**
+             * Bodies
+             * @description On what: link, motor1, motor2
+             * @default [
+             *       "link"
+             *     ]
+             */
+            bodies: ("link" | "motor1" | "motor2")[];
+            /**
+             * Torque Nm
+             * @description Greatest size on each body, either way, N·m
+             */
+            torque_nm: number;
+            /**
+             * Start S
+             * @description Onset, from and to, s
+             */
+            start_s: [
+                number,
+                number
+            ];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "step";
+        };
+        /**
+         * Steps
+         * @description A grid from low to high, evenly or by equal ratios.
+         */
+        Steps: {
+            /**
+             * Path
+             * @description Setting that varies, as actuator.link_inertia_kg_m2
+             */
+            path: string;
+            /**
+             * Relative
+             * @description Whether values are factors of what the study begins from
+             * @default false
+             */
+            relative: boolean;
+            /**
+             * Low
+             * @description Least
+             */
+            low: number;
+            /**
+             * High
+             * @description Greatest
+             */
+            high: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "steps";
+            /**
+             * Count
+             * @description How many
+             */
+            count: number;
+            /**
+             * Spacing
+             * @description Even, or by equal ratios
+             * @default linear
+             * @enum {string}
+             */
+            spacing: "linear" | "log";
         };
         /**
          * StepsPosition
@@ -6107,6 +8412,25 @@ export interface components {
             reference: components["schemas"]["SeriesStiffness"];
         };
         /**
+         * Stop
+         * @description A bench's torque goes to zero on a ramp from here on; a simulation knows no such stop.
+         */
+        Stop: {
+            /**
+             * Tick
+             * @description Tick at whose beginning it holds; a session gives it its own
+             * @default 0
+             */
+            tick: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "stop";
+            /** Argument */
+            argument?: null;
+        };
+        /**
          * StreamChannel
          * @description A column of the batches.
          */
@@ -6168,6 +8492,21 @@ export interface components {
             ink: number;
         };
         /**
+         * StudentState
+         * @description A student with what was handed in.
+         */
+        StudentState: {
+            /**
+             * Person
+             * @description Id of the person
+             */
+            person: string;
+            /** Name */
+            name: string;
+            /** Handed */
+            handed: components["schemas"]["HandedState"][];
+        };
+        /**
          * StudyColumn
          * @description A column of a study's table.
          */
@@ -6175,13 +8514,18 @@ export interface components {
             /** Name */
             name: string;
             /**
+             * Label
+             * @description In words, without its unit
+             */
+            label: string;
+            /**
              * Role
              * @enum {string}
              */
             role: "row" | "varied" | "outcome" | "metric";
             /**
              * Unit
-             * @description Empty of what is varied: the unit is that of its setting
+             * @description 1 of a share; empty of a factor, and where there is none
              */
             unit: string;
             /** Is Text */
@@ -6194,7 +8538,7 @@ export interface components {
         };
         /**
          * StudyList
-         * @description All that can be looked at or run.
+         * @description All that can be looked at or run, and what is measured of a run.
          */
         StudyList: {
             /** Built In */
@@ -6204,6 +8548,26 @@ export interface components {
              * @description The last begun first
              */
             kept: components["schemas"]["StudyState"][];
+            /** Metrics */
+            metrics: components["schemas"]["StudyMetric"][];
+        };
+        /**
+         * StudyMetric
+         * @description What can be kept of a run, and asked of it.
+         */
+        StudyMetric: {
+            /** Name */
+            name: string;
+            /**
+             * Label
+             * @description In words, without its unit
+             */
+            label: string;
+            /**
+             * Unit
+             * @description 1 of a share
+             */
+            unit: string;
         };
         /**
          * StudyPlan
@@ -6266,6 +8630,11 @@ export interface components {
              * @description Laws, each on the same draws
              */
             laws?: string[] | null;
+            /**
+             * Metrics
+             * @description What its table keeps of each run
+             */
+            metrics?: string[] | null;
             /** @description What counts as success */
             success?: components["schemas"]["Success"] | null;
         };
@@ -6331,8 +8700,23 @@ export interface components {
             pairings: components["schemas"]["LawPair"][];
         };
         /**
+         * SubmissionState
+         * @description What becomes of a law.
+         */
+        SubmissionState: {
+            /**
+             * Key
+             * @description Of its entry: SHA-256 of its text
+             */
+            key: string;
+            /** @description To be followed; null where it has its entry already */
+            job: components["schemas"]["JobState"] | null;
+        };
+        /**
          * Success
-         * @description What a run must keep besides its domain, each at most; what is left out is not asked.
+         * @description What a run must keep besides its domain: of any metric at most so much.
+         *
+         *     What is left out is not asked. A run that has no such value, as one that never recovers, fails.
          */
         Success: {
             /**
@@ -6346,15 +8730,10 @@ export interface components {
              */
             peak_position_error_rad?: number | null;
             /**
-             * Rms Stiffness Error Nm Per Rad
-             * @description rms of σ_d − σ, N·m/rad
+             * Last Position Error Rad
+             * @description |q_d − q| in the last sample, rad
              */
-            rms_stiffness_error_nm_per_rad?: number | null;
-            /**
-             * Peak Stiffness Error Nm Per Rad
-             * @description Largest |σ_d − σ|, N·m/rad
-             */
-            peak_stiffness_error_nm_per_rad?: number | null;
+            last_position_error_rad?: number | null;
             /**
              * Settled Position Error Rad
              * @description rms of q_d − q over the last 0.5 s, rad
@@ -6366,10 +8745,40 @@ export interface components {
              */
             recovery_time_s?: number | null;
             /**
-             * Last Position Error Rad
-             * @description |q_d − q| in the last sample, rad
+             * Integral Position Error Rad S
+             * @description Integral of |q_d − q|, rad·s
              */
-            last_position_error_rad?: number | null;
+            integral_position_error_rad_s?: number | null;
+            /**
+             * Rms Stiffness Error Nm Per Rad
+             * @description rms of σ_d − σ, N·m/rad
+             */
+            rms_stiffness_error_nm_per_rad?: number | null;
+            /**
+             * Peak Stiffness Error Nm Per Rad
+             * @description Largest |σ_d − σ|, N·m/rad
+             */
+            peak_stiffness_error_nm_per_rad?: number | null;
+            /**
+             * Peak Torque1 Nm
+             * @description Largest |τ_1|, N·m
+             */
+            peak_torque1_nm?: number | null;
+            /**
+             * Peak Torque2 Nm
+             * @description Largest |τ_2|, N·m
+             */
+            peak_torque2_nm?: number | null;
+            /**
+             * Effort N2M2 S
+             * @description Integral of τ_1² + τ_2², N²·m²·s
+             */
+            effort_n2m2_s?: number | null;
+            /**
+             * Limit Share
+             * @description Share of the ticks in which a motor makes its limit, 1
+             */
+            limit_share?: number | null;
         };
         /**
          * SweepOutcome
@@ -6437,6 +8846,32 @@ export interface components {
              * @enum {string}
              */
             role: "observer" | "operator" | "instructor";
+        };
+        /**
+         * Tolerance
+         * @description By how much a channel may differ: |a − b| ≤ absolute + relative · |b|.
+         *
+         *     b: any value that the other run has within `time_s` of that moment, and all between them.
+         */
+        Tolerance: {
+            /**
+             * Absolute
+             * @description In the unit of the channel
+             * @default 0
+             */
+            absolute: number;
+            /**
+             * Relative
+             * @description As a share of the other run's value, 1
+             * @default 0
+             */
+            relative: number;
+            /**
+             * Time S
+             * @description How much earlier or later, s
+             * @default 0
+             */
+            time_s: number;
         };
         /**
          * TorqueDemandState
@@ -6592,6 +9027,107 @@ export interface components {
             problem: string | null;
         };
         /**
+         * Uniform
+         * @description Every value from low to high alike.
+         */
+        Uniform: {
+            /**
+             * Path
+             * @description Setting that varies, as actuator.link_inertia_kg_m2
+             */
+            path: string;
+            /**
+             * Relative
+             * @description Whether values are factors of what the study begins from
+             * @default false
+             */
+            relative: boolean;
+            /**
+             * Low
+             * @description Least
+             */
+            low: number;
+            /**
+             * High
+             * @description Greatest
+             */
+            high: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "uniform";
+        };
+        /** ValidationError */
+        ValidationError: {
+            /** Location */
+            loc: (string | number)[];
+            /** Message */
+            msg: string;
+            /** Error Type */
+            type: string;
+            /** Input */
+            input?: unknown;
+            /** Context */
+            ctx?: Record<string, never>;
+        };
+        /**
+         * VerdictRequest
+         * @description Against which run a run is judged, and by how much each channel may differ.
+         */
+        VerdictRequest: {
+            /**
+             * Other
+             * @description Id of the run that it should be
+             */
+            other: string;
+            /**
+             * Tolerances
+             * @description By channel
+             */
+            tolerances?: {
+                [key: string]: components["schemas"]["Tolerance"];
+            };
+            /**
+             * @description Of every other channel; null: these are not judged
+             * @default {
+             *       "absolute": 0,
+             *       "relative": 0,
+             *       "time_s": 0
+             *     }
+             */
+            rest: components["schemas"]["Tolerance"] | null;
+            /**
+             * Align
+             * @description What is laid over each other: the first samples, or where the windows of the runs' numbers begin, such as their last load
+             * @default start
+             * @enum {string}
+             */
+            align: "start" | "window";
+            /**
+             * Points
+             * @description Of each bound of the bands of `tolerances` at most so many; 0: none
+             * @default 0
+             */
+            points: number;
+        };
+        /**
+         * VerifiedRun
+         * @description A run that was handed in, and what was found when it was run again.
+         */
+        VerifiedRun: {
+            /**
+             * Run Id
+             * @description Id of the run
+             */
+            run_id: string;
+            /**
+             * Told
+             * @description What was verified of it
+             */
+            told: string;
+        };
+        /**
          * ViolationModel
          * @description One refused value.
          */
@@ -6678,6 +9214,60 @@ export interface components {
              * @description What began it, in words; empty for the start of the run
              */
             label: string;
+        };
+        /**
+         * WorstRun
+         * @description The worst of the runs that are told one by one.
+         */
+        WorstRun: {
+            /**
+             * Scenario
+             * @description Name of the scenario
+             */
+            scenario: string;
+            /**
+             * Title
+             * @description The scenario in words
+             */
+            title: string;
+            /**
+             * Rms Deg
+             * @description rms position error, None where the run ended early, °
+             */
+            rms_deg: number | null;
+            /**
+             * Problem
+             * @description Why it ended early, or empty
+             */
+            problem: string;
+        };
+        /**
+         * LawRequest
+         * @description A law that is to be tried and kept.
+         */
+        svsa_server__schemas__course__LawRequest: {
+            /**
+             * Text
+             * @description Text of a law's Python file
+             */
+            text: string;
+        };
+        /**
+         * LawRequest
+         * @description Which law controls, and which the lanes beside; every plant stays where it is.
+         */
+        svsa_server__schemas__setting__LawRequest: {
+            /**
+             * Law
+             * @description Name of a law that is installed: see GET /laws
+             */
+            law: string;
+            /**
+             * Rival Laws
+             * @description Laws of the lanes beside, from the first on; those left out keep theirs
+             * @default []
+             */
+            rival_laws: string[];
         };
     };
     responses: never;
@@ -6944,6 +9534,84 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "application/json": components["schemas"]["JoinState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A wrong secret, token or code */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    come_back: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReturnRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
                     "application/json": components["schemas"]["AccessState"];
                 };
             };
@@ -6994,6 +9662,44 @@ export interface operations {
             };
             /** @description Refused values; nothing was changed */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    renew_return_code: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReturnCode"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -7137,6 +9843,124 @@ export interface operations {
             };
         };
     };
+    remove_person: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a person */
+                person: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MemberState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Validation Error */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HTTPValidationError"];
+                };
+            };
+        };
+    };
+    restore_person: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a person */
+                person: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MemberState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Validation Error */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HTTPValidationError"];
+                };
+            };
+        };
+    };
     renew_code: {
         parameters: {
             query?: never;
@@ -7204,6 +10028,69 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_audit_log: {
+        parameters: {
+            query?: {
+                person?: string;
+                kind?: string;
+                refused?: boolean | null;
+                until?: string;
+                page?: number;
+                page_size?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuditPage"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -8700,10 +11587,96 @@ export interface operations {
             };
         };
     };
+    foretell_heat: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PaperLoad"] | components["schemas"]["MassLoad"] | components["schemas"]["ConstantLoad"] | components["schemas"]["PulseLoad"] | components["schemas"]["PushLoad"] | components["schemas"]["SineLoad"] | components["schemas"]["SeriesLoad"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EnduranceState"] | null;
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     set_position: {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -8764,8 +11737,90 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    repeat_position: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -8788,6 +11843,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -8848,8 +11905,90 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    repeat_stiffness: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -8872,6 +12011,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -8883,7 +12024,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["LawRequest"];
+                "application/json": components["schemas"]["svsa_server__schemas__setting__LawRequest"];
             };
         };
         responses: {
@@ -8932,6 +12073,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -8956,6 +12106,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9016,6 +12168,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9040,6 +12201,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9104,6 +12267,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9128,6 +12300,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9188,6 +12362,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9212,6 +12395,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9272,6 +12457,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9296,6 +12490,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9356,6 +12552,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9380,6 +12585,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9440,6 +12647,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9464,6 +12680,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9524,6 +12742,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9548,6 +12775,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9608,6 +12837,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is longer than 4194304 bytes. */
             413: {
                 headers: {
@@ -9632,6 +12870,8 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
+                /** @description The session's `revision`: refused where it was changed meanwhile */
+                "if-match"?: string | null;
                 /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
                 "SVSA-Client"?: string | null;
             };
@@ -9687,6 +12927,15 @@ export interface operations {
             };
             /** @description Not while the session or run is as it is, or somebody else is in control */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description It was changed meanwhile; see If-Match */
+            412: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -10751,6 +14000,993 @@ export interface operations {
             };
         };
     };
+    read_course: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CourseState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_exercise: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of an exercise */
+                exercise: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExerciseState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    visit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of an exercise */
+                exercise: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PlaceRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExerciseState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    answer: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of an exercise */
+                exercise: string;
+                /** @description Name of a step of it */
+                step: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AnswerRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExerciseState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    set_up: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path: {
+                /** @description Name of the session */
+                session: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SetupRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    check: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of an exercise */
+                exercise: string;
+                /** @description Name of a step of it */
+                step: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CriterionState"][];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    try_law: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of an exercise */
+                exercise: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["svsa_server__schemas__course__LawRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExerciseState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    hand_in: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of an exercise */
+                exercise: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["HandInRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JudgementState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_grades: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GradesState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    grade_class: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["GradingRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    download_grades: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_grades: {
+        parameters: {
+            query?: {
+                /** @description Id of a person; left out, the whole class */
+                person?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_own_grades: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HandedState"][];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_own_grades: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     read_csv: {
         parameters: {
             query?: never;
@@ -11524,6 +15760,87 @@ export interface operations {
             };
         };
     };
+    judge_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Id of a run */
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VerdictRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunVerdict"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_runs: {
         parameters: {
             query?: {
@@ -11781,7 +16098,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description It was changed meanwhile */
+            /** @description It was changed meanwhile; see If-Match */
             412: {
                 headers: {
                     [name: string]: unknown;
@@ -12607,6 +16924,63 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["StudyState"];
                 };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Name of a kept study */
+                study: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description From a page of another site, for another host than this one, or not for this role. */
             403: {
@@ -13479,6 +17853,486 @@ export interface operations {
             };
         };
     };
+    list_kept: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["KeptScenario"][];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    run_scenario: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ScenarioRuns"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ScenarioTraceState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    open_scenario_session: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Who calls: a text that others do not guess, 1 to 40 printable characters in percent-encoded UTF-8; see `PUT …/control`, which needs it */
+                "SVSA-Client"?: string | null;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ScenarioSession"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_scenario: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description By which a scenario is kept */
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["KeptScenario"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    keep: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description By which a scenario is kept */
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LoadScenario"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["KeptScenario"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    forget: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description By which a scenario is kept */
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    download_scenario: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description By which a scenario is kept */
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/toml": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     read_arena: {
         parameters: {
             query?: never;
@@ -13663,6 +18517,282 @@ export interface operations {
             };
             /** @description Refused values; nothing was changed */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_leaderboard: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LeaderboardState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_worst_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description Key of an entry */
+                key: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The page */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": string;
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    submit_law: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LawSubmission"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SubmissionState"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is longer than 4194304 bytes. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    measure_installed_laws: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobState"];
+                };
+            };
+            /** @description From a page of another site, for another host than this one, or not for this role. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description No such session, load or run */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not while the session or run is as it is, or somebody else is in control */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused values; nothing was changed */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too much is being made already: again in 5 s (Retry-After) */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -7,7 +7,6 @@ import type { Law, Refusal } from "./types";
 
 type Schemas = components["schemas"];
 
-export type Job = Schemas["JobState"];
 export type Study = Schemas["StudyState"];
 export type StudyPlan = Schemas["StudyPlan"];
 export type StudyColumn = Schemas["StudyColumn"];
@@ -25,6 +24,7 @@ export interface StudyWish {
   name?: string;
   runs?: number;
   laws?: readonly Law[];
+  metrics?: readonly string[];
   success?: Readonly<Record<string, number>>;
 }
 
@@ -38,8 +38,9 @@ export const checkStudy = (wish: StudyWish) =>
   request("post", "studies/check", wish) as Promise<StudyPlan>;
 export const startStudy = (wish: StudyWish) =>
   request("post", "studies", wish, LONG_WAIT_MS) as Promise<Study>;
-export const cancelJob = (job: string) =>
-  request("delete", `jobs/${encodeURIComponent(job)}`) as Promise<Job>;
+/** For good; one that is being run is cancelled first, which may take as long as its rows. */
+export const deleteStudy = (study: string) =>
+  request("delete", pathOf(study), undefined, LONG_WAIT_MS);
 export const readSummary = (study: string) =>
   request("get", pathOf(study, "/summary"), undefined, LONG_WAIT_MS) as Promise<StudySummary>;
 export const readSensitivity = (study: string, outcome: string) =>

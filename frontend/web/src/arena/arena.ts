@@ -6,7 +6,7 @@ import { explain } from "../state/actions";
 import { sortRows } from "./columns";
 
 const PAPERS_LAW = "ndobc";
-export const MOST_CHOSEN = 4;
+export const MAX_CHOSEN = 4;
 
 export const results = signal<Results | null>(null);
 export const problem = signal("");
@@ -45,7 +45,7 @@ export async function openArena(): Promise<void> {
 export function choose(law: Law): void {
   const others = chosen.peek().filter((one) => one !== law);
   const isTold = chosen.peek().at(-1) === law;
-  chosen.value = isTold ? others : [...others, law].slice(-MOST_CHOSEN);
+  chosen.value = isTold ? others : [...others, law].slice(-MAX_CHOSEN);
 }
 
 let round = 0;

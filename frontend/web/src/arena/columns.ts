@@ -1,10 +1,11 @@
 /** The columns of the arena: what each is of, which way is better, and which run shows it. */
 import type { Outcome, Row } from "../api/arena";
 import { text } from "../text/en";
+import { formatError } from "../units";
 
 const words = text.arena.columns;
 const STEP_NM = 0.5;
-const MOST_STEP_NM = 15;
+const MAX_STEP_NM = 15;
 
 export interface Column {
   key: keyof typeof words;
@@ -70,6 +71,10 @@ export const COLUMNS: readonly Column[] = [
     (row) => row.unloadings_failed,
     "unloading_15_0",
   ),
+  {
+    ...error("rest", "", (row) => row.unloading_settled_deg),
+    scenarioOf: (row) => row.unloading_worst,
+  },
   error("sine", "sine_2hz", (row) => row.sine_2hz_rms_deg),
   error("mass", "mass", (row) => row.mass_rms_deg),
   error("pulses", "pulses", (row) => outcomeOf(row, "pulses")?.rms_deg ?? null),
@@ -86,12 +91,16 @@ export const COLUMNS: readonly Column[] = [
     key: "step",
     unit: "N·m",
     isHighBetter: true,
-    most: MOST_STEP_NM,
+    most: MAX_STEP_NM,
     read: (row) => row.largest_link_step_nm,
     faultOf: () => null,
-    scenarioOf: (row) => `link_step_${Math.min(row.largest_link_step_nm + STEP_NM, MOST_STEP_NM)}`,
+    scenarioOf: (row) => `link_step_${Math.min(row.largest_link_step_nm + STEP_NM, MAX_STEP_NM)}`,
   },
 ];
+
+/** Counts and steps as they are, errors as `formatError` has them. */
+export const formatValue = (column: Column, value: number): string =>
+  column.isLog ? formatError(value) : String(value);
 
 /** Share of a cell's width that its bar takes: of the decades in the column, or of the most. */
 export function barOf(column: Column, value: number, rows: readonly Row[]): number {
@@ -125,3 +134,8 @@ export function sortRows(rows: readonly Row[], key: string, isDown: boolean): Ro
     return way * (a - b);
   });
 }
+
+/** Which versions of the lab measured the rows: one may be renewed without the others. */
+export const versionsOf = (rows: readonly Row[]) => [
+  ...new Set(rows.map(({ version }) => version)),
+];

@@ -2,23 +2,22 @@ import type { Row } from "../api/arena";
 import { Formula } from "../equations/formula";
 import { lawOf, titleOf } from "../state/laws";
 import { text } from "../text/en";
-import { formatNumber } from "../units";
+import { formatError, formatNumber } from "../units";
 import { chosen, rowOf, see } from "./arena";
+import { splitSource } from "./source";
 
 const words = text.arena;
-const DOI = /^10\.\d{4,}\//;
 
 function Source({ source }: { source: string }) {
   if (source === "") return null;
+  const { said, doi } = splitSource(source);
   return (
     <p class="hint">
-      {words.source}{" "}
-      {DOI.test(source) ? (
-        <a href={`https://doi.org/${source}`} target="_blank" rel="noreferrer">
-          {words.doi(source)}
+      {words.source} {said}
+      {doi !== "" && (
+        <a href={`https://doi.org/${doi}`} target="_blank" rel="noreferrer">
+          {words.doi(doi)}
         </a>
-      ) : (
-        source
       )}
     </p>
   );
@@ -38,7 +37,7 @@ function Outcomes({ row }: { row: Row }) {
             <b>
               {one.fault === null
                 ? words.outcome(
-                    formatNumber(one.rms_deg, 3, 4),
+                    formatError(one.rms_deg),
                     formatNumber(one.peak_deg, 3, 2),
                     formatNumber(one.torque_change_nm, 2, 3),
                   )
@@ -59,7 +58,7 @@ export function LawCard() {
   if (name === undefined || row === undefined) return null;
   const paragraphs = (law?.notes ?? "").split(/\n\s*\n/).filter((part) => part !== "");
   return (
-    <section class="arena-card" aria-labelledby="arena-law-title">
+    <section class="surface card" aria-labelledby="arena-law-title">
       <h3 id="arena-law-title">{titleOf(name)}</h3>
       {law && <Formula tex={law.equation} />}
       {paragraphs.map((part) => (

@@ -1,8 +1,9 @@
 import { useEffect } from "preact/hooks";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
+import { ScoreKey } from "../widgets/scorebar";
 import { measureAll, measuring, openArena, problem, results, stopMeasuring } from "./arena";
-import { COLUMNS } from "./columns";
+import { COLUMNS, versionsOf } from "./columns";
 import { LawCard } from "./law";
 import { Radar } from "./radar";
 import { ArenaTable } from "./table";
@@ -39,11 +40,7 @@ function ScoreParts() {
   return (
     <span class="arena-parts">
       {words.columns.score.name}:
-      {(["robustness", "draws", "accuracy"] as const).map((part) => (
-        <span key={part}>
-          <i class={`is-${part}`} aria-hidden="true" /> {words.parts[part]}
-        </span>
-      ))}
+      <ScoreKey names={words.parts} />
     </span>
   );
 }
@@ -51,7 +48,7 @@ function ScoreParts() {
 /** What every column was measured on. */
 function Legend() {
   return (
-    <details class="arena-card arena-legend">
+    <details class="surface card arena-legend">
       <summary>{words.legend}</summary>
       <dl>
         {COLUMNS.map(({ key }) => (
@@ -73,8 +70,8 @@ export function ArenaPage() {
   }, []);
   const found = results.value;
   return (
-    <main class="arena" aria-label={words.title}>
-      <div class="arena-head">
+    <main class="page" aria-label={words.title}>
+      <div class="page-head arena-head">
         <div>
           <h2>{words.title}</h2>
           <p>{words.lead}</p>
@@ -91,7 +88,7 @@ export function ArenaPage() {
           <ArenaTable />
           <p class="hint arena-note">
             <ScoreParts />
-            {words.bars} {words.provenance(found.version, found.suite)}
+            {words.bars} {words.provenance(versionsOf(found.rows), found.suite)}
           </p>
           <Legend />
           <div class="arena-cards">

@@ -144,7 +144,7 @@ function Shares({ found }: { found: readonly Row[] }) {
 export function Radar() {
   const found = chosen.value.flatMap((law) => rowOf(law) ?? []);
   return (
-    <section class="arena-card" aria-labelledby="arena-radar-title">
+    <section class="surface card" aria-labelledby="arena-radar-title">
       <h3 id="arena-radar-title">{words.radar}</h3>
       {found.length === 0 ? (
         <p class="hint">{words.chooseSome}</p>

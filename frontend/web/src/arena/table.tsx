@@ -1,59 +1,41 @@
 import type { Row } from "../api/arena";
 import { inkOf } from "../plots/inks";
-import { nextSort } from "../runs/table";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
-import { formatNumber } from "../units";
+import { ScoreBar } from "../widgets/scorebar";
+import { SortHead } from "../widgets/sorthead";
 import { choose, chosen, confirmed, measuring, opening, rows, see, sort } from "./arena";
-import { barOf, COLUMNS, type Column, isBest } from "./columns";
+import { barOf, COLUMNS, type Column, formatValue, isBest } from "./columns";
 
 const words = text.arena;
 
 function Head({ column }: { column: Column }) {
   const { name, hint } = words.columns[column.key];
-  const isSorted = sort.value.replace(/^-/, "") === column.key;
-  const isDown = sort.value.startsWith("-");
   return (
-    <th scope="col" aria-sort={isSorted ? (isDown ? "descending" : "ascending") : "none"}>
-      <button
-        type="button"
-        title={hint}
-        onClick={() => {
-          sort.value = nextSort(sort.peek(), column.key, column.isHighBetter ?? false);
-        }}
-      >
-        {name}
-        {column.unit && <span class="unit"> {column.unit}</span>}
-        <span class="sort-sign" aria-hidden="true">
-          {isSorted ? (isDown ? "▼" : "▲") : ""}
-        </span>
-      </button>
-    </th>
+    <SortHead
+      column={column.key}
+      sort={sort.value}
+      hint={hint}
+      isDownFirst={column.isHighBetter}
+      onSort={(next) => {
+        sort.value = next;
+      }}
+    >
+      {name}
+      {column.unit && <span class="unit">{`\u00a0${column.unit}`}</span>}
+    </SortHead>
   );
 }
 
 function Score({ row }: { row: Row }) {
   const { robustness, draws, accuracy } = row.parts;
-  const parts = [
-    { key: "robustness", share: 0.5 * robustness },
-    { key: "draws", share: 0.3 * draws },
-    { key: "accuracy", share: 0.2 * accuracy },
-  ];
   return (
     <td class="arena-score" title={words.scoreOf(robustness, draws, accuracy)}>
       <span class="arena-value">{row.score.toFixed(2)}</span>
-      <span class="arena-bar" aria-hidden="true">
-        {parts.map(({ key, share }) => (
-          <i key={key} class={`is-${key}`} style={{ width: `${100 * share}%` }} />
-        ))}
-      </span>
+      <ScoreBar parts={row.parts} />
     </td>
   );
 }
-
-/** Counts and steps as they are, errors to three digits. */
-const formatValue = (column: Column, value: number): string =>
-  column.isLog ? formatNumber(value, 3, 4) : String(value);
 
 /** What stands where there is no number: why the run ended, or that it never settled. */
 const wordsOf = (column: Column, row: Row): string => {
@@ -115,7 +97,7 @@ function Confirmed({ row }: { row: Row }) {
 /** A law a row; a press on a name brings it into the radar, a press on a number its run. */
 export function ArenaTable() {
   return (
-    <section class="arena-scroll" aria-label={words.table}>
+    <section class="surface arena-scroll" aria-label={words.table}>
       <table class="arena-table">
         <caption class="visually-hidden">{words.tableHint}</caption>
         <thead>

@@ -2,6 +2,7 @@ import type { BenchState } from "../api/types";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { formatLapse, formatNumber } from "../units";
+import { Heat } from "./heat";
 import { Homing } from "./homing";
 import { type Freshness, freshnessOf } from "./lateness";
 import { Loop } from "./loop";
@@ -50,13 +51,14 @@ function Drives({ bench }: { bench: BenchState }) {
   const { drives } = text.bench;
   const { ages_s: ages, current_a: currents, supervised } = bench;
   return (
-    <section class="bench-card" aria-label={drives.heading}>
+    <section class="bench-card is-drives" aria-label={drives.heading}>
       <h2>{drives.heading}</h2>
       <table>
         <thead>
           <tr>
             <th scope="col">{drives.source}</th>
             <th scope="col">{drives.current}</th>
+            <th scope="col">{text.bench.heat.column}</th>
             <th scope="col">{drives.age}</th>
           </tr>
         </thead>
@@ -74,6 +76,7 @@ function Drives({ bench }: { bench: BenchState }) {
                     ? drives.none
                     : drives.amperes(formatNumber(current, 3, 2))}
                 </td>
+                <Heat motor={bench.motors?.[index]} />
                 <Age seconds={age} level={level} />
               </tr>
             );
@@ -93,7 +96,7 @@ function Drives({ bench }: { bench: BenchState }) {
 function Calibration({ bench }: { bench: BenchState }) {
   const { calibrated_by: by, calibrated_on: on } = bench;
   return (
-    <section class="bench-card" aria-label={text.bench.calibration}>
+    <section class="bench-card is-calibration" aria-label={text.bench.calibration}>
       <h2>{text.bench.calibration}</h2>
       {on === null ? (
         <p class="is-bad">

@@ -6,6 +6,7 @@ import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
+import { HeatWarning } from "./heat";
 import { isHeld } from "./hold";
 import { HoldRow } from "./holdrow";
 import { adviceFor, isStarting, needsDetails, placeOf, STAGES } from "./status";
@@ -73,6 +74,7 @@ export function BenchStrip({ bench }: { bench: BenchState }) {
         </button>
       </div>
       {bench.dead_man && <HoldRow bench={bench} />}
+      <HeatWarning bench={bench} />
       <Problem control="bench" />
       <div id={id} hidden={!isOpen}>
         {isOpen && <BenchDetails bench={bench} />}

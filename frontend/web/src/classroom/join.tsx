@@ -1,18 +1,16 @@
 import { useId, useState } from "preact/hooks";
-import { join, login } from "../api/access";
+import { comeBack, join, login } from "../api/access";
+import { access } from "../state/access";
 import { LONGEST_NAME, personName, rememberPerson } from "../state/preferences";
 import { text } from "../text/en";
 import { takeCode } from "./joincode";
+import { returnCode } from "./returncode";
+import { type EnterProps, SecretForm } from "./secretform";
 
 const words = text.classroom;
 
-interface FormProps {
-  /** Tells what went wrong, or lets the page in. */
-  enter: (way: () => Promise<unknown>) => void;
-}
-
 /** A student's name and the class code. */
-function StudentForm({ enter }: FormProps) {
+function StudentForm({ enter }: EnterProps) {
   const id = useId();
   const [name, setName] = useState(personName.peek());
   const [code, setCode] = useState(takeCode);
@@ -21,6 +19,7 @@ function StudentForm({ enter }: FormProps) {
     enter(async () => {
       const joined = await join(name.trim(), code);
       rememberPerson(joined.name);
+      returnCode.value = joined.return_code;
     });
   };
   return (
@@ -55,40 +54,27 @@ function StudentForm({ enter }: FormProps) {
   );
 }
 
-function InstructorForm({ enter }: FormProps) {
-  const id = useId();
-  const [token, setToken] = useState("");
-  const submit = (event: Event) => {
-    event.preventDefault();
-    enter(() => login(token));
+const WAYS = ["student", "back", "instructor"] as const;
+
+/** How one comes into a class: as somebody new, as who one was, or as the instructor. */
+export function Join({ enter }: EnterProps) {
+  const [chosen, choose] = useState<(typeof WAYS)[number]>("student");
+  const comeIn = async (code: string) => {
+    rememberPerson((await comeBack(code)).name);
   };
   return (
-    <form onSubmit={submit}>
-      <label for={id}>{words.token}</label>
-      <input
-        id={id}
-        type="password"
-        required
-        autocomplete="current-password"
-        value={token}
-        onInput={(event) => setToken(event.currentTarget.value)}
-      />
-      <button type="submit" class="button is-primary">
-        {text.login.enter}
-      </button>
-    </form>
-  );
-}
-
-/** How one comes into a class. */
-export function Join({ enter }: FormProps) {
-  const [isInstructor, setIsInstructor] = useState(false);
-  return (
     <>
-      {isInstructor ? <InstructorForm enter={enter} /> : <StudentForm enter={enter} />}
-      <button type="button" class="quiet" onClick={() => setIsInstructor(!isInstructor)}>
-        {isInstructor ? words.asStudent : words.asInstructor}
-      </button>
+      {access.value?.removed === true && <p class="problem">{words.youAreRemoved}</p>}
+      {chosen === "student" && <StudentForm enter={enter} />}
+      {chosen === "back" && <SecretForm label={words.returnCode} enter={enter} send={comeIn} />}
+      {chosen === "instructor" && <SecretForm label={words.token} enter={enter} send={login} />}
+      <p class="login-ways">
+        {WAYS.filter((way) => way !== chosen).map((way) => (
+          <button key={way} type="button" class="quiet" onClick={() => choose(way)}>
+            {words.ways[way]}
+          </button>
+        ))}
+      </p>
     </>
   );
 }

@@ -8,139 +8,30 @@ import {
   endSession,
   leave,
   readClass,
+  removePerson,
   renewCode,
+  renewReturnCode,
+  restorePerson,
 } from "../api/access";
 import { PlaceLink } from "../runs/placelink";
 import { access, isClass, isInstructor, learnAccess } from "../state/access";
 import { explain } from "../state/actions";
-import { handOver, lock, queue } from "../state/control";
 import { phase } from "../state/session";
 import { text } from "../text/en";
 import { Panel } from "../widgets/panel";
 import { PanelButton } from "../widgets/panelbutton";
+import { AuditLog } from "./auditlog";
+import { Code } from "./code";
 import { isOpen, READ_MS } from "./open";
+import { People, Removed } from "./people";
+import { returnCode } from "./returncode";
+import { Sessions } from "./sessions";
+import { Waiting } from "./waiting";
 
 const words = text.classroom;
-const SHARED = "lab";
 
 function close(): void {
   isOpen.value = false;
-}
-
-function People({ people }: { people: ClassState["people"] }) {
-  return (
-    <table class="class-table">
-      <caption>{words.here(people.length)}</caption>
-      <thead>
-        <tr>
-          <th scope="col">{words.name}</th>
-          <th scope="col">{words.role}</th>
-          <th scope="col">{words.sees}</th>
-        </tr>
-      </thead>
-      <tbody>
-        {people.map((one) => (
-          <tr key={one.id}>
-            <th scope="row">
-              {one.name} {one.id === access.value?.id && <small>({words.you})</small>}
-            </th>
-            <td>{words.roles[one.role]}</td>
-            <td>{one.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
-}
-
-function Waiting() {
-  const waiting = queue.value?.waiting ?? [];
-  return (
-    <section>
-      <h3>{words.queue}</h3>
-      {waiting.length === 0 && <p class="hint">{words.nobodyWaits}</p>}
-      <ol class="class-queue">
-        {waiting.map((one) => (
-          <li key={one.id}>
-            {one.name}{" "}
-            {isInstructor.value && (
-              <button
-                type="button"
-                class="button is-small"
-                aria-label={words.give(one.name)}
-                onClick={() => void handOver(one.id)}
-              >
-                {words.giveShort}
-              </button>
-            )}
-          </li>
-        ))}
-      </ol>
-      {isInstructor.value && queue.value !== null && (
-        <button
-          type="button"
-          class="button"
-          title={words.lockHint}
-          onClick={() => void lock(queue.peek()?.locked !== true)}
-        >
-          {queue.value.locked ? words.unlock : words.lock}
-        </button>
-      )}
-    </section>
-  );
-}
-
-function Sessions({
-  sessions,
-  end,
-}: {
-  sessions: ClassState["sessions"];
-  end: (name: string) => void;
-}) {
-  return (
-    <section>
-      <h3>{words.sessions}</h3>
-      {sessions.length === 0 && <p class="hint">{words.noSessions}</p>}
-      <ul class="class-sessions">
-        {sessions.map((one) => (
-          <li key={one.session}>
-            <span>
-              {one.owner} · {text.status[one.status as "running" | "paused" | "fault"]}
-              {one.recording && ` · ${words.recording}`}
-            </span>
-            <a
-              class="button is-small"
-              aria-label={words.openSession(one.owner)}
-              href={`?session=${encodeURIComponent(one.session)}`}
-            >
-              {words.openShort}
-            </a>
-            <button
-              type="button"
-              class="button is-small"
-              aria-label={words.end(one.owner)}
-              onClick={() => end(one.session)}
-            >
-              {words.endShort}
-            </button>
-          </li>
-        ))}
-      </ul>
-    </section>
-  );
-}
-
-function Code({ code }: { code: ClassCode }) {
-  return (
-    <figure class="class-qr">
-      <figcaption>
-        {words.codeOnce} <strong class="class-code">{code.code}</strong>
-      </figcaption>
-      <img src={code.qr} alt={words.qr(code.code)} />
-      <span class="class-address">{code.address}</span>
-      {code.is_local && <strong>{words.onlyHere}</strong>}
-    </figure>
-  );
 }
 
 /** Who is here, who waits, whose sessions; what only the instructor may, for the instructor. */
@@ -149,6 +40,7 @@ function Inside() {
   const code = useSignal<ClassCode | null>(null);
   const token = useSignal("");
   const note = useSignal("");
+  const isAudited = useSignal(false);
   const attempt = async (act: () => Promise<unknown>) => {
     note.value = "";
     try {
@@ -175,14 +67,6 @@ function Inside() {
       <p class="problem" role="alert" hidden={note.value === ""}>
         {note.value}
       </p>
-      {told.value && <People people={told.value.people} />}
-      <Waiting />
-      {told.value && (
-        <Sessions
-          sessions={told.value.sessions}
-          end={(name) => void attempt(() => endSession(name))}
-        />
-      )}
       {isInstructor.value && (
         <div class="class-acts">
           <button
@@ -213,9 +97,39 @@ function Inside() {
           <PlaceLink to={{ kind: "list" }} class="button">
             {words.runs}
           </PlaceLink>
+          <PlaceLink to={{ kind: "grades" }} class="button">
+            {text.grades.title}
+          </PlaceLink>
         </div>
       )}
       {code.value && <Code code={code.value} />}
+      <Waiting />
+      {told.value && (
+        <>
+          <People
+            people={told.value.people}
+            remove={(id) => void attempt(() => removePerson(id))}
+          />
+          <Removed
+            removed={told.value.removed}
+            restore={(id) => void attempt(() => restorePerson(id))}
+          />
+        </>
+      )}
+      {told.value && (
+        <Sessions
+          sessions={told.value.sessions}
+          end={(name) => void attempt(() => endSession(name))}
+        />
+      )}
+      {isInstructor.value && (
+        <AuditLog
+          isOpen={isAudited.value}
+          onToggle={() => {
+            isAudited.value = !isAudited.peek();
+          }}
+        />
+      )}
       <div class="class-acts">
         <button
           type="button"
@@ -229,6 +143,20 @@ function Inside() {
         >
           {words.script}
         </button>
+        {!isInstructor.value && (
+          <button
+            type="button"
+            class="button"
+            title={words.newReturnCodeHint}
+            onClick={() =>
+              void attempt(async () => {
+                returnCode.value = (await renewReturnCode()).return_code;
+              })
+            }
+          >
+            {words.newReturnCode}
+          </button>
+        )}
         <button
           type="button"
           class="button"

@@ -25,6 +25,7 @@ function tell(queue: Queue): { title: string; more: string } | null {
     return { title, more: words.placeText(queue.place, queue.waiting.length) };
   }
   if (isInstructor.value && !now?.holder && !queue.locked) return null;
+  if (isInstructor.value && !now?.holder) return { title, more: words.lockedByYou };
   return { title, more: isObserver.value ? words.observerText : text.control.heldText };
 }
 

@@ -15,7 +15,11 @@ import { Stiffness } from "./stiffness";
 export function Controls({ state }: { state: SessionState }) {
   const groups = useRef<HTMLDivElement>(null);
   return (
-    <fieldset class="controls" disabled={!takesCommands.value} aria-label={text.controls.heading}>
+    <fieldset
+      class="surface controls"
+      disabled={!takesCommands.value}
+      aria-label={text.controls.heading}
+    >
       <div class="groups" ref={groups}>
         <Motion state={state} />
         <Stiffness state={state} />

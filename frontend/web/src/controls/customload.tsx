@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { addLoad } from "../api/client";
 import type { Load } from "../api/types";
+import { EnduranceNote } from "../bench/endurance";
 import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { text } from "../text/en";
@@ -29,17 +30,20 @@ function loadOf(kind: Kind, channel: Channel, torque: number, detail: number): L
 }
 
 /** A torque of the user's own on one of the three channels. */
-export function CustomLoad() {
+export function CustomLoad({ isShown }: { isShown: boolean }) {
   const [kind, setKind] = useState<Kind>("constant");
   const [channel, setChannel] = useState<Channel>("0");
   const [torque, setTorque] = useState("1");
   const [duration, setDuration] = useState("0.5");
   const [frequency, setFrequency] = useState("1");
 
+  const detail = Number(kind === "pulse" ? duration : frequency);
+  const draft = loadOf(kind, channel, Number(torque), detail);
+  const isNumber = torque !== "" && Number.isFinite(Number(torque)) && detail > 0;
+
   const submit = (event: Event) => {
     event.preventDefault();
-    const detail = Number(kind === "pulse" ? duration : frequency);
-    void perform("load.custom", () => addLoad(loadOf(kind, channel, Number(torque), detail)));
+    void perform("load.custom", () => addLoad(draft));
   };
 
   return (
@@ -58,6 +62,7 @@ export function CustomLoad() {
       {kind === "sine" && (
         <NumberBox {...shownAs("frequency_hz")} value={frequency} onInput={setFrequency} />
       )}
+      <EnduranceNote load={isShown && isNumber ? draft : null} />
       <button type="submit" class="button">
         {text.load.apply}
       </button>

@@ -1,7 +1,8 @@
 /** What the user types before the server holds it. */
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import type { SessionState } from "../api/types";
 import { perform, problem } from "../state/actions";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatInput } from "../units";
 
@@ -18,16 +19,21 @@ export interface HeldNumber {
  * then what the server holds is shown again.
  */
 export function useDraft({ name, value, send }: HeldNumber) {
-  const [draft, setDraft] = useState<string | null>(null);
+  const [draft, keepDraft] = useState<string | null>(null);
+  const seen = useRef<SessionState | null>(null);
+  const setDraft = (next: string | null) => {
+    if (draft === null) seen.current = session.peek();
+    keepDraft(next);
+  };
   const commit = async (next: string) => {
     const number = Number(next);
     if (next.trim() === "" || !Number.isFinite(number)) {
       problem.value = { control: name, message: text.refusal.noNumber };
     } else if (next !== formatInput(value)) {
       setDraft(next);
-      await perform(name, () => send(number));
+      await perform(name, () => send(number), seen.current);
     }
-    setDraft((current) => (current === null || current === next ? null : current));
+    keepDraft((current) => (current === null || current === next ? null : current));
   };
   const shown = draft ?? formatInput(value);
   const inputProps = {

@@ -1,10 +1,9 @@
 import { putParameters } from "../api/client";
 import type { LawParameter, LawRow, SessionState } from "../api/types";
 import { Undo } from "../design/summary";
+import { isWordy, labelParameter } from "../state/laws";
 import type { SliderRange } from "../widgets/scale";
 import { Field } from "./field";
-
-const LONGEST_LABEL = 18;
 
 type Value = string | number | boolean | readonly number[];
 
@@ -13,10 +12,6 @@ export function rangeOf({ least, most }: LawParameter): { range?: SliderRange } 
   if (least === null || most === null) return {};
   return { range: { min: least, max: most, logarithmic: least > 0 && most / least >= 10 } };
 }
-
-/** A meaning that leaves no room for the slider stands above it, which then has the symbol. */
-export const isWordy = ({ symbol, meaning }: LawParameter): boolean =>
-  symbol !== "" && meaning.length > LONGEST_LABEL;
 
 /** Of several numbers each has its place. */
 export function changedAt(held: Value, index: number | null, value: number): Value {
@@ -35,7 +30,6 @@ interface ParameterProps {
 function Parameter({ name, row, held, send }: ParameterProps) {
   const unit = row.unit === "1" ? "" : row.unit;
   const places = row.kind === "numbers" ? (held as number[]).map((_, index) => index) : [null];
-  const label = isWordy(row) ? row.symbol : row.meaning;
   return (
     <>
       {isWordy(row) && <p class="hint">{row.meaning}</p>}
@@ -43,7 +37,7 @@ function Parameter({ name, row, held, send }: ParameterProps) {
         <Field
           key={index}
           name={`${name}.${row.name}${index === null ? "" : `[${index}]`}`}
-          label={index === null ? label : `${label} ${index + 1}`}
+          label={labelParameter(row, index)}
           {...(isWordy(row) ? { labelRest: row.meaning } : {})}
           unit={unit}
           value={index === null ? (held as number) : ((held as number[])[index] as number)}

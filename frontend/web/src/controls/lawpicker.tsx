@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import type { Law, LawRow } from "../api/types";
-import { brokenLaws, findLaws, groupLaws, usableLaws } from "../state/laws";
+import { brokenLaws, findLaws, groupLaws, pickLaw, usableLaws } from "../state/laws";
 import { text } from "../text/en";
 import { Popup } from "../widgets/popup";
 
@@ -72,8 +72,10 @@ function LawList({ value, onChoose }: LawListProps) {
           value={sought}
           onInput={(event) => setSought(event.currentTarget.value)}
           onKeyDown={(event) => {
-            const first = found[0];
-            if (event.key === "Enter" && sought.trim() !== "" && first) onChoose(first.name);
+            if (event.key !== "Enter" || sought.trim() === "") return;
+            event.preventDefault(); // the focus goes back to the button, which it would press
+            const picked = pickLaw(found, sought);
+            if (picked) onChoose(picked.name);
           }}
         />
       )}

@@ -1,3 +1,4 @@
+import { useState } from "preact/hooks";
 import { removeAllLoads, removeLoad } from "../api/client";
 import type { LoadRow, SessionState } from "../api/types";
 import { perform } from "../state/actions";
@@ -73,6 +74,7 @@ function FormPicker() {
 }
 
 export function Loads({ state }: { state: SessionState }) {
+  const [isShown, show] = useState(false);
   if (isRealBench(state.bench)) {
     return (
       <Group title={text.load.title} topic="load">
@@ -87,9 +89,9 @@ export function Loads({ state }: { state: SessionState }) {
       </p>
       <LoadRows state={state} />
       <Problem control="load.rows" />
-      <details class="more">
+      <details class="more" onToggle={(event) => show(event.currentTarget.open)}>
         <summary>{text.load.custom}</summary>
-        <CustomLoad />
+        <CustomLoad isShown={isShown} />
       </details>
     </Group>
   );

@@ -1,8 +1,9 @@
 import { useState } from "preact/hooks";
 import type { SessionState } from "../api/types";
+import { EnduranceNote } from "../bench/endurance";
 import { CONTROL, toggleWeight } from "../state/commands";
 import { takesCommands } from "../state/control";
-import { hungWeights, isRealBench, nextWeightAt, weightForm } from "../state/load";
+import { hungWeights, isRealBench, nextWeightAt, weightForm, weightOf } from "../state/load";
 import { isLive } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
@@ -38,10 +39,11 @@ function words(state: SessionState, isHung: boolean): string {
 export function LoadButton({ state }: { state: SessionState }) {
   const [isBusy, setBusy] = useState(false);
   const isHung = hungWeights(state).length > 0;
+  const weight = weightOf(isRealBench(state.bench) ? "mass" : weightForm.value);
 
   const press = async () => {
     setBusy(true);
-    await toggleWeight(state);
+    await toggleWeight();
     setBusy(false);
   };
 
@@ -60,6 +62,7 @@ export function LoadButton({ state }: { state: SessionState }) {
           <small>{caption(state, isHung)}</small>
         </span>
       </button>
+      <EnduranceNote load={isHung ? null : weight} />
       <Problem control={CONTROL.load} />
     </div>
   );

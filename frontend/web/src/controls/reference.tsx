@@ -14,6 +14,9 @@ export type Kind = "sine" | "constant" | "other";
 export const kindOf = ({ kind }: PositionReference | StiffnessReference): Kind =>
   kind === "sine" || kind === "constant" ? kind : "other";
 
+const nameOf = (kinds: readonly Option<Kind>[], kind: Kind): string =>
+  kinds.find(({ value }) => value === kind)?.label ?? "";
+
 interface ReferenceGroupProps {
   /** The name of its controls, the title and the equation. */
   topic: "motion" | "stiffness";
@@ -37,6 +40,9 @@ export function ReferenceGroup(props: ReferenceGroupProps) {
       aside={<Choice label={kind} options={kinds} value={shown} onChoose={onChoose} />}
     >
       <Problem control={`${topic}.kind`} />
+      {shown !== kindOf(reference) && (
+        <p class="hint">{text.references.notApplied(nameOf(kinds, kindOf(reference)))}</p>
+      )}
       {shown === "other" ? <Shaped follows={follows} held={reference.kind} /> : children}
       {kindOf(reference) === "other" && (
         <p class="hint">

@@ -1,5 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
-import { putPosition, putStiffness } from "../api/client";
+import { putPosition, putStiffness, repeatPosition, repeatStiffness } from "../api/client";
 import {
   type Follows,
   type Preview,
@@ -9,6 +9,7 @@ import {
 } from "../api/references";
 import type { PositionReference, Sent, StiffnessReference } from "../api/types";
 import { explain, perform } from "../state/actions";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
 import { Choice } from "../widgets/choice";
@@ -22,6 +23,8 @@ import { buildReference, FIRST, INPUTS, type Input, SHAPES, type Shape } from ".
 const words = text.references;
 const OPTIONS = SHAPES.map((value) => ({ value, label: words.kinds[value] }));
 const PAUSE_MS = 300;
+const repeat = (follows: Follows) =>
+  follows === "position" ? repeatPosition() : repeatStiffness();
 
 interface Wanted {
   reference: Reference;
@@ -39,6 +42,13 @@ function put(follows: Follows, reference: Reference) {
   return follows === "position"
     ? putPosition(reference as Sent<PositionReference>)
     : putStiffness(reference as Sent<StiffnessReference>);
+}
+
+/** What is followed already begins again: the server takes it twice for once. */
+async function follow(follows: Follows, reference: Reference) {
+  const before = session.peek()?.revision;
+  const state = await put(follows, reference);
+  return state.revision === before ? repeat(follows) : state;
 }
 
 /** The list that the numbers of steps stand for; null while one is missing. */
@@ -100,7 +110,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
 
   const submit = (event: Event) => {
     event.preventDefault();
-    if (wanted) void perform(`${follows}.shaped`, () => put(follows, wanted.reference));
+    if (wanted) void perform(`${follows}.shaped`, () => follow(follows, wanted.reference));
   };
 
   return (
@@ -130,9 +140,21 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
       <p class="problem" role="alert" hidden={refusal === ""}>
         {refusal}
       </p>
-      <button type="submit" class="button" disabled={wanted === null}>
-        {words.apply}
-      </button>
+      <div class="shaped-acts">
+        <button type="submit" class="button" disabled={wanted === null}>
+          {words.apply}
+        </button>
+        {SHAPES.some((known) => known === held) && (
+          <button
+            type="button"
+            class="button"
+            title={words.againHint}
+            onClick={() => void perform(`${follows}.shaped`, () => repeat(follows))}
+          >
+            {words.again}
+          </button>
+        )}
+      </div>
       <p class="hint">{words.does[shape]}</p>
       <Problem control={`${follows}.shaped`} />
     </form>

@@ -12,13 +12,16 @@ export interface Axis {
 export interface Curve {
   look: "tried" | "present";
   points: readonly (readonly [number, number])[];
+  /** Not what would happen: drawn fainter. */
+  isDoubtful?: boolean;
 }
 
 const WIDTH = 340;
-const HEIGHT = 150;
+const HEIGHT = 160;
 const LEFT = 44;
 const RIGHT = 8;
-const TOP = 8;
+/** The name of the upright axis stands above it, where no curve comes. */
+const TOP = 18;
 const BOTTOM = 30;
 
 /** Where a value stands between the ends of an axis, 0 to 1. */
@@ -48,10 +51,13 @@ interface CurvesProps {
   curves: readonly Curve[];
   /** Stands in place of curves that have no meaning. */
   note?: string | null;
+  /** Why the curves are not what would happen: written above a hatched ground. */
+  caveat?: string | null;
 }
 
-export function Curves({ title, told, x, y, curves, note }: CurvesProps) {
+export function Curves({ title, told, x, y, curves, note, caveat }: CurvesProps) {
   const clip = useId();
+  const hatch = useId();
   const right = WIDTH - RIGHT;
   const bottom = HEIGHT - BOTTOM;
   return (
@@ -61,6 +67,20 @@ export function Curves({ title, told, x, y, curves, note }: CurvesProps) {
         <clipPath id={clip}>
           <rect x={LEFT} y={TOP} width={right - LEFT} height={bottom - TOP} />
         </clipPath>
+        {caveat && (
+          <>
+            <pattern id={hatch} width="8" height="8" patternUnits="userSpaceOnUse">
+              <path d="M-2 10L10-2M-2 2L2-2M6 10L10 6" class="curves-hatch" />
+            </pattern>
+            <rect
+              x={LEFT}
+              y={TOP}
+              width={right - LEFT}
+              height={bottom - TOP}
+              fill={`url(#${hatch})`}
+            />
+          </>
+        )}
         {x.ticks.map((tick) => (
           <g key={tick}>
             <path class="curves-grid" d={`M${xOf(tick, x)} ${TOP}V${bottom}`} />
@@ -80,18 +100,23 @@ export function Curves({ title, told, x, y, curves, note }: CurvesProps) {
         <text class="curves-axis" x={right} y={HEIGHT - 3} text-anchor="end">
           {x.label}
         </text>
-        <text class="curves-axis" x={LEFT + 4} y={TOP + 11}>
+        <text class="curves-axis" x={LEFT} y={TOP - 7}>
           {y.label}
         </text>
         <g clip-path={`url(#${clip})`}>
           {curves.map((curve) => (
             <path
               key={curve.look}
-              class={`curve is-${curve.look}`}
+              class={`curve is-${curve.look} ${curve.isDoubtful ? "is-doubtful" : ""}`}
               d={pathOf(curve.points, x, y)}
             />
           ))}
         </g>
+        {caveat && (
+          <text class="curves-note" x={right} y={TOP - 6} text-anchor="end">
+            {caveat}
+          </text>
+        )}
         {note && (
           <text
             class="curves-note"

@@ -2,7 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import { putGains, putObserver } from "../api/client";
 import { type Prediction, predict } from "../api/design";
-import type { Configuration } from "../api/types";
+import type { Configuration, SessionState } from "../api/types";
 import { perform } from "../state/actions";
 import { session } from "../state/session";
 import { type Pole, type Poles, polesOf, toRequest } from "./poles";
@@ -21,6 +21,9 @@ export const expected = signal<Prediction | null>(null);
 export const present = signal<Prediction | null>(null);
 export const isAsking = signal(false);
 export const isApplying = signal(false);
+
+/** What was set when the draft was begun. */
+let seen: SessionState | null = null;
 
 const PAUSE_MS = 90;
 const RETRY_MS = 1500;
@@ -110,6 +113,7 @@ export function watchSurroundings(): () => void {
 export function tryPoles(group: Group, poles: readonly Pole[]): void {
   const before = draft.peek();
   if (before === null) return;
+  if (changed.peek() === null) seen = session.peek();
   changed.value = { ...before, [group]: poles };
   askSoon();
 }
@@ -117,6 +121,7 @@ export function tryPoles(group: Group, poles: readonly Pole[]): void {
 export function tryObserver(bandwidth: number): void {
   const before = draft.peek();
   if (before === null) return;
+  if (changed.peek() === null) seen = session.peek();
   changed.value = { ...before, observer: [bandwidth, bandwidth, bandwidth] };
   askSoon();
 }
@@ -134,11 +139,12 @@ export async function apply(): Promise<void> {
   isApplying.value = true;
   const { gains } = requestOf(wanted);
   const isOther = (key: keyof Draft) => JSON.stringify(wanted[key]) !== JSON.stringify(now[key]);
-  const isDone = await perform("design.apply", async () => {
+  const send = async () => {
     const state =
       gains && (isOther("position") || isOther("stiffness")) ? await putGains(gains) : null;
     return isOther("observer") || state === null ? putObserver(...wanted.observer) : state;
-  });
+  };
+  const isDone = await perform("design.apply", send, seen);
   isApplying.value = false;
   if (isDone) changed.value = null;
 }

@@ -48,13 +48,15 @@ function pathOf(look: (typeof LOOKS)[number]): string {
     .join("");
 }
 
+const percent = (part: number) => `${formatNumber(100 * part, 3, 1)} %`;
+
 function Picture() {
   const found = shown.value;
   const part = share.value;
   const told =
     found === null || part === null
       ? words.regionEmpty
-      : words.regionTold(part.toFixed(2), formatNumber(found.stiffness_nm_per_rad, 3, 1));
+      : words.regionTold(percent(part), formatNumber(found.stiffness_nm_per_rad, 3, 1));
   return (
     <svg class="region-map" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={told}>
       <rect
@@ -183,7 +185,7 @@ export function RegionMap() {
         {found === null || part === null
           ? words.regionEmpty
           : words.regionFound(
-              part.toFixed(2),
+              percent(part),
               fates.value.length,
               STARTS * STARTS,
               words.sensing[found.encoders],

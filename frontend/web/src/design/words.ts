@@ -1,5 +1,5 @@
 /** Poles and numbers of a design as they are read. */
-import type { Prediction, Stability } from "../api/design";
+import type { DesignResponse, Prediction, Stability } from "../api/design";
 import { text } from "../text/en";
 import { formatInput, formatNumber, toDegrees } from "../units";
 import { countPlaces, type Pole, type Poles } from "./poles";
@@ -29,6 +29,20 @@ export const torqueOf = (torque: number) => `${formatNumber(torque, 3, 4)} N·m`
 /** Nothing is plainly good that goes beyond a limit, however shortly. */
 export const verdictOf = ({ verdict, reasons }: Prediction): keyof typeof text.design.verdict =>
   verdict === "ok" && reasons.length > 0 ? "note" : verdict;
+
+interface Caveat {
+  /** In the chart. */
+  short: string;
+  /** Beneath it. */
+  told: string;
+}
+
+/** Why the curves of a design are not what it would do, or null where they are. */
+export function caveatOf(found: Pick<DesignResponse, "largest_pole" | "encoders">): Caveat | null {
+  if (found.largest_pole < 1) return null;
+  const { short, told } = text.stability.unstableOn[found.encoders];
+  return { short, told: told(found.largest_pole.toFixed(4)) };
+}
 
 const ratio = (value: number) => formatNumber(value, 3, 2);
 

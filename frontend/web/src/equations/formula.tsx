@@ -10,14 +10,25 @@ function loadKatex(): Promise<typeof import("katex")> {
   return loading.katex;
 }
 
+/** Puts a formula into an element, unless it is no longer wanted when the typesetter is there. */
+export async function typeset(
+  element: HTMLElement,
+  tex: string,
+  isDisplayed: boolean,
+  isWanted: () => boolean,
+): Promise<void> {
+  const { default: katex } = await loadKatex();
+  if (!isWanted()) return;
+  katex.render(tex, element, { displayMode: isDisplayed, throwOnError: false });
+  if (element.scrollWidth > element.clientWidth && isDisplayed) element.tabIndex = 0;
+}
+
 /** A formula, typeset, and as MathML for screen readers. */
 export function Formula({ tex }: { tex: string }) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
     let isWanted = true;
-    void loadKatex().then(({ default: katex }) => {
-      if (isWanted && host.current) katex.render(tex, host.current, { displayMode: true });
-    });
+    if (host.current) void typeset(host.current, tex, true, () => isWanted);
     return () => {
       isWanted = false;
     };

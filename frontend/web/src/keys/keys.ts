@@ -38,7 +38,7 @@ function answerRun(state: SessionState): Promise<boolean> | undefined {
 const answers: Record<SessionCommand, (state: SessionState) => Promise<boolean> | undefined> = {
   run: answerRun,
   record: toggleRecording,
-  load: (state) => (state.status === "fault" ? undefined : toggleWeight(state)),
+  load: (state) => (state.status === "fault" ? undefined : toggleWeight()),
   compare: (state) => (state.recording === null ? toggleCompare(state) : undefined),
 };
 

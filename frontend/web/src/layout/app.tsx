@@ -4,14 +4,20 @@ import { ClassPanel } from "../classroom/panel";
 import { Controls } from "../controls/controls";
 import { LoadButton } from "../controls/loadbutton";
 import { DesignPanel } from "../design/panel";
+import { FalsifierPage } from "../falsifier/page";
+import { GradesPage } from "../grades/page";
 import { HelpSheet } from "../keys/help";
-import { LearnPanel } from "../learning/panel";
+import { LeaderboardPage } from "../leaderboard/page";
+import { hasFreeSettings } from "../learning/lesson";
+import { LearnPage } from "../learning/page";
 import { Tour } from "../learning/tour";
+import { Lesson } from "../learning/view";
 import { Plots } from "../plots/plots";
-import { isOfRuns, place } from "../runs/place";
+import { isOfLab, isOfRuns, place } from "../runs/place";
 import { PrivateBanner } from "../runs/private";
 import { Runs } from "../runs/runs";
 import { CallsDrawer } from "../script/drawer";
+import { comings } from "../state/access";
 import { phase, session } from "../state/session";
 import { StudiesPage } from "../studies/page";
 import { text } from "../text/en";
@@ -24,44 +30,64 @@ import { StatusBar } from "./statusbar";
 import { TopBar } from "./topbar";
 import { View } from "./view";
 
+/** The page that the address names. */
+function Here() {
+  const state = session.value;
+  const at = place.value;
+  return isOfRuns(at) ? (
+    <Runs at={at} />
+  ) : at.kind === "arena" ? (
+    <ArenaPage />
+  ) : at.kind === "leaderboard" ? (
+    <LeaderboardPage />
+  ) : at.kind === "grades" ? (
+    <GradesPage />
+  ) : at.kind === "studies" ? (
+    <StudiesPage />
+  ) : at.kind === "learn" && at.exercise === "" ? (
+    <LearnPage />
+  ) : at.kind === "falsifier" ? (
+    <FalsifierPage />
+  ) : state === null ? (
+    <main class="waiting-page">{phase.value !== "ended" && text.connection.waiting}</main>
+  ) : (
+    <main class={at.kind === "learn" ? "lab has-lesson" : "lab"}>
+      <View />
+      {state.lanes.length > 1 ? <Comparison state={state} /> : <Readout state={state} />}
+      <LoadButton state={state} />
+      <Plots />
+      {at.kind === "learn" ? (
+        <div class="lesson-side">
+          <Lesson name={at.exercise} />
+          {hasFreeSettings.value && <Controls state={state} />}
+        </div>
+      ) : (
+        <Controls state={state} />
+      )}
+    </main>
+  );
+}
+
+/** Whoever comes in begins the page anew: what it asked before was refused, or another's. */
 export function App() {
   const state = session.value;
   const at = place.value;
   return (
     <>
-      {at.kind === "lab" && state !== null && (
+      {isOfLab(at) && state !== null && (
         <a class="skip" href="#plots">
           {text.skip}
         </a>
       )}
       <TopBar />
-      {(at.kind === "lab" || at.kind === "list") && state?.bench && (
-        <BenchStrip bench={state.bench} />
-      )}
+      {(isOfLab(at) || at.kind === "list") && state?.bench && <BenchStrip bench={state.bench} />}
       <PrivateBanner />
       <Banners />
       <HelpSheet />
       {phase.value === "locked" && <Login />}
-      {isOfRuns(at) ? (
-        <Runs at={at} />
-      ) : at.kind === "arena" ? (
-        <ArenaPage />
-      ) : at.kind === "studies" ? (
-        <StudiesPage />
-      ) : state === null ? (
-        phase.value !== "ended" && <main class="waiting-page">{text.connection.waiting}</main>
-      ) : (
-        <main class="lab">
-          <View />
-          {state.lanes.length > 1 ? <Comparison state={state} /> : <Readout state={state} />}
-          <LoadButton state={state} />
-          <Plots />
-          <Controls state={state} />
-        </main>
-      )}
+      <Here key={comings.value} />
       <DesignPanel />
       <TunePanel />
-      <LearnPanel />
       <ClassPanel />
       {state !== null && at.kind === "lab" && <Tour />}
       <CallsDrawer />

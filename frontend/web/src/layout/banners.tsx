@@ -1,9 +1,11 @@
 import { reset, stopRecording } from "../api/client";
 import { told } from "../api/outcome";
+import { ReturnCodeBanner } from "../classroom/returncode";
 import { ControlBanner } from "../control/banner";
+import { FaultAdvice } from "../safety/advice";
 import { StopBanners } from "../safety/stopbanner";
 import { perform } from "../state/actions";
-import { phase, session } from "../state/session";
+import { isAnother, phase, session } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
 import { SavedNote } from "./savednote";
@@ -25,6 +27,23 @@ function Told({ now }: { now: NonNullable<typeof told.value> }) {
   );
 }
 
+/** The page goes on in a session that knows nothing of what was shown before. */
+function Another() {
+  const close = () => {
+    isAnother.value = false;
+  };
+  return (
+    <div class="banner is-news" role="status">
+      <p>
+        <strong>{text.connection.anotherTitle}</strong> {text.connection.anotherText}
+      </p>
+      <button type="button" class="quiet" aria-label={text.runs.dismiss} onClick={close}>
+        ✕
+      </button>
+    </div>
+  );
+}
+
 /** What must not be overlooked: no connection, a fault, a refused command of the top bar. */
 export function Banners() {
   const fault = session.value?.bench ? null : session.value?.fault;
@@ -42,14 +61,16 @@ export function Banners() {
           </p>
         </div>
       )}
+      {isAnother.value && !isLost && <Another />}
       {fault && (
         <div class="banner is-fault" role="alert">
           <span class="banner-sign" aria-hidden="true">
             ▲
           </span>
-          <p>
+          <div class="banner-words">
             <strong>{text.fault.title(fault.time_s)}</strong> {fault.message}
-          </p>
+            <FaultAdvice fault={fault} />
+          </div>
           <button
             type="button"
             class="button"
@@ -79,6 +100,7 @@ export function Banners() {
         </div>
       )}
       <ControlBanner />
+      <ReturnCodeBanner />
       <SavedNote />
       <Problem control="session" />
     </div>

@@ -5,9 +5,8 @@ import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
 import { isLive, samples } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
-import { bestOf } from "../widgets/best";
 import { useLiveText } from "../widgets/live";
-import { bestIn, recoveryOf, sinceOf } from "./window";
+import { bestIn, hasEnded, recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;
 
@@ -25,10 +24,11 @@ const lookOf = ({ stretches }: LaneRow) => inkOf(stretches.at(-1)?.ink ?? 0);
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);
 
-/** The lanes in numbers since the last change, the best of each column marked. */
+/** The lanes in numbers since the last change, the best of each column marked where they compete. */
 export function Comparison({ state }: { state: SessionState }) {
   const { lanes, window, load_window: load } = state;
   const metrics = lanes.map((lane) => lane.in_window);
+  const ended = lanes.map((lane) => hasEnded(lane, state));
   const recoveries = lanes.map((lane) => recoveryOf(lane.since_load, load));
   const inUnit = (name: string, unit: string) => (
     <>
@@ -46,7 +46,7 @@ export function Comparison({ state }: { state: SessionState }) {
       title: inUnit(compare.rms, compare.degrees),
       cell: (row) => degrees(metrics[row]?.rms_position_error_rad),
       best: bestIn(
-        window,
+        state,
         metrics.map((row) => row?.rms_position_error_rad),
       ),
     },
@@ -55,7 +55,7 @@ export function Comparison({ state }: { state: SessionState }) {
       title: inUnit(compare.peak, compare.degrees),
       cell: (row) => degrees(metrics[row]?.peak_position_error_rad),
       best: bestIn(
-        window,
+        state,
         metrics.map((row) => row?.peak_position_error_rad),
       ),
     },
@@ -63,18 +63,21 @@ export function Comparison({ state }: { state: SessionState }) {
       key: "recovery",
       title: inUnit(compare.recovery, compare.recoveredFrom(load?.start_s ?? null)),
       hint: text.windows.recovery,
-      cell: (row) => recoveries[row]?.words ?? "",
-      cellHint: (row) => recoveries[row]?.hint ?? undefined,
-      best: bestOf(
-        lanes.map((lane) => lane.since_load && (lane.since_load.recovery_time_s ?? Infinity)),
+      cell: (row) => (ended[row] ? compare.ended : (recoveries[row]?.words ?? "")),
+      cellHint: (row) => (ended[row] ? compare.endedHint : recoveries[row]?.hint),
+      best: bestIn(
+        state,
+        lanes.map((lane, row) => lane.since_load && (recoveries[row]?.seconds ?? Infinity)),
       ),
     },
   ];
+  const isBench = state.bench !== null;
   return (
     <MetricsTable
-      class="comparison"
-      label={compare.heading}
+      class="surface comparison"
+      label={isBench ? compare.benchHeading : compare.heading}
       caption={sinceOf(window)}
+      {...(isBench ? { captionHint: compare.benchHint } : {})}
       corner={compare.lane}
       rows={lanes.map((lane) => ({ key: String(lane.lane), look: lookOf(lane), name: lane.name }))}
       columns={columns}

@@ -2,37 +2,12 @@ import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { login } from "../api/access";
 import { RefusedError } from "../api/errors";
 import { Join } from "../classroom/join";
+import { SecretForm } from "../classroom/secretform";
 import { StopBanners } from "../safety/stopbanner";
 import { StopButton } from "../safety/stopbutton";
-import { access, learnAccess } from "../state/access";
+import { access, comings, learnAccess } from "../state/access";
 import { openStream, phase } from "../state/session";
 import { text } from "../text/en";
-
-function SecretForm({ enter }: { enter: (way: () => Promise<unknown>) => void }) {
-  const id = useId();
-  const [secret, setSecret] = useState("");
-  return (
-    <form
-      onSubmit={(event) => {
-        event.preventDefault();
-        enter(() => login(secret));
-      }}
-    >
-      <label for={id}>{text.login.secret}</label>
-      <input
-        id={id}
-        type="password"
-        required
-        autocomplete="current-password"
-        value={secret}
-        onInput={(event) => setSecret(event.currentTarget.value)}
-      />
-      <button type="submit" class="button is-primary">
-        {text.login.enter}
-      </button>
-    </form>
-  );
-}
 
 /** Asks once for what lets one in; the server keeps it in a cookie. */
 export function Login() {
@@ -48,6 +23,7 @@ export function Login() {
     try {
       await way();
       await learnAccess();
+      comings.value += 1;
       phase.value = "connecting";
       openStream();
     } catch (error) {
@@ -68,7 +44,7 @@ export function Login() {
       {isJoined ? (
         <Join enter={(way) => void enter(way)} />
       ) : (
-        <SecretForm enter={(way) => void enter(way)} />
+        <SecretForm label={text.login.secret} enter={(way) => void enter(way)} send={login} />
       )}
       <p class="problem" role="alert" hidden={problem === ""}>
         {problem}

@@ -1,23 +1,35 @@
+import { computed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { isOfRuns, type Place, place } from "../runs/place";
 import { PlaceLink } from "../runs/placelink";
+import { isClass, isInstructor } from "../state/access";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { isOpen as isTuning } from "../tuning/tuning";
 import { Popup } from "../widgets/popup";
 
 const words = text.pages;
-type Page = "lab" | "runs" | "arena" | "studies";
+type Page = "lab" | "learn" | "runs" | "arena" | "leaderboard" | "grades" | "studies" | "falsifier";
 const PAGES: Readonly<Record<Page, Place>> = {
   lab: { kind: "lab" },
+  learn: { kind: "learn", exercise: "", step: "" },
   runs: { kind: "list" },
   arena: { kind: "arena" },
+  leaderboard: { kind: "leaderboard", entry: "" },
+  grades: { kind: "grades" },
   studies: { kind: "studies", study: "", look: {} },
+  falsifier: { kind: "falsifier", search: "", scenario: "", laws: [] },
 };
 
+/** In a class the grades are its instructor's; a student's own stand in Learn. */
+const shownPages = computed(() =>
+  (Object.keys(PAGES) as Page[]).filter(
+    (page) => page !== "grades" || !isClass.value || isInstructor.value,
+  ),
+);
+
 /** A run and an overlay are of the runs. */
-export const pageOf = (at: Place): Page =>
-  isOfRuns(at) ? "runs" : at.kind === "arena" || at.kind === "studies" ? at.kind : "lab";
+export const pageOf = (at: Place): Page => (isOfRuns(at) ? "runs" : at.kind);
 
 function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren {
   return (
@@ -49,7 +61,7 @@ export function PagesMenu() {
       {(close) => (
         <nav aria-label={words.open}>
           <ul>
-            {(Object.keys(PAGES) as Page[]).map((page) => (
+            {shownPages.value.map((page) => (
               <li key={page}>
                 <PlaceLink
                   to={PAGES[page]}

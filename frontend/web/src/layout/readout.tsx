@@ -30,7 +30,7 @@ export function Readout({ state }: { state: SessionState }) {
   const since = <span class="since">{text.readout.since[window.kind]}</span>;
   const recovery = recoveryOf(lane.since_load, load);
   return (
-    <dl class="readout" aria-label={text.readout.heading}>
+    <dl class="surface readout" aria-label={text.readout.heading}>
       <div class="is-main">
         <dt>{isLive.value ? text.readout.error : text.readout.lastError}</dt>
         <dd>

@@ -1,6 +1,7 @@
 import type { RunDetails } from "../api/types";
+import { isOfLesson } from "../learning/lesson";
 import { PlaceLink } from "../runs/placelink";
-import { saved } from "../runs/saved";
+import { type Saved, saved } from "../runs/saved";
 import { formatDuration } from "../runs/words";
 import { text } from "../text/en";
 
@@ -11,9 +12,14 @@ function told({ state, title, duration_s: durationS, message }: RunDetails): [st
   return [words.savedPartly, `${title} · ${formatDuration(durationS)}. ${message}`];
 }
 
+/** A step's run is told of beside the step, unless something is wrong with its record. */
+const isToldThere = (now: Saved): boolean =>
+  isOfLesson(now.run) &&
+  (now.stage === "saving" || (now.stage === "saved" && now.details.state === "complete"));
+
 /** After a recording: that it is being saved, and then under which name it is found. */
 export function SavedNote() {
-  const now = saved.value;
+  const now = saved.value === null || isToldThere(saved.value) ? null : saved.value;
   const [head, rest] =
     now === null
       ? ["", ""]

@@ -87,7 +87,7 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
     <Cell name={text.status.loop} class="is-loop is-bench" hint={text.status.lateHint}>
       {text.status.rate(loop.rate_hz)}{" "}
       <small>
-        {late} · {text.status.skipped(loop.skipped_ticks)}
+        {late} · {text.status.skipped(loop.skipped_in_run)}
       </small>
     </Cell>
   );

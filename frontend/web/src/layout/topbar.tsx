@@ -1,7 +1,7 @@
 import { ClassButton } from "../classroom/panel";
 import { HelpButton } from "../keys/help";
-import { LearnButton } from "../learning/panel";
-import { place } from "../runs/place";
+import { LearnLink } from "../learning/page";
+import { isOfLab, place } from "../runs/place";
 import { PlaceLink } from "../runs/placelink";
 import { CallsButton } from "../script/drawer";
 import { theme, toggleTheme } from "../state/preferences";
@@ -34,27 +34,29 @@ function ThemeButton() {
 
 export function TopBar() {
   const state = session.value;
-  const isLab = place.value.kind === "lab";
+  const isLab = isOfLab(place.value);
+  // An exercise sets the session up and records it; a figure of the paper would undo that.
+  const isLesson = place.value.kind === "learn";
   return (
     <header class="topbar">
       <h1>
         {text.name} <span>{text.subtitle}</span>
       </h1>
-      {!isLab && (
+      {place.value.kind !== "lab" && (
         <PlaceLink to={{ kind: "lab" }} class="button">
           ← {text.runs.back}
         </PlaceLink>
       )}
       {isLab && state && (
         <fieldset class="topbar-controls" disabled={!isLive.value} aria-label={text.session}>
-          <FigurePicker state={state} />
+          {!isLesson && <FigurePicker state={state} />}
           {state.bench === null && <Transport state={state} />}
-          <RecordButton state={state} />
+          {(!isLesson || state.recording !== null) && <RecordButton state={state} />}
         </fieldset>
       )}
       <div class="topbar-end">
         <ClassButton />
-        <LearnButton />
+        <LearnLink />
         <PagesMenu />
         <CallsButton />
         <HelpButton />

@@ -24,6 +24,17 @@ function run(figure: Figure, { bench, configuration }: SessionState) {
   });
 }
 
+/** On a phone the word stands on the first figure alone. */
+function FigureName({ figure }: { figure: Figure }) {
+  const [word, number] = text.figures.name[figure].split(" ");
+  return (
+    <span>
+      <span class="figure-word">{word} </span>
+      {number}
+    </span>
+  );
+}
+
 export function FigurePicker({ state }: { state: SessionState }) {
   return (
     <fieldset class="figures" disabled={!takesCommands.value}>
@@ -36,7 +47,7 @@ export function FigurePicker({ state }: { state: SessionState }) {
           title={text.figures.does[figure]}
           onClick={() => void perform("session", () => run(figure, state))}
         >
-          {text.figures.name[figure]}
+          <FigureName figure={figure} />
         </button>
       ))}
     </fieldset>

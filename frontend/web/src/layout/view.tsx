@@ -32,7 +32,7 @@ export function View() {
     return () => resizing.disconnect();
   }, []);
   return (
-    <div class={`view ${isLow.value ? "is-low" : ""}`} ref={box}>
+    <div class={`surface view ${isLow.value ? "is-low" : ""}`} ref={box}>
       {connection > 0 && (
         <iframe
           key={`${connection} ${theme.value}`}

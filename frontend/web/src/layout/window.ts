@@ -1,5 +1,6 @@
 /** Since when numbers are measured, in words, and what became of the load. */
-import type { Metrics, WindowState } from "../api/types";
+import type { LaneRow, Metrics, SessionState, WindowState } from "../api/types";
+import { RECOVERY_SHARE } from "../plots/statistics";
 import { text } from "../text/en";
 import { measuredText } from "../text/measured";
 import { formatNumber } from "../units";
@@ -18,9 +19,19 @@ const at = ({ label, start_s: startS }: WindowState): string =>
 export const sinceOf = ({ kind, label, start_s: startS }: WindowState): string =>
   kind === "start" ? measuredText.start : measuredText.since(label, startS.toFixed(2));
 
-/** Whose number is clearly the smallest; none while a bench ramps to zero and its twin does not. */
-export const bestIn = ({ kind }: WindowState, values: Parameters<typeof bestOf>[0]): number =>
-  kind === "stop" ? -1 : bestOf(values);
+const SETTLED_S = 0.5;
+
+/** Whether a lane is simulated no further: it has had no numbers for half a second. */
+export const hasEnded = (
+  lane: Pick<LaneRow, "in_window">,
+  { time_s: now, window }: Pick<SessionState, "time_s" | "window">,
+): boolean => lane.in_window === null && now - window.start_s > SETTLED_S;
+
+/** Whose number is clearly the smallest; none beside a bench, whose lanes are not of one plant. */
+export const bestIn = (
+  { bench }: Pick<SessionState, "bench">,
+  values: Parameters<typeof bestOf>[0],
+): number => (bench === null ? bestOf(values) : -1);
 
 /** How soon the error was small again after the load; what is no time is said in words. */
 export interface Recovery {
@@ -29,12 +40,20 @@ export interface Recovery {
   hint: string;
 }
 
+/** The steady error is beyond what counts as recovered: a load that grows slowly comes to that. */
+const isLarge = (of: Metrics): boolean =>
+  (of.settled_position_error_rad ?? 0) > RECOVERY_SHARE * of.peak_position_error_rad;
+
 /** metrics: of the load's window; null for a lane that was not there when the load came. */
 export function recoveryOf(metrics: Metrics | null, load: WindowState | null): Recovery {
   if (load === null) return { seconds: null, words: windows.noLoad, hint: windows.recovery };
   const hint = windows.recoveryFrom(at(load));
   if (metrics === null) return { seconds: null, words: formatNumber(null), hint: windows.notThere };
   const { recovery_time_s: seconds } = metrics;
+  if (seconds !== null && isLarge(metrics)) {
+    const after = formatNumber(seconds, 3, 2);
+    return { seconds: null, words: windows.lost, hint: windows.lostAfter(at(load), after) };
+  }
   if (seconds !== null) return { seconds, words: formatNumber(seconds, 3, 2), hint };
   if (load.end_s === null) return { seconds, words: windows.notYet, hint };
   const end = load.end_s.toFixed(2);

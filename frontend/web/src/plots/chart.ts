@@ -7,7 +7,7 @@ import { Curve } from "./curves";
 import { extentOf } from "./decimation";
 import type { Bound, Trace } from "./definitions";
 import { drawEventLines } from "./eventlines";
-import { StrokeLayer } from "./layer";
+import { type Frame, StrokeLayer } from "./layer";
 import { drawBeginning, drawBounds, drawCursorSamples } from "./marks";
 import { includeBounds, niceRange } from "./range";
 import type { ChartView } from "./span";
@@ -21,6 +21,8 @@ export class Chart {
   #shown: readonly Curve[];
   #bounds: readonly Bound[] = [];
   #perBucketS = 0;
+  /** What the curves were taken from: where the plot is drawn again by itself, they are no newer. */
+  #taken: Pick<Frame, "ring" | "span" | "newest"> | null = null;
 
   constructor(
     host: HTMLElement,
@@ -54,6 +56,7 @@ export class Chart {
     const ring = this.view.ring();
     const span = this.view.span();
     const pixels = this.#plot.bbox.width / uPlot.pxRatio;
+    this.#taken = { ring, span, newest: ring.newestTime };
     for (const curve of this.#curves) {
       const perBucket = curve.fill(ring, span, pixels);
       this.#perBucketS = perBucket * (ring.newestTime - ring.timeAt(ring.length - 2));
@@ -87,9 +90,9 @@ export class Chart {
     const { ctx, bbox, scales } = this.#plot;
     const { min = 0, max = 1 } = scales.y as uPlot.Scale;
     const { width, height } = bbox;
-    if (this.#perBucketS > 0 && width > 0 && height > 0) {
-      const frame = { ring: this.view.ring(), span: this.view.span(), min, max, width, height };
-      this.#layer.draw({ ...frame, shown: this.#shown }, this.#perBucketS);
+    if (this.#taken && this.#perBucketS > 0 && width > 0 && height > 0) {
+      const frame = { ...this.#taken, min, max, width, height, shown: this.#shown };
+      this.#layer.draw(frame, this.#perBucketS);
       this.#layer.paint(ctx, bbox.left, bbox.top);
     }
     drawBounds(this.#plot, this.#bounds);

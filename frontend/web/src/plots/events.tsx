@@ -5,10 +5,13 @@ import { text } from "../text/en";
 import { closeOnEscape } from "../widgets/escape";
 import { isLoad } from "./eventlines";
 import { onFrame, shareOf } from "./frame";
+import { nameMarks, type PlacedMark, rankOf } from "./marklabels";
 import { shownRing } from "./span";
 import { StepNumbers } from "./stepnumbers";
 
 const LABEL_GAP_PX = 6;
+/** A fault comes one tick after the last sample: it is in view with that. */
+const PAST_THE_END = 0.005;
 
 interface MarkProps {
   event: SessionEvent;
@@ -22,8 +25,9 @@ function Mark({ event, nextS }: MarkProps) {
   useEffect(() => (isOpen ? closeOnEscape(() => setOpen(false)) : undefined), [isOpen]);
   return (
     <li
-      class={`mark ${isLoad(event) ? "is-load" : ""}`}
+      class={`mark ${isLoad(event) ? "is-load" : ""} ${event.kind === "fault" ? "is-fault" : ""}`}
       data-time={event.time_s}
+      data-kind={event.kind}
       onMouseEnter={() => setOpen(true)}
       onMouseLeave={() => setOpen(false)}
     >
@@ -45,40 +49,29 @@ function Mark({ event, nextS }: MarkProps) {
   );
 }
 
-/** Puts the marks in their places; a label is shown where it fits, a load's and a newer one's first. */
+/** Puts the marks in their places, each with its name where it fits. */
 function place(list: HTMLElement): void {
   const width = list.clientWidth;
-  const marks = [...list.querySelectorAll<HTMLElement>(":scope > .mark")];
-  const seen = marks.filter((mark) => {
+  const seen = [...list.querySelectorAll<HTMLElement>(":scope > .mark")].filter((mark) => {
     const share = shareOf(Number(mark.dataset.time));
-    mark.hidden = share < 0 || share > 1;
-    mark.style.left = `${share * width}px`;
+    mark.hidden = share < 0 || share > 1 + PAST_THE_END;
+    mark.style.left = `${Math.min(share, 1) * width}px`;
     return !mark.hidden;
   });
-  const newestFirst = [...seen].reverse();
-  const isLoadMark = (mark: HTMLElement) => mark.classList.contains("is-load");
-  const order = [
-    ...newestFirst.filter(isLoadMark),
-    ...newestFirst.filter((mark) => !isLoadMark(mark)),
-  ];
-  const taken: [number, number][] = seen.map((mark) => {
-    const x = Number.parseFloat(mark.style.left);
-    return [x - 6, x + 6];
+  const sides = nameMarks(seen.map(measure), width);
+  seen.forEach((mark, index) => {
+    mark.classList.toggle("is-left", sides[index] === "left");
+    mark.classList.toggle("is-named", sides[index] !== null);
   });
-  for (const mark of order) {
-    const label = mark.querySelector<HTMLElement>(".mark-label");
-    if (label === null) continue;
-    mark.dataset.width ??= String(label.scrollWidth);
-    const room = Number(mark.dataset.width) + LABEL_GAP_PX;
-    const x = Number.parseFloat(mark.style.left);
-    const isRight = x + 8 + room <= width;
-    const from = isRight ? x + 7 : x - 7 - room;
-    const to = from + room;
-    const isFree = from >= -50 && taken.every(([left, right]) => to <= left || from >= right);
-    mark.classList.toggle("is-left", !isRight);
-    mark.classList.toggle("is-named", isFree);
-    if (isFree) taken.push([from, to]);
-  }
+}
+
+function measure(mark: HTMLElement): PlacedMark {
+  mark.dataset.width ??= String(mark.querySelector(".mark-label")?.scrollWidth ?? 0);
+  return {
+    x: Number.parseFloat(mark.style.left),
+    room: Number(mark.dataset.width) + LABEL_GAP_PX,
+    rank: rankOf(mark.dataset.kind ?? ""),
+  };
 }
 
 /** The events whose samples are there to look at. */

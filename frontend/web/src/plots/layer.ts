@@ -15,6 +15,8 @@ import type { Span } from "./spans";
 export interface Frame {
   ring: SampleRing;
   span: Span;
+  /** Time of the newest sample that the curves have. */
+  newest: number;
   min: number;
   max: number;
   /** Device pixels. */
@@ -27,7 +29,6 @@ interface Drawn extends Frame {
   look: object;
   /** Left edge, in pixels since time 0. */
   left: number;
-  newest: number;
 }
 
 /** What may still change left of the newest sample: the last buckets, and the width of a stroke. */
@@ -44,7 +45,7 @@ function isContinued(drawn: Drawn, next: Frame): boolean {
     drawn.max === next.max &&
     drawn.width === next.width &&
     drawn.height === next.height &&
-    drawn.newest <= next.ring.newestTime &&
+    drawn.newest <= next.newest &&
     drawn.shown.length === next.shown.length &&
     drawn.shown.every((curve, index) => curve === next.shown[index])
   );
@@ -59,7 +60,7 @@ export class StrokeLayer {
 
   /** @param perBucketS time between two points of a curve */
   draw(frame: Frame, perBucketS: number): void {
-    const { ring, span, min, max, width, height, shown } = frame;
+    const { span, min, max, width, height, shown } = frame;
     const perSecond = width / (span.to - span.from);
     const left = Math.round(span.from * perSecond);
     const place: Place = {
@@ -81,8 +82,7 @@ export class StrokeLayer {
       }
       context.restore();
     }
-    const newest = ring.newestTime;
-    this.#drawn = { ...frame, look: palette.peek(), left, newest };
+    this.#drawn = { ...frame, look: palette.peek(), left };
   }
 
   /** Puts what was drawn onto a plot, pixel by pixel. */

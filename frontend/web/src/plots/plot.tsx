@@ -15,7 +15,7 @@ import { PhaseChart } from "./phase";
 import { readPiece } from "./pieces";
 import type { PlotSetup } from "./setups";
 import { PLOTS_VIEW, shownCast, shownRing } from "./span";
-import { composeContent, tracesOf } from "./traces";
+import { composeContent, hasOneValue, tracesOf } from "./traces";
 
 const READING_MS = 120;
 
@@ -136,6 +136,7 @@ export function Plot({ setup }: { setup: PlotSetup }) {
           entries={traces.filter((trace) => trace.follows === undefined)}
           hidden={hidden}
           readings={readings}
+          isRead={(key) => hasOneValue(traces, key)}
           onToggle={toggle}
         />
         <PlotMenu setup={setup} title={title} traces={traces} hidden={hidden} />

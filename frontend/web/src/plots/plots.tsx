@@ -91,7 +91,7 @@ export function Plots() {
   const look = Object.entries(looks).flatMap(([name, isOn]) => (isOn ? [name] : []));
   return (
     <section
-      class={["plots", ...look].join(" ")}
+      class={["surface", "plots", ...look].join(" ")}
       aria-label={text.plots.heading}
       id="plots"
       tabIndex={-1}

@@ -69,7 +69,7 @@ export interface StepMetrics {
 }
 
 /** As the server has it: within 2 % of the peak so far for half a second; it stays what it was. */
-const RECOVERY_SHARE = 0.02;
+export const RECOVERY_SHARE = 0.02;
 const SETTLED_S = 0.5;
 
 /**

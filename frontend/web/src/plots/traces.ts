@@ -195,3 +195,12 @@ export function tracesOf(
   );
   return [...named, ...common];
 }
+
+/** Whether an entry of the legend has one value: several lanes share one for their truths, which differ. */
+export function hasOneValue(traces: readonly Trace[], key: string): boolean {
+  const leader = traces.find((one) => one.key === key);
+  return !traces.some(
+    ({ follows, continues, channel, lane }) =>
+      follows === key && !continues && channel === leader?.channel && lane !== leader.lane,
+  );
+}

@@ -7,11 +7,11 @@ import { useTicks } from "./timeaxis";
 export function ZoomTitle() {
   void session.value;
   const event = zoomedEvent.value;
-  if (event === null) return <p class="zoom-title">{text.zoom.none}</p>;
-  const words = text.zoom.title(event.time_s.toFixed(2), event.label);
+  const words = event && text.zoom.title(event.time_s.toFixed(2), event.label);
+  const told = words === null ? text.zoom.none : hasZoomed() ? words : text.zoom.gone;
   return (
-    <p class="zoom-title" title={words}>
-      {hasZoomed() ? words : text.zoom.gone}
+    <p class="zoom-title" title={words ?? undefined}>
+      <span>{told}</span>
     </p>
   );
 }

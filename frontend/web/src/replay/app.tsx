@@ -17,7 +17,7 @@ export function App({ recording }: { recording: Recording }) {
       <main>
         <View recording={recording} />
         <Numbers recording={recording} />
-        <section class="plots" aria-label={text.plots.heading}>
+        <section class="surface plots" aria-label={text.plots.heading}>
           {plots.map((plot, index) => (
             <Plot
               key={plot.key}

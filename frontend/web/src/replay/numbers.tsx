@@ -99,7 +99,7 @@ function Events({ run }: { run: Run }) {
 
 export function Numbers({ recording: { run } }: { recording: Recording }) {
   return (
-    <section class="numbers">
+    <section class="surface numbers">
       <Metrics run={run} />
       <Events run={run} />
     </section>

@@ -61,7 +61,7 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
     };
   }, [run, arrays]);
   return (
-    <section class={`view is-${state}`} aria-label={text.view}>
+    <section class={`surface view is-${state}`} aria-label={text.view}>
       <iframe ref={frame} title={text.view} />
       {state === "shown" && <SceneLabels frame={present} />}
       <PlantMark kind={findMark(run)} />

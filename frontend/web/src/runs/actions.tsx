@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { noteDownload } from "../api/calls";
 import { addressOf, branchRun, exportPath } from "../api/runs";
 import type { ExportName, RunDetails } from "../api/types";
@@ -7,6 +7,7 @@ import { makeRunScript, scriptProblem } from "../script/repeat";
 import { text } from "../text/en";
 import { Popup } from "../widgets/popup";
 import { putIntoTrash } from "./list";
+import { makeFile, making } from "./making";
 import { goTo, linkTo } from "./place";
 import { attempt } from "./problem";
 
@@ -41,13 +42,58 @@ function Branch({ run, moment }: { run: RunDetails; moment: number }) {
   );
 }
 
+/** Of a file that takes long: that it is being made, and what came of it. */
+function MakingNote({ run }: { run: RunDetails }) {
+  const now = making.value?.run === run.id ? making.value : null;
+  const [seconds, count] = useState(0);
+  const stage = now?.stage;
+  useEffect(() => {
+    count(0);
+    if (stage !== "making") return;
+    const timer = setInterval(() => count((before) => before + 1), 1000);
+    return () => clearInterval(timer);
+  }, [stage]);
+  return (
+    <span
+      class={`run-making ${stage === "failed" ? "problem" : ""}`}
+      aria-busy={stage === "making"}
+    >
+      <span role="status">
+        {stage === "making" && words.making}
+        {stage === "saved" && words.made}
+        {stage === "failed" && words.notMade(now?.message ?? "")}
+      </span>
+      {stage === "making" && <span aria-live="off"> {words.makingFor(seconds)}</span>}
+    </span>
+  );
+}
+
 function Exports({ run }: { run: RunDetails }) {
+  const isMaking = making.value?.stage === "making";
   return (
     <Popup class="button run-exports" title={words.downloadHint} button={words.download}>
       {(close) => (
         <ul class="exports">
           {KINDS.map((kind) => {
             const path = exportPath(run.id, kind);
+            if (kind === "html") {
+              return (
+                <li key={kind}>
+                  <button
+                    type="button"
+                    disabled={isMaking}
+                    onClick={() => {
+                      noteDownload(path);
+                      close();
+                      void makeFile(run.id, path);
+                    }}
+                  >
+                    <strong>{words.kinds[kind].name}</strong>{" "}
+                    <small>{words.kinds[kind].does}</small>
+                  </button>
+                </li>
+              );
+            }
             return (
               <li key={kind}>
                 <a
@@ -89,6 +135,7 @@ export function RunActions({ run, moment }: { run: RunDetails; moment: number })
       <button type="button" class="button" onClick={() => void remove()}>
         {text.runs.remove}
       </button>
+      <MakingNote run={run} />
       {scriptProblem.value !== "" && (
         <span class="problem" role="alert">
           {scriptProblem.value}

@@ -30,6 +30,7 @@ const areSame = (keys: readonly unknown[]): boolean => new Set(keys).size <= 1;
 export function whyUnlike(curves: readonly Overlaid[], difference: RunDifference | null): string {
   const begins = curves.map(({ window }) => window && `${window.kind} ${window.label}`);
   if (begins.includes(null) || !areSame(begins)) return words.windows;
+  if (!areSame(curves.map(({ plant }) => plant))) return words.plants;
   if (areSame(curves.map(({ run }) => run))) return "";
   if (difference === null) return words.unknown;
   const differing = listDiffering(difference);

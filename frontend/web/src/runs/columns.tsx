@@ -2,7 +2,7 @@
 import type { ComponentChildren } from "preact";
 import type { RunSummary } from "../api/types";
 import { text } from "../text/en";
-import { formatNumber, toDegrees } from "../units";
+import { formatError, formatNumber, toDegrees } from "../units";
 import { Marked } from "./marked";
 import { describeMeasured, explainSettled, shiftToRecord } from "./measured";
 import { formatDuration, formatMoment, formatMomentShort } from "./words";
@@ -60,7 +60,7 @@ export const tellDegrees = (run: RunSummary, measure: Measure): string | undefin
     .join(", ");
 
 const formatDegrees = (rad: number | null): string =>
-  rad === null ? formatNumber(null) : `${formatNumber(toDegrees(rad), 2, 4)}°`;
+  rad === null ? formatNumber(null) : `${formatError(toDegrees(rad), 2)}°`;
 
 const measureOf = (
   key: string,

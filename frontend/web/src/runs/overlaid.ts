@@ -12,9 +12,13 @@ export const CHANNELS = [
   "stiffness_error_nm_per_rad",
 ] as const satisfies readonly StreamedName[];
 export type OverlayChannel = (typeof CHANNELS)[number];
-const FACTORS: Record<OverlayChannel, number> = {
+export const FACTORS: Record<OverlayChannel, number> = {
   position_error_rad: DEGREES_PER_RADIAN,
   stiffness_error_nm_per_rad: 1,
+};
+export const TITLES: Record<OverlayChannel, { title: string; unit: string }> = {
+  position_error_rad: { title: text.overlay.error, unit: text.overlay.degrees },
+  stiffness_error_nm_per_rad: { title: text.overlay.stiffness, unit: text.overlay.stiffnessUnit },
 };
 const POINTS = 4000;
 
@@ -23,9 +27,13 @@ export interface Overlaid {
   key: string;
   run: string;
   runName: string;
+  /** Of the record, and as it is called. */
+  laneId: string;
   lane: string;
   /** Who controlled it in the window. */
   measuredLane: string;
+  /** What it ran on: beside a bench, its twin and others are simulated. */
+  plant: RunDetails["plant"];
   isAlone: boolean;
   hasOnset: boolean;
   /** In which the numbers were measured; null where that is not known. */
@@ -34,6 +42,8 @@ export interface Overlaid {
   loads: string;
   /** When something was changed after that window's beginning, s after it; null: never. */
   changedS: number | null;
+  /** The session's time where the axis has its 0, s. */
+  zeroS: number;
   ink: Ink;
   /** s after the window's beginning. */
   time: Float64Array;
@@ -81,13 +91,16 @@ export function overlay(run: RunDetails, samples: RunSamples): Omit<Overlaid, "i
     key: `${id}.${lane}`,
     run: id,
     runName: run.title,
+    laneId: lane,
     lane: run.lane_names[index] ?? lane,
     measuredLane: window?.lanes[index] ?? lane,
+    plant: index === 0 ? run.plant : "simulated",
     isAlone: run.lanes.length === 1,
     hasOnset: window?.kind === "load",
     window: window && shiftToRecord(window, run),
     loads: keyOfLoads(run),
     changedS: isCut ? window.end_s - zero : null,
+    zeroS: zero,
     time,
     values: readLane(samples, lane),
     metrics: run.metrics?.[index] ?? null,

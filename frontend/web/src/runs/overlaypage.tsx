@@ -7,18 +7,23 @@ import { type StaticContent, spanWithin, wholeOf } from "../plots/staticchart";
 import { useStaticChart } from "../plots/usestaticchart";
 import { text } from "../text/en";
 import { DifferenceTable } from "./differencetable";
+import { drawBands, drawOutside, drawWorst } from "./drawnverdict";
 import { drawEdges } from "./edges";
-import { CHANNELS, nameCurve, type Overlaid, type OverlayChannel, readOverlaid } from "./overlaid";
+import {
+  CHANNELS,
+  nameCurve,
+  type Overlaid,
+  type OverlayChannel,
+  readOverlaid,
+  TITLES,
+} from "./overlaid";
 import { OverlayTable } from "./overlaytable";
 import { PlaceLink } from "./placelink";
 import { attempt } from "./problem";
+import { type Judged, listBands, listJudged } from "./verdict";
+import { VerdictPanel } from "./verdictpanel";
 
 const words = text.overlay;
-const TITLES: Record<OverlayChannel, { title: string; unit: string }> = {
-  position_error_rad: { title: words.error, unit: words.degrees },
-  stiffness_error_nm_per_rad: { title: words.stiffness, unit: words.stiffnessUnit },
-};
-
 const LEAST_SPANS: Record<OverlayChannel, number> = {
   position_error_rad: 0.004,
   stiffness_error_nm_per_rad: 0.001,
@@ -28,11 +33,18 @@ const TIME_AXIS_PX = 26;
 interface PlotProps {
   channel: OverlayChannel;
   curves: readonly Overlaid[];
+  judged: readonly Judged[];
   view: ReturnType<typeof spanWithin>;
   hidden: ReadonlySet<string>;
 }
 
-function describeChart({ channel, curves, view }: Omit<PlotProps, "hidden">): StaticContent {
+function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
+  const { channel, curves, judged, view } = props;
+  const bands = listBands(curves, judged, channel);
+  const listShown = (plot: uPlot) =>
+    listJudged(curves, judged).filter(
+      (one) => one.channel === channel && plot.series[curves.indexOf(one.curve) + 1]?.show === true,
+    );
   const tables = curves.map(
     (curve): uPlot.AlignedData => [Array.from(curve.time), curve.values[channel]],
   );
@@ -45,13 +57,21 @@ function describeChart({ channel, curves, view }: Omit<PlotProps, "hidden">): St
     timeAxis: { size: TIME_AXIS_PX, tick: words.timeTick },
     group: "overlay",
     ...view,
-    drawBelow: (plot) => drawEdges(plot, curves),
+    drawBelow: (plot) => {
+      drawBands(plot, bands);
+      drawOutside(plot, listShown(plot));
+      drawEdges(plot, curves);
+    },
+    drawAbove: (plot) => drawWorst(plot, listShown(plot)),
   };
 }
 
-function OverlayPlot({ channel, curves, view, hidden }: PlotProps) {
+function OverlayPlot({ channel, curves, judged, view, hidden }: PlotProps) {
   const { title, unit } = TITLES[channel];
-  const content = useMemo(() => describeChart({ channel, curves, view }), [channel, curves, view]);
+  const content = useMemo(
+    () => describeChart({ channel, curves, judged, view }),
+    [channel, curves, judged, view],
+  );
   const host = useStaticChart(content, hidden);
   return (
     <section class="overlay-plot" aria-label={title}>
@@ -78,7 +98,7 @@ function Remark({ curve }: { curve: Overlaid }) {
   );
 }
 
-function OverlayCurves({ curves }: { curves: readonly Overlaid[] }) {
+function OverlayCurves({ curves, judged }: Pick<PlotProps, "curves" | "judged">) {
   const [hidden, toggle] = useHidden();
   const view = useMemo(() => spanWithin(wholeOf(curves.map(({ time }) => time))), [curves]);
   return (
@@ -95,7 +115,7 @@ function OverlayCurves({ curves }: { curves: readonly Overlaid[] }) {
         onToggle={toggle}
       />
       {CHANNELS.map((channel) => (
-        <OverlayPlot key={channel} {...{ channel, curves, view, hidden }} />
+        <OverlayPlot key={channel} {...{ channel, curves, judged, view, hidden }} />
       ))}
     </>
   );
@@ -105,6 +125,7 @@ function OverlayCurves({ curves }: { curves: readonly Overlaid[] }) {
 export function OverlayPage({ runs }: { runs: readonly string[] }) {
   const [curves, setCurves] = useState<readonly Overlaid[] | null>(null);
   const [difference, setDifference] = useState<RunDifference | null>(null);
+  const [judged, setJudged] = useState<readonly Judged[]>([]);
   const key = runs.join();
   useEffect(() => {
     let isGone = false;
@@ -113,6 +134,7 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
       if (!isGone) setCurves(read ?? []);
     });
     setDifference(null);
+    setJudged([]);
     if (others.length > 0) {
       void attempt(() => readDifference(run, others)).then((answer) => {
         if (!isGone) setDifference(answer);
@@ -135,8 +157,11 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
       {curves === null && <p class="runs-empty">{text.runs.loading}</p>}
       {curves?.length === 0 && <p class="runs-empty">{words.nothing}</p>}
       {curves && curves.length > 0 && (
-        <div class="overlay">
-          <OverlayCurves curves={curves} />
+        <div class="surface overlay">
+          <OverlayCurves curves={curves} judged={judged} />
+          {runs.length > 1 && (
+            <VerdictPanel key={key} curves={curves} judged={judged} onJudged={setJudged} />
+          )}
           <OverlayTable curves={curves} difference={difference} />
           {difference && <DifferenceTable difference={difference} />}
         </div>

@@ -1,7 +1,7 @@
 import type { Metrics, RunDifference } from "../api/types";
 import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
 import { text } from "../text/en";
-import { formatNumber, toDegrees } from "../units";
+import { formatError, formatNumber, toDegrees } from "../units";
 import { bestOf } from "../widgets/best";
 import { areOfOneLength, whyUnlike } from "./alike";
 import { describeMeasured } from "./measured";
@@ -97,7 +97,7 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
     ),
     cell: (row) => {
       const metrics = curves[row]?.metrics;
-      return formatNumber(metrics && column.read(metrics), 3, 4);
+      return formatError(metrics && column.read(metrics));
     },
     best: findBest(curves, column, why === ""),
   }));

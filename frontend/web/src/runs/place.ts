@@ -1,4 +1,4 @@
-/** Where the reader is: the lab, the arena, a study, the list of runs, one run at a moment, or several laid over. */
+/** Where the reader is: the lab, an exercise beside it, the arena, the leaderboard, the grades, a study, a search, the runs, one at a moment, several laid over. */
 import { signal } from "@preact/signals";
 
 /** What of a study is looked at: axes, metric, brush, each by its name in the address. */
@@ -6,19 +6,43 @@ export type Look = Readonly<Record<string, string>>;
 
 export type Place =
   | { kind: "lab" }
+  | { kind: "learn"; exercise: string; step: string }
   | { kind: "arena" }
+  | { kind: "leaderboard"; entry: string }
+  | { kind: "grades" }
   | { kind: "studies"; study: string; look: Look }
+  | { kind: "falsifier"; search: string; scenario: string; laws: readonly string[] }
   | { kind: "list" }
   | { kind: "run"; run: string; timeS: number }
   | { kind: "overlay"; runs: readonly string[] };
 
 /** Places that are recorded runs. */
-export type RunsPlace = Exclude<Place, { kind: "lab" | "arena" | "studies" }>;
+export type RunsPlace = Exclude<
+  Place,
+  { kind: "lab" | "learn" | "arena" | "leaderboard" | "grades" | "studies" | "falsifier" }
+>;
 
 const LOOK = ["sx", "sy", "tx", "ty", "metric", "law", "brush"] as const;
-const PARTS = ["arena", "runs", "run", "t", "overlay", "studies", ...LOOK] as const;
+const SEARCH = ["falsifier", "scenario", "laws"] as const;
+const PARTS = [
+  "learn",
+  "arena",
+  "leaderboard",
+  "grades",
+  "runs",
+  "run",
+  "t",
+  "overlay",
+  "studies",
+  ...LOOK,
+  ...SEARCH,
+] as const;
 const EVERY = "all";
 const SEPARATOR = ",";
+const STEP_SEPARATOR = "/";
+
+const splitNames = (said: string | null): string[] =>
+  (said ?? "").split(SEPARATOR).filter((name) => name !== "");
 
 /** Reads a query such as "?run=20260102-030405-9f8e7d6c&t=12.3". */
 export function readPlace(query: string): Place {
@@ -28,14 +52,31 @@ export function readPlace(query: string): Place {
     const timeS = Number(parts.get("t") ?? 0);
     return { kind: "run", run, timeS: Number.isFinite(timeS) && timeS > 0 ? timeS : 0 };
   }
-  const runs = (parts.get("overlay") ?? "").split(SEPARATOR).filter((id) => id !== "");
+  const runs = splitNames(parts.get("overlay"));
   if (runs.length > 0) return { kind: "overlay", runs };
+  const learn = parts.get("learn");
+  if (learn !== null) {
+    const [exercise = "", step = ""] = learn === EVERY ? [] : learn.split(STEP_SEPARATOR);
+    return { kind: "learn", exercise, step };
+  }
   if (parts.has("arena")) return { kind: "arena" };
+  if (parts.has("grades")) return { kind: "grades" };
+  const entry = parts.get("leaderboard");
+  if (entry !== null) return { kind: "leaderboard", entry: entry === EVERY ? "" : entry };
   const study = parts.get("studies");
   if (study !== null) {
     const said = LOOK.map((part): [string, string] => [part, parts.get(part) ?? ""]);
     const look = Object.fromEntries(said.filter(([, value]) => value !== ""));
     return { kind: "studies", study: study === EVERY ? "" : study, look };
+  }
+  const search = parts.get("falsifier");
+  if (search !== null) {
+    return {
+      kind: "falsifier",
+      search: search === EVERY ? "" : search,
+      scenario: parts.get("scenario") ?? "",
+      laws: splitNames(parts.get("laws")),
+    };
   }
   return { kind: parts.has("runs") ? "list" : "lab" };
 }
@@ -44,10 +85,21 @@ export function readPlace(query: string): Place {
 export function writePlace(place: Place, query: string): string {
   const parts = new URLSearchParams(query);
   for (const part of PARTS) parts.delete(part);
+  if (place.kind === "learn") {
+    const named = [place.exercise, place.step].filter((part) => part !== "");
+    parts.set("learn", named.join(STEP_SEPARATOR) || EVERY);
+  }
   if (place.kind === "arena") parts.set("arena", "all");
+  if (place.kind === "grades") parts.set("grades", EVERY);
+  if (place.kind === "leaderboard") parts.set("leaderboard", place.entry || EVERY);
   if (place.kind === "studies") {
     parts.set("studies", place.study || EVERY);
     for (const part of LOOK) if (place.look[part]) parts.set(part, place.look[part]);
+  }
+  if (place.kind === "falsifier") {
+    parts.set("falsifier", place.search || EVERY);
+    if (place.scenario !== "") parts.set("scenario", place.scenario);
+    if (place.laws.length > 0) parts.set("laws", place.laws.join(SEPARATOR));
   }
   if (place.kind === "list") parts.set("runs", "all");
   if (place.kind === "overlay") parts.set("overlay", place.runs.join(SEPARATOR));
@@ -55,12 +107,16 @@ export function writePlace(place: Place, query: string): string {
     parts.set("run", place.run);
     if (place.timeS > 0) parts.set("t", String(Number(place.timeS.toFixed(3))));
   }
-  const text = parts.toString().replaceAll("%2C", SEPARATOR);
+  const text = parts.toString().replaceAll("%2C", SEPARATOR).replaceAll("%2F", STEP_SEPARATOR);
   return text === "" ? "" : `?${text}`;
 }
 
 export const isOfRuns = (at: Place): at is RunsPlace =>
-  at.kind !== "lab" && at.kind !== "arena" && at.kind !== "studies";
+  at.kind === "list" || at.kind === "run" || at.kind === "overlay";
+
+/** The live session is shown: alone, or beside an exercise. */
+export const isOfLab = (at: Place): boolean =>
+  at.kind === "lab" || (at.kind === "learn" && at.exercise !== "");
 
 export const place = signal<Place>(readPlace(location.search));
 
@@ -84,6 +140,15 @@ export function keepLook(look: Look): void {
   const now = place.peek();
   if (now.kind !== "studies") return;
   const next = { ...now, look };
+  history.replaceState(null, "", linkTo(next));
+  place.value = next;
+}
+
+/** Puts the laws that are put through a scenario into the address. */
+export function keepLaws(laws: readonly string[]): void {
+  const now = place.peek();
+  if (now.kind !== "falsifier") return;
+  const next = { ...now, laws };
   history.replaceState(null, "", linkTo(next));
   place.value = next;
 }

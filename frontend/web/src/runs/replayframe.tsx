@@ -1,12 +1,13 @@
 import { useSignalEffect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { replayAddress } from "../api/runs";
+import { atMoment } from "../api/runs";
 import { pressStop } from "../safety/stop";
 import { theme } from "../state/preferences";
 import { text } from "../text/en";
 
 interface ReplayFrameProps {
-  run: string;
+  /** Address of its page. */
+  source: string;
   name: string;
   /** Where the replay stands when it opens, s after the record's first sample. */
   startS: number;
@@ -28,18 +29,18 @@ function readRefusal(shown: Document | null): string | null {
   if (shown === null) return text.connection.unreachable;
   if (shown.contentType === "text/html") return null;
   try {
-    return String(JSON.parse(shown.body.innerText).message);
+    return String(JSON.parse(shown.body.innerText).detail);
   } catch {
     return text.connection.unreachable;
   }
 }
 
 /** The replay page of a run; it takes the theme of this page as it stands. */
-export function ReplayFrame({ run, name, startS, onMoment }: ReplayFrameProps) {
+export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps) {
   const frame = useRef<HTMLIFrameElement>(null);
   const moment = useRef(startS);
   const [tries, setTries] = useState(0);
-  const address = `${run} ${tries}`;
+  const address = `${source} ${tries}`;
   const [came, setCame] = useState<{ address: string; refusal: string | null } | null>(null);
   const replayOf = () => (frame.current?.contentWindow as Partial<Window> | null)?.svsaReplay;
   const answer = came?.address === address ? came : null;
@@ -75,7 +76,7 @@ export function ReplayFrame({ run, name, startS, onMoment }: ReplayFrameProps) {
         class="replay-frame"
         hidden={Boolean(answer?.refusal)}
         title={text.run.replay(name)}
-        src={replayAddress(run, moment.current)}
+        src={atMoment(source, moment.current)}
         onLoad={({ currentTarget: { contentDocument, contentWindow } }) => {
           const refusal = readRefusal(contentDocument);
           if (refusal === null) contentWindow?.addEventListener("keydown", passStop, true);

@@ -1,5 +1,5 @@
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { readRun } from "../api/runs";
+import { readRun, replayAddress } from "../api/runs";
 import type { RunDetails, RunSummary } from "../api/types";
 import { text } from "../text/en";
 import { RunActions } from "./actions";
@@ -10,7 +10,7 @@ import { PlaceLink } from "./placelink";
 import { attempt } from "./problem";
 import { ReplayFrame } from "./replayframe";
 import { Tags } from "./tags";
-import { formatDuration, formatMoment } from "./words";
+import { formatMoment, tellLength } from "./words";
 
 const words = text.run;
 
@@ -77,7 +77,7 @@ function About({ run, onChanged }: AboutProps) {
           onWrite={(name) => write({ name })}
         />
         <span class="run-when">
-          {formatMoment(run.created)} · {formatDuration(run.duration_s)}
+          {formatMoment(run.created)} · <span title={words.lengthHint}>{tellLength(run)}</span>
         </span>
         {run.name !== "" && run.settings && <span class="run-when">{run.settings.name}</span>}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
@@ -167,7 +167,11 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
         <About run={run} onChanged={(changed) => setRun({ ...run, ...changed })} />
         <RunActions run={run} moment={moment} />
       </div>
-      <ReplayFrame run={id} name={run.title} startS={timeS} onMoment={follow} />
+      {run.ticks > 0 ? (
+        <ReplayFrame source={replayAddress(id)} name={run.title} startS={timeS} onMoment={follow} />
+      ) : (
+        <p class="runs-empty">{words.noSamples}</p>
+      )}
     </>
   );
 }

@@ -1,24 +1,17 @@
 import type { RunSummary } from "../api/types";
 import { text } from "../text/en";
+import { SortHead } from "../widgets/sorthead";
 import { COLUMNS, type Column, NAME_SORT } from "./columns";
 import { ask, sort } from "./list";
 import { RunRow } from "./row";
 
 const words = text.runs;
 
-/** The next press on a column: its own way first, then the other way round. */
-export function nextSort(now: string, column: string, isDownFirst: boolean): string {
-  if (now.replace(/^-/, "") !== column) return isDownFirst ? `-${column}` : column;
-  return now.startsWith("-") ? column : `-${column}`;
-}
-
 interface HeadProps extends Pick<Column, "name" | "hint" | "sort" | "isDownFirst" | "isNumber"> {
   class: string;
 }
 
-function Head({ name, hint, sort: column, isDownFirst = false, isNumber, ...rest }: HeadProps) {
-  const isSorted = sort.value.replace(/^-/, "") === column;
-  const isDown = sort.value.startsWith("-");
+function Head({ name, hint, sort: column, isDownFirst, isNumber, ...rest }: HeadProps) {
   const look = `${rest.class} ${isNumber ? "is-number" : ""}`;
   if (column === undefined) {
     return (
@@ -28,29 +21,23 @@ function Head({ name, hint, sort: column, isDownFirst = false, isNumber, ...rest
     );
   }
   return (
-    <th
-      scope="col"
+    <SortHead
+      column={column}
+      sort={sort.value}
+      hint={hint}
+      isDownFirst={isDownFirst}
+      onSort={(next) => ask({ sort: next })}
       class={look}
-      aria-sort={isSorted ? (isDown ? "descending" : "ascending") : "none"}
     >
-      <button
-        type="button"
-        title={hint}
-        onClick={() => ask({ sort: nextSort(sort.peek(), column, isDownFirst) })}
-      >
-        {name}
-        <span class="sort-sign" aria-hidden="true">
-          {isSorted ? (isDown ? "▼" : "▲") : ""}
-        </span>
-      </button>
-    </th>
+      {name}
+    </SortHead>
   );
 }
 
 /** A page of runs as a table; narrow, each of them is a card. */
 export function RunTable({ runs }: { runs: readonly RunSummary[] }) {
   return (
-    <table class="run-table" aria-label={words.list}>
+    <table class="surface run-table" aria-label={words.list}>
       <thead>
         <tr>
           <td class="run-pick" />

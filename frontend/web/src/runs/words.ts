@@ -1,4 +1,5 @@
 /** A run in words. */
+import type { RunDetails } from "../api/types";
 import { describeLaw } from "../state/laws";
 import { text } from "../text/en";
 import type { Filter } from "./list";
@@ -36,6 +37,16 @@ export function formatDuration(seconds: number): string {
   if (rounded < 60) return text.runs.seconds(rounded);
   const whole = Math.round(seconds);
   return text.runs.minutes(Math.floor(whole / 60), whole % 60);
+}
+
+/** How long a record is, and from when on of the session, whose time its files and scripts have. */
+export function tellLength(
+  run: Pick<RunDetails, "duration_s" | "first_tick" | "period_s">,
+): string {
+  const length = formatDuration(run.duration_s);
+  return run.first_tick === 0
+    ? length
+    : text.run.lengthFrom(length, (run.first_tick * run.period_s).toFixed(2));
 }
 
 /** A value by which runs are filtered, as it is read. */

@@ -13,6 +13,7 @@ import { mayCommand } from "../state/control";
 import { isLive, session } from "../state/session";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
+import { FaultAdvice } from "./advice";
 import { stop } from "./stop";
 
 interface StopNoticeProps {
@@ -56,6 +57,7 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
           <strong>{isLost ? lostTitle : stopTitle}</strong> {state.fault?.message}{" "}
           {!isLost && isLive.value && text.stop.latched}
         </p>
+        {!isLost && state.fault !== null && <FaultAdvice fault={state.fault} />}
         <ol aria-label={text.stop.goOn}>
           {(isLost ? lostSteps : text.stop.steps).map((step) => (
             <li key={step}>{step}</li>

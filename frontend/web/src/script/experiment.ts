@@ -66,6 +66,8 @@ export function writeCommand(kind: CommandKind, argument: unknown): string[] {
       return [`session.loads.add(${buildKind(argument, "Load")})`];
     case "unload":
       return [`session.loads.remove(${String(argument)})`];
+    case "stop":
+      return ["# Here the bench was stopped; a simulation has no ramp to zero torque."];
   }
 }
 
@@ -110,7 +112,7 @@ export function writeExperiment(origin: RunOrigin, title: string, lab: string): 
   const law = toPython(configuration.law);
   const seed = isSame(configuration.seed, defaults.seed)
     ? ""
-    : `, seed=${toPython(configuration.seed)}`;
+    : `, "seed": ${toPython(configuration.seed)}`;
   const lines = [
     "session.pause()",
     ...writeSettings(origin),
@@ -120,19 +122,25 @@ export function writeExperiment(origin: RunOrigin, title: string, lab: string): 
   ];
   return `"""${inDocstring(title)}: an experiment of SVSA Lab, 0 to ${end} s, to be run again.
 
-It needs the library (pip install 'svsa-lab[client]') and a running lab; with a secret, set
-SVSA_SECRET. It works in a private session, so it disturbs nobody, and as fast as it goes; every
-change comes at its time.
+It needs the library (pip install 'svsa-lab[client]') and a running lab; with a secret or the token
+of a class, set SVSA_SECRET. It works in a private session, so it disturbs nobody, and as fast as it
+goes; every change comes at its time. With --shared it works in the lab's shared session, a
+simulation or a bench that is armed and at home: it asks for control, and waits for its turn.
 """
 
+import argparse
 import sys
 
 import svsa
 
-LAB = sys.argv[1] if len(sys.argv) > 1 else ${toPython(lab)}
+reader = argparse.ArgumentParser(description=__doc__)
+reader.add_argument("lab", nargs="?", default=${toPython(lab)})
+reader.add_argument("--shared", action="store_true", help="in the lab's shared session")
+asked = reader.parse_args()
 
+settings = {"law": ${law}, "load": False${seed}}
 try:
-    with svsa.connect(LAB) as lab, lab.private(law=${law}, load=False${seed}) as session:
+    with svsa.connect(asked.lab) as lab, lab.experiment(asked.shared, **settings) as session:
 ${lines.map((line) => INDENT + line).join("\n")}
         state = session.read_state()
 except svsa.SvsaError as error:

@@ -1,13 +1,30 @@
 /** Every wish of the user goes through `perform`: it sends, takes over the answer, keeps the refusal. */
 import { signal } from "@preact/signals";
-import { LockedError, NotCarriedOutError, RefusedError, UnansweredError } from "../api/errors";
+import { expectRevision, lastSet, readState } from "../api/client";
+import {
+  ChangedError,
+  LockedError,
+  NotCarriedOutError,
+  RefusedError,
+  UnansweredError,
+} from "../api/errors";
 import type { SessionState } from "../api/types";
 import { text } from "../text/en";
+import { describeChange, isSame } from "./meanwhile";
 import { explainRefusal } from "./refusal";
-import { acceptState, phase } from "./session";
+import { acceptState, phase, session } from "./session";
+
+const MOST_TRIES = 5;
+
+interface Refused {
+  control: string;
+  message: string;
+  /** Sends it all the same, where only another person's change stood against it. */
+  again?: () => Promise<boolean>;
+}
 
 /** The last refusal and the control that caused it; the next action takes its place. */
-export const problem = signal<{ control: string; message: string } | null>(null);
+export const problem = signal<Refused | null>(null);
 
 /** Why a wish was not fulfilled, as the user reads it. */
 export function explain(error: unknown): string {
@@ -21,18 +38,57 @@ export function explain(error: unknown): string {
   return isUnknown ? text.connection.stillUnknown : text.connection.unreachable;
 }
 
-/** Sends a request for a control; resolves when the page shows what the server holds. */
+/** As `explain`, but a refusal in the server's words, which name file, line, value and bound. */
+export const tell = (error: unknown): string =>
+  error instanceof RefusedError ? error.message : explain(error);
+
+/**
+ * Sends for as long as only other things than this one were changed since `seen`; throws the
+ * `ChangedError` where somebody else has set the very same.
+ */
+async function sendUnlessChanged(
+  request: () => Promise<SessionState>,
+  seen: SessionState | null,
+): Promise<SessionState> {
+  let known = seen;
+  for (let left = MOST_TRIES; ; left--) {
+    expectRevision(known?.revision ?? null);
+    try {
+      return await request();
+    } catch (error) {
+      if (!(error instanceof ChangedError)) throw error;
+      const now = await readState();
+      acceptState(now);
+      const isOthers = [seen, lastSet(error.path)].every((held) => !isSame(error.path, held, now));
+      if (isOthers || left === 0) throw error;
+      known = now;
+    }
+  }
+}
+
+/**
+ * Sends a request for a control; resolves when the page shows what the server holds. seen: what
+ * the user saw who asks for it, if that was not now.
+ */
 export async function perform(
   control: string,
   request: () => Promise<SessionState>,
+  seen: SessionState | null = session.peek(),
 ): Promise<boolean> {
   problem.value = null;
   try {
-    acceptState(await request());
+    acceptState(await sendUnlessChanged(request, seen));
     return true;
   } catch (error) {
     if (error instanceof LockedError) phase.value = "locked";
-    problem.value = { control, message: explain(error) };
+    problem.value =
+      error instanceof ChangedError
+        ? {
+            control,
+            message: describeChange(error.path, seen, session.peek()),
+            again: () => perform(control, request),
+          }
+        : { control, message: explain(error) };
     return false;
   }
 }

@@ -15,6 +15,7 @@ import { comparedWith } from "./beside";
 import { gainsOf, lanesBeside, rivalsOf } from "./lanes";
 import { lawOf } from "./laws";
 import { hungWeights, nextWeight } from "./load";
+import { session } from "./session";
 
 /** Names of the controls that show why a command was refused. */
 export const CONTROL = {
@@ -55,10 +56,18 @@ async function removeWeights(state: SessionState): Promise<SessionState> {
   return readState();
 }
 
+/** A press waits for what the one before has done: of a button and its key at once both would hang 3 kg. */
+let answered: Promise<boolean> = Promise.resolve(true);
+
 /** Hangs 3 kg or takes them off; on a real bench it marks that somebody did. */
-export function toggleWeight(state: SessionState): Promise<boolean> {
-  const isHung = hungWeights(state).length > 0;
-  return perform(CONTROL.load, () =>
-    isHung ? removeWeights(state) : addLoad(nextWeight(state.bench)),
-  );
+export function toggleWeight(): Promise<boolean> {
+  answered = answered.then(() => {
+    const state = session.peek();
+    if (state === null) return false;
+    const isHung = hungWeights(state).length > 0;
+    return perform(CONTROL.load, () =>
+      isHung ? removeWeights(state) : addLoad(nextWeight(state.bench)),
+    );
+  });
+  return answered;
 }

@@ -20,14 +20,14 @@ export const otherHolder = computed(() =>
 export const queue = computed(() => session.value?.queue ?? null);
 
 /** Nobody else is in control; in a class one must be oneself, or the instructor. */
-const isFree = computed(() => {
+export const hasControl = computed(() => {
   if (isObserver.value) return false;
   if (queue.value === null || isInstructor.value) return otherHolder.value === null;
   return control.value?.mine === true;
 });
 
 /** Whether what this page sends is taken: it is connected, and nobody else is in control. */
-export const mayCommand = computed(() => isLive.value && isFree.value);
+export const mayCommand = computed(() => isLive.value && hasControl.value);
 
 /** Whether the session takes a command: the loop of a bench answers to none before it ticks. */
 export const takesCommands = computed(() => {

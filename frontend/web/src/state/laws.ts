@@ -1,7 +1,8 @@
 /** The laws that are installed, as each describes itself. */
 import { computed, signal } from "@preact/signals";
 import { readLaws } from "../api/client";
-import type { Law, LawRow } from "../api/types";
+import type { Law, LawParameter, LawRow } from "../api/types";
+import type { Quantity } from "../quantities";
 import { text } from "../text/en";
 
 const RETRY_MS = 2000;
@@ -29,6 +30,35 @@ export function describeLaw(name: Law): string {
 export const otherLaw = (law: Law): Law | undefined =>
   usableLaws.value.find(({ name }) => name !== law)?.name;
 
+const LONGEST_LABEL = 18;
+
+/** A meaning that leaves no room for the slider stands above it, which then has the symbol. */
+export const isWordy = ({ symbol, meaning }: LawParameter): boolean =>
+  symbol !== "" && meaning.length > LONGEST_LABEL;
+
+/** What a parameter's field is called; of several numbers each has its place. */
+export function labelParameter(row: LawParameter, index: number | null): string {
+  const label = isWordy(row) ? row.symbol : row.meaning;
+  return index === null ? label : `${label} ${index + 1}`;
+}
+
+/**
+ * The parameter of a path such as `lqi.position_rad`, or of a lane, `rivals[0].parameters.rate[1]`,
+ * which does not say of which law: null where laws call what has this name otherwise.
+ */
+export function parameterOf(path: string): Quantity | null {
+  const [, law, name, place] = /(?:^|\.)(\w+)\.(\w+)(?:\[(\d+)\])?$/.exec(path) ?? [];
+  const index = place === undefined ? null : Number(place);
+  const [first, ...others] = laws.value
+    .filter((one) => law === "parameters" || one.name === law)
+    .flatMap(({ parameters }) => parameters.filter((row) => row.name === name))
+    .map((row) => ({ label: labelParameter(row, index), unit: row.unit === "1" ? "" : row.unit }));
+  if (first === undefined) return null;
+  return others.every(({ label, unit }) => label === first.label && unit === first.unit)
+    ? first
+    : null;
+}
+
 const plain = (words: string): string => words.toLowerCase().trim();
 
 /** Those that have every word in their name, title or summary. */
@@ -48,6 +78,10 @@ export const groupLaws = (listed: readonly LawRow[]) =>
     estimate,
     laws: listed.filter((law) => law.estimate === estimate),
   })).filter((group) => group.laws.length > 0);
+
+/** What Enter takes of those found: the law that was written out, or the first that is shown. */
+export const pickLaw = (found: readonly LawRow[], sought: string): LawRow | undefined =>
+  found.find(({ title }) => plain(title) === plain(sought)) ?? groupLaws(found)[0]?.laws[0];
 
 /** When the page opens, once: laws are installed before the lab starts. */
 export async function openLaws(): Promise<void> {

@@ -3,6 +3,7 @@ import type { RefusedError, Violation } from "../api/errors";
 import { type Quantity, quantityOf } from "../quantities";
 import { text } from "../text/en";
 import { formatInput } from "../units";
+import { parameterOf } from "./laws";
 
 const words = text.refusal;
 const MOST = 3;
@@ -13,7 +14,7 @@ export function explainRefusal({ message, violations }: RefusedError): string {
 }
 
 export function explainViolation(violation: Violation): string {
-  const quantity = quantityOf(violation.name);
+  const quantity = quantityOf(violation.name) ?? parameterOf(violation.name);
   if (quantity === null) return violation.message;
   const { label } = quantity;
   if (violation.finding) return words.finding(label, violation.finding);
@@ -27,7 +28,7 @@ export function explainViolation(violation: Violation): string {
     : violation.message;
 }
 
-function show(value: number, { unit, factor = 1 }: Quantity): string {
+export function show(value: number, { unit, factor = 1 }: Quantity): string {
   const number = formatInput(value * factor).replace("-", "\u2212");
   return unit === "" ? number : `${number} ${unit}`;
 }

@@ -7,18 +7,19 @@ import { type Finding, type Phase, StreamConnection } from "../stream/connection
 import { BatchDecoder } from "../stream/decoder";
 import { HISTORY_S, LONGEST_WINDOW_S, RATE_HZ } from "../stream/rates";
 import { SampleRing } from "../stream/ring";
+import { joinPast, type Progress } from "./past";
 
 const CAPACITY = LONGEST_WINDOW_S * RATE_HZ + 1;
 
-/** After a change the whole state; between changes only the fields that move by themselves. */
-type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
-type TextMessage = Hello | { type: "state"; state: Progress };
+type TextMessage = Hello | { type: "state"; since_tick: number; state: Progress };
 
 export const session = signal<SessionState | null>(null);
 export const phase = signal<Phase>("connecting");
 export const missedSamples = signal(0);
 /** Counts the connections: what must start afresh after a lost one is keyed by it. */
 export const connectionCount = signal(0);
+/** Another session has the name of the one that was shown, until somebody has seen that. */
+export const isAnother = signal(false);
 /** Counts what was received: a plot whose count is behind has something to draw. */
 export const received = { count: 0 };
 
@@ -39,11 +40,15 @@ let selectionTimer: ReturnType<typeof setTimeout> | undefined;
 /** Counts the selections of channels whose past has come. */
 export const selectionCount = signal(0);
 
-/** Takes over what the server sent, unless something newer of the same run is known. */
-export function acceptState(state: Progress): void {
+/**
+ * Takes over what the server sent, unless something newer is known. sinceTick: from where on it
+ * tells what is over; all of it, if left out.
+ */
+export function acceptState(state: Progress, sinceTick = 0): void {
   const known = session.peek();
-  if (known === null || (known.run_number === state.run_number && state.tick < known.tick)) return;
-  take({ ...known, ...state });
+  if (known === null || state.run_number < known.run_number) return;
+  if (state.run_number === known.run_number && state.tick < known.tick) return;
+  take(joinPast(known, state, sinceTick));
 }
 
 /** A run that has begun has no samples yet: those of the one before are not of it. */
@@ -63,12 +68,15 @@ function take(state: SessionState): void {
 function acceptText(message: string): void {
   const content = JSON.parse(message) as TextMessage;
   if (content.type === "state") {
-    acceptState(content.state);
+    acceptState(content.state, content.since_tick);
     return;
   }
   if (content.type !== "hello") return;
   const names = content.channels.map((channel) => channel.name);
-  const continues = selection.continues && content.state.run_number === run;
+  const known = session.peek();
+  const isSame = known === null || known.instance === content.state.instance;
+  if (!isSame) isAnother.value = true;
+  const continues = selection.continues && isSame && content.state.run_number === run;
   periodS = content.period_s;
   decoder = new BatchDecoder(content);
   run = content.state.run_number;

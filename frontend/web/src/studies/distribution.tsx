@@ -8,7 +8,8 @@ import { nameColumn } from "./names";
 import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
 import { ColumnChoice } from "./scatter";
 import { columnOf, ended, lawInk, marks, marksOf, show } from "./shown";
-import { axes, rows, study } from "./studies";
+import { axes, brush, rows, study } from "./studies";
+import { LawName } from "./tables";
 
 const words = text.studies;
 const POINTS = 240;
@@ -95,7 +96,7 @@ export function Distribution() {
     plot.current?.redraw(false);
   });
   return (
-    <section class="studies-card" aria-label={words.distribution}>
+    <section class="surface card" aria-label={words.distribution}>
       <h3>{words.distribution}</h3>
       <ColumnChoice part="metric" label={words.metric} isMetric />
       <div
@@ -104,7 +105,14 @@ export function Distribution() {
         role="img"
         aria-label={`${words.distribution}: ${column ? nameColumn(column) : metric}`}
       />
-      <p class="hint">{words.distributionHint}</p>
+      <p class="studies-laws">
+        {laws.map((law, place) => (
+          <LawName key={law} law={law} place={place} />
+        ))}
+      </p>
+      <p class="hint">
+        {words.of(brush.value !== null)}; {words.distributionHint}
+      </p>
     </section>
   );
 }

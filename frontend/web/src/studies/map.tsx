@@ -1,9 +1,9 @@
 import { text } from "../text/en";
 import { formatNumber } from "../units";
-import { countCells, cutBins, estimateShare } from "./points";
+import { countCells, cutBins, estimateShare, tellPercents } from "./points";
 import { valuesOf } from "./rows";
 import { good, planes, shownMarks } from "./shown";
-import { axes, rows, setBrush } from "./studies";
+import { axes, brush, rows, setBrush } from "./studies";
 
 const words = text.studies;
 const WIDTH = 320;
@@ -26,7 +26,7 @@ export function SuccessMap() {
   const cells = countCells(at, height, good.value, shownMarks.value, edges);
   const [columns, lines] = [edges[0].length - 1, edges[1].length - 1];
   return (
-    <section class="studies-card" aria-label={words.map}>
+    <section class="surface card" aria-label={words.map}>
       <h3>{words.map}</h3>
       <svg
         class="studies-map"
@@ -36,8 +36,7 @@ export function SuccessMap() {
         aria-label={`${words.map}: ${up.label} / ${across.label}`}
       >
         {cells.map(({ column, line, runs, good: held }) => {
-          const [share, low, high] = estimateShare(held, runs);
-          const percent = (value: number) => Math.round(100 * value).toString();
+          const estimate = estimateShare(held, runs);
           return (
             // biome-ignore lint/a11y/noStaticElementInteractions: the brush has its own number fields
             <rect
@@ -46,7 +45,7 @@ export function SuccessMap() {
               y={HEIGHT - (HEIGHT * (line + 1)) / lines}
               width={WIDTH / columns}
               height={HEIGHT / lines}
-              style={{ fill: shadeOf(share) }}
+              style={{ fill: shadeOf(estimate[0]) }}
               onClick={() =>
                 setBrush({
                   plane: "s",
@@ -55,7 +54,7 @@ export function SuccessMap() {
                 })
               }
             >
-              <title>{`${held}/${runs}: ${words.interval(percent(share), percent(low), percent(high))}`}</title>
+              <title>{`${held}/${runs}: ${words.interval(...tellPercents(estimate))}`}</title>
             </rect>
           );
         })}
@@ -67,7 +66,9 @@ export function SuccessMap() {
       <p class="studies-scale" aria-hidden="true">
         {words.mapScale(0)} <i /> {words.mapScale(100)}
       </p>
-      <p class="hint">{words.mapHint}</p>
+      <p class="hint">
+        {words.of(brush.value !== null)}, {words.mapHint}
+      </p>
     </section>
   );
 }

@@ -1,9 +1,12 @@
 import { useEffect } from "preact/hooks";
 import { type Study, tableOf } from "../api/studies";
+import { isGoing, JobProgress } from "../jobs/progress";
 import { PlaceLink } from "../runs/placelink";
+import { isObserver } from "../state/access";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
-import { formatSeconds } from "../units";
+import { Desk } from "../widgets/desk";
+import { Popup } from "../widgets/popup";
 import { Distribution } from "./distribution";
 import { SuccessMap } from "./map";
 import { Picked } from "./picked";
@@ -18,11 +21,11 @@ import {
   EVERY_LAW,
   follow,
   isBusy,
-  isGoing,
   leave,
   list,
   openList,
   problem,
+  remove,
   rows,
   setBrush,
   setLook,
@@ -36,7 +39,7 @@ const words = text.studies;
 function Kept() {
   const kept = list.value?.kept ?? [];
   return (
-    <nav class="studies-kept" aria-label={words.kept}>
+    <nav class="surface card desk-kept" aria-label={words.kept}>
       <h3>{words.kept}</h3>
       {list.value === null && problem.value === "" && <p class="hint">{words.loading}</p>}
       {list.value !== null && kept.length === 0 && <p class="hint">{words.none}</p>}
@@ -47,7 +50,7 @@ function Kept() {
               <b>{one.name}</b>
               <small>
                 {words.state(one.done, one.rows)}
-                {one.job && isGoing(one) && `, ${words.status[one.job.status]}`}
+                {one.job && isGoing(one.job) && `, ${text.jobs.status[one.job.status]}`}
               </small>
             </PlaceLink>
           </li>
@@ -57,58 +60,78 @@ function Kept() {
   );
 }
 
-/** How far it is, how fast it goes, how long it still takes. */
+/** How far it is, and what can be done with it. */
 function Progress({ found }: { found: Study }) {
   const { job } = found;
-  const isUnderWay = isGoing(found);
-  const told = [words.state(found.done, found.rows)];
-  if (job && (isUnderWay || job.status !== "done")) told.push(words.status[job.status]);
-  if (job?.problem) told.push(job.problem);
-  if (isUnderWay && job?.status === "running") {
-    told.push(job.rate_per_s === null ? words.compiling : words.rate(job.rate_per_s));
-    if (job.left_s !== null) told.push(words.left(formatSeconds(job.left_s)));
-  }
   return (
-    <div class="studies-progress">
-      <span role="status">{told.join(" · ")}</span>
-      {isUnderWay && (
-        <progress value={job?.done ?? 0} max={found.rows} aria-label={words.progress(found.name)} />
-      )}
-      {isUnderWay ? (
-        <button type="button" class="button" title={words.cancelHint} onClick={() => void cancel()}>
-          {words.cancel}
+    <JobProgress
+      job={job}
+      done={words.state(found.done, found.rows)}
+      total={found.rows}
+      label={words.progress(found.name)}
+      onCancel={() => void cancel()}
+    >
+      {found.done < found.rows && (
+        <button
+          type="button"
+          class="button"
+          title={words.goOnHint}
+          disabled={isBusy.value !== ""}
+          onClick={() => void begin({ source: found.name })}
+        >
+          {words.goOn}
         </button>
-      ) : (
-        found.done < found.rows && (
-          <button
-            type="button"
-            class="button"
-            title={words.goOnHint}
-            disabled={isBusy.value !== ""}
-            onClick={() => void begin({ source: found.name })}
-          >
-            {words.goOn}
-          </button>
-        )
       )}
-      {!isUnderWay && found.done > 0 && (
+      {found.done > 0 && (
         <a class="button" href={tableOf(found.name)} download title={words.tableHint}>
           {words.table}
         </a>
       )}
-    </div>
+    </JobProgress>
+  );
+}
+
+/** Asks first: its rows cannot be brought back. */
+function Deletion({ found }: { found: Study }) {
+  const isGone = isBusy.value === "delete";
+  return (
+    <Popup
+      class="button studies-delete"
+      title={words.deleteHint}
+      button={isGone ? words.deleting : words.delete}
+      isDisabled={isBusy.value !== ""}
+    >
+      {(close) => (
+        <>
+          <p>{words.deleteSure(found.name, found.done)}</p>
+          <button
+            type="button"
+            class="button"
+            onClick={() => {
+              close();
+              void remove(found.name);
+            }}
+          >
+            {words.deleteNow}
+          </button>
+        </>
+      )}
+    </Popup>
   );
 }
 
 function Looked({ found }: { found: Study }) {
   const { count, total } = rows.value;
   return (
-    <div class="studies-looked">
-      <div class="studies-card studies-wide">
-        <h3>{found.title}</h3>
+    <div class="desk-main">
+      <div class="surface card desk-wide">
+        <div class="studies-head">
+          <h3>{found.title}</h3>
+          {!isObserver.value && <Deletion found={found} />}
+        </div>
         <Progress found={found} />
         {count > 0 && (
-          <p class="studies-brushed">
+          <p class="desk-buttons studies-brushed">
             <span>{words.marks}</span> <b>{words.brushed(brushedCount.value, count)}</b>
             <label>
               <span>{words.shown}</span>
@@ -134,7 +157,7 @@ function Looked({ found }: { found: Study }) {
         {total > count && <p class="hint">{words.thinned(count, total)}</p>}
       </div>
       {count === 0 ? (
-        <p class="hint studies-wide">{words.empty}</p>
+        <p class="hint desk-wide">{words.empty}</p>
       ) : (
         <>
           <LawTable />
@@ -162,25 +185,22 @@ export function StudiesPage() {
   }, [name]);
   const found = study.value;
   return (
-    <main class="studies" aria-label={words.title}>
-      <div class="studies-head">
-        <h2>{words.title}</h2>
-        <p>{words.lead}</p>
-      </div>
-      <p class="problem" role="alert" hidden={problem.value === ""}>
-        {problem.value}
-      </p>
-      <div class="studies-body">
-        <aside class="studies-side">
+    <Desk
+      title={words.title}
+      lead={words.lead}
+      problem={problem.value}
+      side={
+        <>
           <Kept />
           <Start />
-        </aside>
-        {found === null ? (
-          <p class="hint">{name === "" ? words.choose : problem.value === "" && words.loading}</p>
-        ) : (
-          <Looked found={found} />
-        )}
-      </div>
-    </main>
+        </>
+      }
+    >
+      {found === null ? (
+        <p class="hint">{name === "" ? words.choose : problem.value === "" && words.loading}</p>
+      ) : (
+        <Looked found={found} />
+      )}
+    </Desk>
   );
 }

@@ -31,7 +31,7 @@ export function Picked() {
   const numbers = found.map((row) => Number(row.row));
   return (
     <section
-      class="studies-card studies-picked"
+      class="surface card studies-picked"
       aria-label={words.row(numbers.at(-1) ?? 0)}
       aria-live="polite"
     >
@@ -39,7 +39,7 @@ export function Picked() {
         <p class="hint">{words.pickHint}</p>
       ) : (
         <>
-          <table class="studies-table">
+          <table class="desk-table">
             <thead>
               <tr>
                 <td />
@@ -63,9 +63,9 @@ export function Picked() {
               </tr>
             </thead>
             <tbody>
-              {columns.map(({ name, unit }) => (
+              {columns.map(({ name, label, unit }) => (
                 <tr key={name}>
-                  <th scope="row">{nameColumn({ name, unit })}</th>
+                  <th scope="row">{nameColumn({ label, unit })}</th>
                   {found.map((row) => (
                     <Cell key={Number(row.row)} row={row} name={name} unit={unit} />
                   ))}

@@ -196,3 +196,20 @@ export function estimateShare(good: number, runs: number): readonly [number, num
     Math.sqrt((share * (1 - share)) / runs + (Z * Z) / (4 * runs * runs));
   return [share, Math.max(0, middle - half), Math.min(1, middle + half)];
 }
+
+const DECIMALS = 1;
+const MAX_DECIMALS = 12;
+type Shares = readonly [number, number, number];
+
+/**
+ * Shares in percent, to so many digits that what differs, from each other or from none and all,
+ * reads so: of a million runs that all succeeded the lower end is no 100 %.
+ */
+export function tellPercents(shares: Shares): [string, string, string] {
+  const exact = (share: number) => Number(share.toFixed(MAX_DECIMALS));
+  const ends = [...new Set([0, 1, ...shares.map(exact)])];
+  let decimals = DECIMALS;
+  const tell = (share: number) => (100 * share).toFixed(decimals);
+  while (decimals < MAX_DECIMALS && new Set(ends.map(tell)).size < ends.length) decimals++;
+  return [tell(shares[0]), tell(shares[1]), tell(shares[2])];
+}

@@ -38,7 +38,7 @@ export function ColumnChoice({
   const columns = study.value?.columns ?? [];
   const offered = isMetric ? columns.filter(({ role }) => role === "metric") : axesOf(columns);
   return (
-    <label class="studies-column">
+    <label class="desk-label">
       <span>{label}</span>
       <select
         value={axes.value[part]}
@@ -78,7 +78,7 @@ function Ends({ plane }: { plane: Plane }) {
       {(["x", "y"] as const).map((way) => {
         const axis = way === "x" ? words.x : words.y;
         return ([0, 1] as const).map((end) => (
-          <label key={`${way}${end}`}>
+          <label class="desk-label" key={`${way}${end}`}>
             <span>{end === 0 ? words.from(axis) : words.to(axis)}</span>
             <input
               type="number"
@@ -170,7 +170,7 @@ export function Scatter({ plane }: { plane: Plane }) {
     0,
   );
   return (
-    <section class="studies-card" aria-label={words.plane[plane]}>
+    <section class="surface card" aria-label={words.plane[plane]}>
       <div class="studies-choices">
         <ColumnChoice part={`${plane}y`} label={words.y} />
         <ColumnChoice part={`${plane}x`} label={words.x} />

@@ -1,8 +1,8 @@
 /** The studies of this lab, the one that is looked at, its rows, and what is picked of them. */
 import { computed, signal } from "@preact/signals";
-import { RefusedError } from "../api/errors";
+import { stopJob } from "../api/jobs";
 import {
-  cancelJob,
+  deleteStudy,
   listStudies,
   readRow,
   readRows,
@@ -18,8 +18,9 @@ import {
   type StudyWish,
   startStudy,
 } from "../api/studies";
+import { isGoing } from "../jobs/progress";
 import { goTo, keepLook, place } from "../runs/place";
-import { explain } from "../state/actions";
+import { asking } from "../state/attempt";
 import { type Brushed, chooseAxes, readBrush, writeBrush } from "./look";
 import { NOTHING, type Rows, unpackRows } from "./rows";
 
@@ -53,27 +54,12 @@ export const shownLaw = computed(() => {
 export const EVERY_LAW = "every";
 export const brush = computed(() => readBrush(look.value.brush ?? ""));
 
-/** A study's own words are better than those of the page: they name line, value and bound. */
-export const tell = (error: unknown): string =>
-  error instanceof RefusedError ? error.message : explain(error);
-
-export const isGoing = (one: Study | null): boolean =>
-  one?.job?.status === "waiting" || one?.job?.status === "running";
-
 export const setLook = (changed: Readonly<Record<string, string>>): void =>
   keepLook({ ...look.peek(), ...changed });
 export const setBrush = (next: Brushed | null): void =>
   setLook({ brush: next === null ? "" : writeBrush(next) });
 
-/** What is asked for by the way leaves standing why a wish was refused. */
-async function attempt<T>(work: () => Promise<T>): Promise<T | null> {
-  try {
-    return await work();
-  } catch (error) {
-    problem.value = tell(error);
-    return null;
-  }
-}
+const attempt = asking(problem);
 
 export async function openList(): Promise<void> {
   list.value = (await attempt(listStudies)) ?? list.peek();
@@ -96,11 +82,8 @@ async function sumUp(found: Study): Promise<void> {
   if (chosenName.peek() !== found.name) return;
   summary.value = told;
   if (found.study.sampling !== "sensitivity") return;
-  try {
-    indices.value = await readSensitivity(found.name, "succeeded");
-  } catch {
-    indices.value = [];
-  }
+  const shares = await readSensitivity(found.name, "succeeded").catch(() => []);
+  if (chosenName.peek() === found.name) indices.value = shares;
 }
 
 /** Looks at a study, and follows it while it grows. */
@@ -117,7 +100,7 @@ export async function follow(name: string): Promise<void> {
     const found = await attempt(() => readStudy(name));
     if (number !== round || found === null) return;
     study.value = found;
-    const isEnded = !isGoing(found);
+    const isEnded = !isGoing(found.job);
     if (found.done > 0 && (isEnded || found.done > shown * GROWTH)) {
       shown = found.done;
       await fetchRows(name);
@@ -152,7 +135,23 @@ export async function begin(wish: StudyWish): Promise<boolean> {
 
 export async function cancel(): Promise<void> {
   const job = study.peek()?.job;
-  if (job) await attempt(() => cancelJob(job.id));
+  if (job) await attempt(() => stopJob(job.id));
+}
+
+/** Whether it is gone; then nothing is looked at. */
+export async function remove(name: string): Promise<boolean> {
+  problem.value = "";
+  isBusy.value = "delete";
+  const isGone =
+    (await attempt(async () => {
+      await deleteStudy(name);
+      return true;
+    })) !== null;
+  isBusy.value = "";
+  if (!isGone) return false;
+  goTo({ kind: "studies", study: "", look: {} });
+  await openList();
+  return true;
 }
 
 /** The row that is told of; the one before it stays beside it, to be overlaid. */

@@ -1,20 +1,20 @@
 import type { Estimate } from "../api/studies";
+import { isGoing } from "../jobs/progress";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { factorOf, shownUnit } from "./look";
 import { nameColumn } from "./names";
-import { estimateShare } from "./points";
+import { estimateShare, tellPercents } from "./points";
 import { columnOf, ended, good, lawInk, marksOf } from "./shown";
-import { axes, brush, indices, isGoing, study, summary } from "./studies";
+import { axes, brush, indices, study, summary } from "./studies";
 
 const words = text.studies;
 const percent = (value: number | null): string =>
   formatNumber(value === null ? null : 100 * value, 3, 1);
 
-function tellShare({ value, low, high }: Estimate): string {
-  return words.interval(percent(value), percent(low), percent(high));
-}
+const tellShare = ({ value, low, high }: Estimate): string =>
+  value === null ? "–" : words.interval(...tellPercents([value, low ?? 0, high ?? 1]));
 
 /** How a law did in the brush, with Wilson's interval. */
 function inBrush(place: number): string {
@@ -29,6 +29,14 @@ function inBrush(place: number): string {
   return runs === 0 ? "–" : `${held}/${runs}: ${tellShare({ value, low, high })}`;
 }
 
+/** A law with the colour of its runs. place: among the laws of the study. */
+export const LawName = ({ law, place }: { law: string; place: number }) => (
+  <span class="studies-law">
+    <i style={{ background: `var(--plot-${lawInk(place)})` }} aria-hidden="true" />
+    {titleOf(law)}
+  </span>
+);
+
 export function LawTable() {
   const found = summary.value;
   const metric = columnOf(axes.value.metric ?? "");
@@ -37,15 +45,15 @@ export function LawTable() {
       ? words.fault
       : formatNumber((value ?? Number.NaN) * factorOf(metric?.unit ?? ""), 3);
   return (
-    <section class="studies-card studies-wide" aria-label={words.byLaw}>
+    <section class="surface card desk-wide" aria-label={words.byLaw}>
       <h3>{words.byLaw}</h3>
       {found === null && (
         <p class="hint" role="status">
-          {isGoing(study.value) ? words.later : words.summing}
+          {isGoing(study.value?.job ?? null) ? words.later : words.summing}
         </p>
       )}
-      <div class="studies-scroll">
-        <table class="studies-table">
+      <div class="desk-scroll">
+        <table class="desk-table">
           <thead>
             <tr>
               {[
@@ -73,8 +81,7 @@ export function LawTable() {
               return (
                 <tr key={law}>
                   <th scope="row">
-                    <i style={{ background: `var(--plot-${lawInk(place)})` }} aria-hidden="true" />
-                    {titleOf(law)}
+                    <LawName law={law} place={place} />
                   </th>
                   <td>{one?.runs.toLocaleString("en") ?? "–"}</td>
                   <td>{one ? tellShare(one.success) : "–"}</td>
@@ -129,7 +136,7 @@ export function LawTable() {
 export function Sensitivity() {
   if (indices.value.length === 0) return null;
   return (
-    <section class="studies-card studies-wide" aria-label={words.sensitivity}>
+    <section class="surface card desk-wide" aria-label={words.sensitivity}>
       <h3>{words.sensitivity}</h3>
       <p class="hint">{words.sensitivityHint}</p>
       {indices.value.map(({ law, first_order: own, total_order: total }) => (
@@ -140,7 +147,7 @@ export function Sensitivity() {
               .sort((a, b) => (total[b]?.value ?? 0) - (total[a]?.value ?? 0))
               .map((name) => (
                 <div key={name}>
-                  <dt>{nameColumn({ name, unit: "" })}</dt>
+                  <dt>{columnOf(name)?.label ?? name}</dt>
                   {([own[name], total[name]] as const).map((one, at) => (
                     <dd
                       key={at === 0 ? "own" : "total"}

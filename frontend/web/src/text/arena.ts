@@ -25,8 +25,8 @@ export const arenaText = {
       "A press on a heading sorts by it, on a law shows it below, on a number opens its run",
     parts: { robustness: "robustness", draws: "draws", accuracy: "accuracy" },
     bars: "Bars of errors are logarithmic within their column, and long is bad; those of the score and of the step are linear, and long is good. Bold is the best of a column. Words in place of a number say how the run ended: at the spring's deflection limit, at the end of the spiral, or with a torque that is no number.",
-    provenance: (version: string, suite: string) =>
-      `Every law as it is by default, simulated: nothing here was measured on a bench. Published with SVSA Lab ${version}, suite ${suite}, draws of the public seed.`,
+    provenance: (versions: readonly string[], suite: string) =>
+      `Every law as it is by default, simulated: nothing here was measured on a bench. Measured with SVSA Lab ${versions.join(" and ")}, suite ${suite}, draws of the public seed.`,
     legend: "What each column is measured on",
     columns: {
       score: {
@@ -53,6 +53,10 @@ export const arenaText = {
       unloadings: {
         name: "Faults of 48",
         hint: "Rig: the load taken off at σ 12, 15, 18 and 16 phases of the motion; how many runs ended in a fault. A press shows the first of them",
+      },
+      rest: {
+        name: "Worst of 48",
+        hint: "The same runs: rms error 3–5 s after the load is off, in the run where it is greatest, whether a law comes to rest or swings on; a run that ended in a fault counts as worst. A press shows that run",
       },
       sine: { name: "2 Hz", hint: "Rig: 1.5 N·m at 2 Hz on the link, rms error 8–20 s" },
       mass: { name: "3 kg", hint: "Rig: 3 kg on an arm of 68 mm, rms error 8–20 s" },

@@ -136,6 +136,23 @@ export const benchText = {
       supervised: "Supervisor: its heartbeat is fresh",
       unsupervised: "Supervisor: no heartbeat",
     },
+    heat: {
+      column: "Heat",
+      hint: "Of what its winding bears, by the current that it had (I²t). From 90 % on it gives less than its peak torque, at 100 % what it bears for ever.",
+      share: (percent: string) => `${percent} %`,
+      heldTo: (torque: string) => `held to ${torque} N·m`,
+      warningTitle: (motor: string) => `${motor} is held back by heat.`,
+      warning: (percent: string, allowed: string, lasting: string) =>
+        `Its winding has ${percent} % of the heat that it bears, and it gives ${allowed} N·m at most (${lasting} N·m for ever): less than the law asks for, so that stiffness or position may run away. Take the load off, or stop.`,
+    },
+    endurance: {
+      motor: { motor1: "Motor 1", motor2: "Motor 2" },
+      seconds: (seconds: number) =>
+        seconds < 1 ? "less than a second" : `about ${Math.round(seconds)} s`,
+      warning: (motor: string, seconds: string) => `${motor} bears this for ${seconds} from cold`,
+      why: (torque: string, lasting: string) =>
+        `It takes ${torque} N·m (rms), and ${lasting} N·m is what the motor bears for ever. Then heat holds it back, and the run may end in a fault.`,
+    },
     loop: {
       heading: "Control loop",
       states: {
@@ -151,7 +168,7 @@ export const benchText = {
         server: "The server has opened the bus itself and keeps both drives at zero current.",
       },
       notStopped: "Nobody is known to have stopped the drives: pull the motors' supply.",
-      lateness: "Lateness",
+      lateness: "Lateness since the loop started",
       noneYet: "–",
       cost: "Cost of a tick, 99 %",
       skipped: "Skipped ticks",
@@ -161,7 +178,7 @@ export const benchText = {
         `Histogram of the lateness: half up to ${half}, 99 % up to ${most}, worst ${worst}`,
       upTo: (edge: string, count: string) => `up to ${edge}: ${count} ticks`,
       above: (count: string) => `above: ${count} ticks`,
-      counts: "ticks, each line ten times more",
+      counts: "ticks since the loop started, each line ten times more",
       notes: "What the system allows",
     },
   },

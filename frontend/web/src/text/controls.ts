@@ -88,6 +88,9 @@ export const controlsText = {
     course: (least: string, greatest: string, unit: string, end: string, rate: string) =>
       `${least} to ${greatest} ${unit} in ${end} s, at most ${rate} ${unit}/s`,
     apply: "Apply",
+    again: "Begin again",
+    againHint: "What is followed now, from its beginning",
+    notApplied: (kind: string) => `Following now: ${kind}. What stands here is not applied yet.`,
     following: (kind: string, fadeS: number) =>
       `Following now: ${kind}. It fades in for ${fadeS} s, then begins; its end is held.`,
   },

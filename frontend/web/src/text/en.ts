@@ -5,9 +5,13 @@ import { classroomText } from "./classroom";
 import { controlText } from "./control";
 import { controlsText } from "./controls";
 import { designText } from "./design";
+import { falsifierText } from "./falsifier";
+import { gradesText } from "./grades";
 import { identificationText } from "./identification";
+import { jobsText } from "./jobs";
 import { keysText } from "./keys";
 import { lawsText } from "./laws";
+import { leaderboardText } from "./leaderboard";
 import { learningText } from "./learning";
 import { pageText } from "./page";
 import { plotsText } from "./plots";
@@ -28,12 +32,16 @@ export const text = {
   ...arenaText,
   ...benchText,
   ...designText,
+  ...falsifierText,
   ...stabilityText,
+  ...gradesText,
+  ...leaderboardText,
   ...learningText,
   ...lawsText,
   ...sceneText,
   ...keysText,
   ...identificationText,
+  ...jobsText,
   ...realismText,
   ...runsText,
   ...scriptText,

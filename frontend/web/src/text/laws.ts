@@ -9,7 +9,7 @@ export const lawsText = {
     notInstalled: (name: string) => `${name} (not installed)`,
     broken: (name: string) => `${name} (does not load)`,
     groups: {
-      none: "Without an estimate of the load",
+      none: "Without ŵ: by feedback, an integral or an extended state",
       observer: "With the observer's estimate ŵ",
       own: "With an estimate of their own",
     },
@@ -30,5 +30,12 @@ export const lawsText = {
     share: "As the session's",
     poles: (group: string) => `${group} bandwidth, all poles`,
     apart: (symbol: string) => `The poles lie apart; ${symbol} sets all of them.`,
+  },
+  lawText: {
+    file: "A Python file",
+    text: "Its text, or paste it here",
+    most: (bytes: number) => `At most ${bytes} bytes.`,
+    tooLong: (bytes: number, most: number) => `It has ${bytes} bytes; at most ${most} are taken.`,
+    unreadable: "This file cannot be read as text.",
   },
 } as const;

@@ -1,4 +1,6 @@
 /** The frame of the page: header, status bar, banners, login. */
+import { adviceOn } from "./faults";
+
 export const pageText = {
   name: "SVSA Lab",
   skip: "Skip to the plots",
@@ -7,20 +9,29 @@ export const pageText = {
   view: "The actuator in 3D",
   pages: {
     open: "Pages",
-    openHint: "Runs, arena, studies, tuning, and the documented routes",
+    openHint:
+      "Learn, runs, arena, leaderboard, studies, falsifier, tuning, and the documented routes",
     names: {
       lab: "Lab",
+      learn: "Learn",
       runs: "Runs",
       arena: "Arena",
+      leaderboard: "Leaderboard",
+      grades: "Grades",
       studies: "Studies",
+      falsifier: "Falsifier",
       tune: "Tune …",
       docs: "REST and stream",
     },
     hints: {
       lab: "The actuator, live",
+      learn: "Exercises beside the live lab, the paper's claims, every equation, the tour",
       runs: "Recorded: look, compare, replay, export (O)",
       arena: "Every law in the same scenarios: errors, faults, robustness",
+      grades: "What was handed in, run again, and its points by criterion",
+      leaderboard: "Your law among the lab's, on draws that nobody knows",
       studies: "Many perturbed runs of every law: how often they succeed, and what decides it",
+      falsifier: "Search the load that hurts a law most, and put any law through it",
       tune: "Search a law's parameters on five training runs",
       docs: "What a script can do here, in a new tab",
     },
@@ -68,7 +79,8 @@ export const pageText = {
       `Control rate, and how fast session time passes; ${stretched} given up so far`,
     late: (median: string, most: string) => `late ${median} / ${most}`,
     skipped: (count: number) => `${count} ticks skipped`,
-    lateHint: "Control rate; lateness of the ticks, half of them / 99 of 100; ticks left out",
+    lateHint:
+      "Control rate; lateness of the ticks, half of them / 99 of 100, since it started; ticks left out of the present run",
     recording: "Recording",
     notRecording: "off",
     connection: "Connection",
@@ -82,6 +94,9 @@ export const pageText = {
     waiting: "Waiting for the lab…",
     lostTitle: "The connection is lost.",
     lostText: "What the lab does now is unknown. The page reconnects by itself.",
+    anotherTitle: "This is a new session.",
+    anotherText:
+      "The one shown before is over: its server was started anew, or it was ended. Settings are those of a beginning; what was recorded stands under Runs.",
     unreachable: "The server does not answer.",
     askingTitle: "No answer came.",
     askingText:
@@ -96,6 +111,14 @@ export const pageText = {
     missed: (count: number) => `${count} skipped`,
     missedHint: "Samples left out because this browser could not keep up",
   },
+  meanwhile: {
+    changed: "Somebody else changed this meanwhile; yours was not taken.",
+    now: (list: string) => `It is now: ${list}.`,
+    shown: "What is set now is theirs.",
+    law: (title: string) => `law ${title}`,
+    value: (label: string, value: string) => `${label} ${value}`,
+    again: "Set mine all the same",
+  },
   login: {
     title: "This lab is locked",
     explanation: "Enter the secret that the lab was started with.",
@@ -104,6 +127,8 @@ export const pageText = {
   },
   fault: {
     title: (time: number) => `Stopped at ${time.toFixed(2)} s.`,
+    adviceTitle: "Why this happens, and what to try",
+    advice: adviceOn,
     reset: "Reset",
   },
   panel: { close: "Close" },

@@ -205,6 +205,9 @@ export const plotsText = {
     recovery: "Time from a load until the error stays small again",
     recoveryFrom: (load: string) => `Time from ${load} until the error stayed small`,
     notYet: "not yet",
+    lost: "not now",
+    lostAfter: (load: string, seconds: string) =>
+      `${seconds} s from ${load} on the error was small, and it is not any more`,
     noLoad: "no load yet",
     notThere: "It controlled nothing when the load came",
     notBefore: (time: string) => `not by ${time}`,
@@ -218,6 +221,9 @@ export const plotsText = {
     whileRecording: "A recording has the same lanes throughout: stop it first.",
     versus: (names: readonly string[]) => names.join(" against "),
     heading: "Which controller does better",
+    benchHeading: "The bench beside its simulations",
+    benchHint:
+      "None is marked as the best: the first row is a bench, the others are simulations of a model of it",
     lane: "Controller",
     now: "Error now",
     lastKnown: "Last known",
@@ -227,6 +233,8 @@ export const plotsText = {
     degrees: "deg",
     recoveredFrom: (time: number | null) => (time === null ? "s" : `s, from ${time.toFixed(2)} s`),
     seconds: "s",
+    ended: "ended",
+    endedHint: "It left what the model describes, and is simulated no further in this run",
     best: "best",
     bestSign: "✓",
   },

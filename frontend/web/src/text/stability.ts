@@ -47,6 +47,20 @@ export const stabilityText = {
         ? "No frequency response: the loop is unstable"
         : `Error for a sine of 1 N·m on the link, over frequency: up to ${most}°`,
     bodeUnstable: "unstable: nothing settles",
+    unstableOn: {
+      rig: {
+        short: "unstable on the rig",
+        told: (pole: string) =>
+          `On the rig this loop is unstable (largest pole |z| = ${pole}). The curves are of the loop as it is simulated here, without the encoders' counts and delay: there it would do none of this.`,
+      },
+      session: {
+        short: "unstable: does not come to rest",
+        told: (pole: string) =>
+          `The loop as it is set here is unstable (largest pole |z| = ${pole}): what looks calm at first goes on growing.`,
+      },
+    },
+    caveat: (told: string, short: string) => `${told}; ${short}`,
+    inks: (name: string, short: string | null) => (short ? `${name} (${short})` : name),
     tried: "these poles",
     inUse: "in use",
     region: "Comes to rest from",
@@ -60,9 +74,9 @@ export const stabilityText = {
     looks: { rest: "comes to rest", fault: "fault", astray: "not within 2 s" },
     regionEmpty: "961 starts, simulated one after another.",
     regionTold: (share: string, stiffness: string) =>
-      `Map of starts at σ = ${stiffness} N·m/rad: a share of ${share} comes to rest`,
+      `Map of starts at σ = ${stiffness} N·m/rad: ${share} come to rest`,
     regionFound: (share: string, done: number, all: number, sensing: string, isOutdated: boolean) =>
-      `${share} of ${done === all ? `${all}` : `${done} of ${all}`} starts, ${sensing}${isOutdated ? "; of other poles than these" : ""}`,
+      `${share} of ${done === all ? `${all} starts` : `the ${done} starts so far (of ${all})`} come to rest, ${sensing}${isOutdated ? "; of other poles than these" : ""}`,
     fail: "Fail it in simulation",
     failHint:
       "A private simulated session with these gains, in which the 3 kg come after 1 s; this session stays as it is",

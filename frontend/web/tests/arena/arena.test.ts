@@ -1,6 +1,15 @@
-import { beforeAll, describe, expect, test, vi } from "vitest";
+import "../browserless";
+import { beforeAll, describe, expect, test } from "vitest";
 import type { Row, SweepOutcome } from "../../src/api/arena";
-import { barOf, COLUMNS, type Column, isBest, sortRows } from "../../src/arena/columns";
+import {
+  barOf,
+  COLUMNS,
+  type Column,
+  formatValue,
+  isBest,
+  sortRows,
+  versionsOf,
+} from "../../src/arena/columns";
 
 let pointOf: typeof import("../../src/arena/radar").pointOf;
 let bearsUpTo: typeof import("../../src/arena/radar").bearsUpTo;
@@ -11,17 +20,6 @@ let readPlace: typeof import("../../src/runs/place").readPlace;
 let writePlace: typeof import("../../src/runs/place").writePlace;
 
 beforeAll(async () => {
-  vi.stubGlobal("location", { search: "", pathname: "/", href: "http://lab/" });
-  vi.stubGlobal("document", {
-    baseURI: "http://lab/",
-    hidden: false,
-    documentElement: { dataset: {} },
-    addEventListener: () => undefined,
-  });
-  vi.stubGlobal("window", {
-    matchMedia: () => ({ matches: false, addEventListener: () => undefined }),
-    addEventListener: () => undefined,
-  });
   ({ pointOf, bearsUpTo, bearsFromTo } = await import("../../src/arena/radar"));
   ({ choose, chosen } = await import("../../src/arena/arena"));
   ({ readPlace, writePlace } = await import("../../src/runs/place"));
@@ -34,6 +32,7 @@ const rowOf = (law: string, score: number, mass: number | null, step = 2): Row =
     mass_rms_deg: mass,
     largest_link_step_nm: step,
     outcomes: [{ scenario: "mass", fault: mass === null ? "lever_end" : null }],
+    unloading_worst: "unloading_12_10",
     draws_fails: 1,
     draws_failed: ["draw_7"],
   }) as unknown as Row;
@@ -65,9 +64,22 @@ describe("the arena's table", () => {
     expect(barOf(columnOf("unloadings"), 12, rows)).toBe(0.25);
   });
 
+  test("every version of the lab that measured a row is told once", () => {
+    const rows = ["0.1.0", "0.2.0", "0.1.0"].map((version) => ({ ...ROWS[0], version }) as Row);
+    expect(versionsOf(rows)).toEqual(["0.1.0", "0.2.0"]);
+  });
+
+  test("the best does not read as one that is half as good", () => {
+    const [best, other] = [5.4e-5, 7.7e-5].map((value) => formatValue(columnOf("ideal"), value));
+    expect([best, other]).toEqual(["0.000054", "0.000077"]);
+    expect(formatValue(columnOf("ideal"), 0.00128)).toBe("0.0013");
+    expect(formatValue(columnOf("unloadings"), 16)).toBe("16");
+  });
+
   test("a number opens its run, and a count the first that failed", () => {
     expect(columnOf("mass").scenarioOf(ROWS[1] as Row)).toBe("mass");
     expect(columnOf("mass").faultOf(ROWS[1] as Row)).toBe("lever_end");
+    expect(columnOf("rest").scenarioOf(ROWS[0] as Row)).toBe("unloading_12_10");
     expect(columnOf("fails").scenarioOf(ROWS[0] as Row)).toBe("draw_7");
     expect(columnOf("step").scenarioOf(ROWS[0] as Row)).toBe("link_step_2.5");
     expect(columnOf("step").scenarioOf(rowOf("d", 1, 1, 15))).toBe("link_step_15");

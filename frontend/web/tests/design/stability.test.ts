@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { pathOf, shareOf } from "../../src/design/curves";
 import { errorAxis } from "../../src/design/erroraxis";
-import { rangeOf } from "../../src/design/words";
+import { caveatOf, rangeOf } from "../../src/design/words";
 
 const RANGE = { parameter: "link_inertia_kg_m2", symbol: "M", present: 0.67 };
 
@@ -42,6 +42,25 @@ describe("charts of a design", () => {
     expect(axis.from).toBeLessThan(-5.9);
     expect(axis.to).toBeGreaterThan(0);
     expect(axis.ticks).toContain(0);
+  });
+});
+
+describe("curves of a loop that is unstable", () => {
+  test("a loop that settles on the rig needs no words", () => {
+    expect(caveatOf({ largest_pole: 0.97, encoders: "rig" })).toBeNull();
+  });
+
+  test("of one that only settles here it is said where it does not, and by how much", () => {
+    const caveat = caveatOf({ largest_pole: 1.0312, encoders: "rig" });
+    expect(caveat?.short).toBe("unstable on the rig");
+    expect(caveat?.told).toContain("|z| = 1.0312");
+    expect(caveat?.told).toContain("without the encoders' counts and delay");
+  });
+
+  test("a session with encoders of its own is spoken of itself, also at the edge", () => {
+    const caveat = caveatOf({ largest_pole: 1, encoders: "session" });
+    expect(caveat?.short).toContain("does not come to rest");
+    expect(caveat?.told).not.toContain("rig");
   });
 });
 

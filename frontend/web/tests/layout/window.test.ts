@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from "vitest";
-import type { Metrics, WindowState } from "../../src/api/types";
-import { bestIn, recoveryOf, sinceOf } from "../../src/layout/window";
+import type { BenchState, Metrics, WindowState } from "../../src/api/types";
+import { bestIn, hasEnded, recoveryOf, sinceOf } from "../../src/layout/window";
 import { text as page } from "../../src/text/en";
 import { text as replay } from "../../src/text/replay";
 
@@ -27,10 +27,17 @@ describe("a window", () => {
     expect(sinceOf(window("stop", "Stop"))).toBe("Stop, since 5.00 s");
   });
 
-  it("has a best where the lanes do the same, which a bench on its ramp does not", () => {
-    expect(bestIn(window("load", "3 kg load"), [0.2, 0.1])).toBe(1);
-    expect(bestIn(window("stop", "Stop"), [0.2, 0.1])).toBe(-1);
+  it("has a best where all lanes are simulated, none where one of them is a bench", () => {
+    expect(bestIn({ bench: null }, [0.2, 0.1])).toBe(1);
+    expect(bestIn({ bench: {} as BenchState }, [0.2, 0.1])).toBe(-1);
   });
+});
+
+it("knows a lane that ended by its numbers, which half a second without any takes away", () => {
+  const state = { time_s: 9, window: window("load", "3 kg load off") };
+  expect(hasEnded({ in_window: null }, state)).toBe(true);
+  expect(hasEnded({ in_window: metrics(null) }, state)).toBe(false);
+  expect(hasEnded({ in_window: null }, { ...state, time_s: 5.4 })).toBe(false);
 });
 
 it("says it in the words of the replay and the overlay", async () => {
@@ -63,6 +70,17 @@ describe("the recovery from a load", () => {
   it("is still to come, or did not come before something was changed", () => {
     expect(words(null, null)).toBe("not yet");
     expect(words(null, 9)).toBe("not by 9.00");
+  });
+
+  it("is none while the error is large again, as under a load that grows", () => {
+    const load = window("load", "Series torque");
+    const grown = { ...metrics(0), peak_position_error_rad: 0.53, settled_position_error_rad: 0.5 };
+    const recovery = recoveryOf(grown, load);
+    expect(recovery.seconds).toBeNull();
+    expect(recovery.words).toBe("not now");
+    expect(recovery.hint).toContain("0.00 s from series torque at 5.00 s on");
+    const small = { ...grown, settled_position_error_rad: 0.01 };
+    expect(recoveryOf(small, load).words).toBe("0.00");
   });
 
   it("is nothing without a load, or for a law that was not there when it came", () => {

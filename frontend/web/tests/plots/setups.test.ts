@@ -5,7 +5,7 @@ import { readPiece, samplesOf } from "../../src/plots/pieces";
 import { readSetups } from "../../src/plots/setups";
 import { drawSvg } from "../../src/plots/svg";
 import { placeTicks } from "../../src/plots/ticks";
-import { composeContent, tracesOf } from "../../src/plots/traces";
+import { composeContent, hasOneValue, tracesOf } from "../../src/plots/traces";
 import type { Cast, Stretch } from "../../src/state/lanes";
 import { SampleRing } from "../../src/stream/ring";
 
@@ -118,6 +118,19 @@ describe("the curves of a switch", () => {
 
 describe("the curves of a plot", () => {
   const disturbance = ["estimate_link_nm", "estimate_motor1_nm", "disturbance_link_nm"] as const;
+
+  it("have a value each, but the truth of several lanes, which differs from lane to lane", () => {
+    const channels = ["estimate_link_nm", "disturbance_link_nm"] as const;
+    const valued = (cast: Cast) => {
+      const all = tracesOf(composeContent(channels, cast), new Set(channels), cast.length);
+      const entries = all.filter(({ follows }) => follows === undefined);
+      return entries.filter(({ key }) => hasOneValue(all, key)).map(({ label }) => label);
+    };
+    const swapped = [stretch(1, "NDOBC", 0, 7), stretch(2, "FL", 7), stretch(1, "NDOBC", 9)];
+    expect(valued(castOf("NDOBC", "FL"))).toEqual(["NDOBC", "FL"]);
+    expect(valued([swapped, [stretch(3, "LQI")]])).toEqual(["NDOBC", "LQI", "FL"]);
+    expect(valued([swapped])).toEqual(["NDOBC", "FL"]);
+  });
 
   it("are a colour a channel for one lane, the truth dashed in the colour of its estimate", () => {
     const traces = tracesOf(composeContent(disturbance, castOf("NDOBC")), new Set(), 1);

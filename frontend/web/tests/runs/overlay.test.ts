@@ -17,6 +17,7 @@ describe("the best of an overlay", () => {
     const lane = { ...window, start_s: 2, end_s: 5, is_whole: false, lanes: ["FL"] };
     const of = {
       lanes: ["lane1"],
+      plant: "simulated",
       period_s: 0.001,
       first_tick: 0,
       ticks: 5000,
@@ -73,6 +74,15 @@ describe("the best of an overlay", () => {
       const other = curveOf("b", 0.2, change);
       expect(whyUnlike([curveOf("a", 0.07), other], differing())).toMatch(/^the loads differ/);
     }
+  });
+
+  it("is none between a bench and its twin, nor between a bench and a simulation", () => {
+    const bench = curveOf("a", 0.07, { lanes: ["lane1", "lane2"], plant: "emulated" });
+    const simulated = curveOf("b", 0.2);
+    const why = "a bench and a simulation are not one plant";
+    expect(whyUnlike([bench, { ...bench, plant: "simulated" }], differing())).toBe(why);
+    expect(whyUnlike([bench, simulated], differing(["Record", "Recorded on"]))).toBe(why);
+    expect(whyUnlike([bench, { ...bench, run: "c" }], differing())).toBe("");
   });
 
   it("is no smallest torque, and of rms none where the windows are of different length", () => {

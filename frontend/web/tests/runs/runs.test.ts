@@ -1,3 +1,4 @@
+import "../browserless";
 import { beforeAll, describe, expect, it, vi } from "vitest";
 import type { RunDetails } from "../../src/api/types";
 import { inkOf } from "../../src/plots/inks";
@@ -25,22 +26,11 @@ let drawSpark: typeof import("../../src/runs/spark").drawSpark;
 let findWords: typeof import("../../src/runs/found").findWords;
 let excerpt: typeof import("../../src/runs/found").excerpt;
 let formatSetting: typeof import("../../src/runs/difference").formatSetting;
-let nextSort: typeof import("../../src/runs/table").nextSort;
+let nextSort: typeof import("../../src/widgets/sorthead").nextSort;
 let followSaved: typeof import("../../src/runs/saved").followSaved;
 let saved: typeof import("../../src/runs/saved").saved;
 
 beforeAll(async () => {
-  vi.stubGlobal("location", { search: "", pathname: "/", href: "http://lab/" });
-  vi.stubGlobal("document", {
-    baseURI: "http://lab/",
-    hidden: false,
-    documentElement: { dataset: {} },
-    addEventListener: () => undefined,
-  });
-  vi.stubGlobal("window", {
-    matchMedia: () => ({ matches: false, addEventListener: () => undefined }),
-    addEventListener: () => undefined,
-  });
   ({ readPlace, writePlace } = await import("../../src/runs/place"));
   ({ describeMeasured, explainSettled } = await import("../../src/runs/measured"));
   ({ tellDegrees } = await import("../../src/runs/columns"));
@@ -49,7 +39,7 @@ beforeAll(async () => {
   ({ drawSpark } = await import("../../src/runs/spark"));
   ({ findWords, excerpt } = await import("../../src/runs/found"));
   ({ formatSetting } = await import("../../src/runs/difference"));
-  ({ nextSort } = await import("../../src/runs/table"));
+  ({ nextSort } = await import("../../src/widgets/sorthead"));
   ({ followSaved, saved } = await import("../../src/runs/saved"));
 });
 
@@ -58,6 +48,18 @@ describe("a place in the address", () => {
     for (const query of ["", "?runs=all", "?run=a-1&t=12.3", "?run=a-1", "?overlay=a,b"]) {
       expect(writePlace(readPlace(query), query)).toBe(query);
     }
+  });
+
+  it("opens an exercise at a step", () => {
+    for (const query of ["?learn=all", "?learn=observer", "?learn=observer/rig"]) {
+      expect(writePlace(readPlace(query), query)).toBe(query);
+    }
+    expect(readPlace("?learn=observer/rig&session=x")).toEqual({
+      kind: "learn",
+      exercise: "observer",
+      step: "rig",
+    });
+    expect(readPlace("?learn=all")).toEqual({ kind: "learn", exercise: "", step: "" });
   });
 
   it("of a study says what of it is looked at", () => {

@@ -96,6 +96,11 @@ const given = <Kind extends CommandKind>(
 ) => ({ tick, command: { tick, kind, argument } }) as Given;
 
 describe("an experiment as a script", () => {
+  it("says where a bench was stopped, which a simulation cannot do again", () => {
+    const script = writeExperiment(origin({}, [given(2500, "stop", null)]), "bench", "http://lab");
+    expect(script).toContain("# Here the bench was stopped");
+  });
+
   it("gives every command at its time and goes on to the end", () => {
     const script = writeExperiment(
       origin({}, [

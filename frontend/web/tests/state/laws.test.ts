@@ -25,7 +25,8 @@ it("any number of laws: the one beside is the first other one that works", async
 });
 
 it("a parameter has a slider where both its ends are bounded", async () => {
-  const { changedAt, isWordy, rangeOf } = await import("../../src/controls/law");
+  const { changedAt, rangeOf } = await import("../../src/controls/law");
+  const { isWordy } = await import("../../src/state/laws");
   const row = { ...RATE, default: 2 };
   expect(rangeOf({ ...row, least: 1, most: 150 })).toEqual({
     range: { min: 1, max: 150, logarithmic: true },
@@ -38,6 +39,50 @@ it("a parameter has a slider where both its ends are bounded", async () => {
   );
   expect(changedAt(2, null, 3)).toBe(3);
   expect(changedAt([1, 2, 3], 1, 5)).toEqual([1, 5, 3]);
+});
+
+it("Enter takes the law that is written out, or the first that is shown", async () => {
+  const { findLaws, pickLaw } = await import("../../src/state/laws");
+  const listed = [
+    law("adrc", { summary: "observers" }),
+    law("spared", { estimate: "own", summary: "of deflection, fl" }),
+    law("ndobc", { estimate: "observer", summary: "an observer" }),
+    law("fl"),
+  ];
+  const take = (sought: string) => pickLaw(findLaws(listed, sought), sought)?.name;
+  expect([take("observer"), take(" fl"), take("refl"), take("defl")]).toEqual([
+    ...["ndobc", "fl", undefined, "spared"],
+  ]);
+});
+
+it("a refused parameter has the name of its field, a lane's where all laws call it the same", async () => {
+  const { laws } = await import("../../src/state/laws");
+  const { explainViolation } = await import("../../src/state/refusal");
+  const told = (name: string) =>
+    explainViolation({
+      ...{ name, value: 5000, unit: "rad/s", bound: "at most 100 rad/s", limits: { le: 100 } },
+      ...{ finding: "", message: "as the server says" },
+    });
+  const out = (name: string) =>
+    `${name}: 5000 rad/s is out of range, at most 100 rad/s. It stays as it was.`;
+  const rate = { ...RATE, default: 2, least: 1, most: 100 };
+  const wordy = {
+    ...rate,
+    name: "velocity_rad_per_s",
+    symbol: "e_v",
+    meaning: "Error of the velocity",
+  };
+  const clash = { ...rate, name: "pole", symbol: "", meaning: "Pole of the link" };
+  laws.value = [
+    law("lqi", { parameters: [rate, wordy, clash] }),
+    law("pd", { parameters: [rate, { ...clash, meaning: "Pole of the motor" }] }),
+  ];
+  expect(told("lqi.velocity_rad_per_s")).toBe(out("e_v"));
+  expect(told("rivals[0].parameters.velocity_rad_per_s")).toBe(out("e_v"));
+  expect(told("parameters.rate")).toBe(out("Rate"));
+  expect(told("pd.rate[1]")).toBe(out("Rate 2"));
+  expect(told("parameters.pole")).toBe("as the server says");
+  expect(told("lqi.gone")).toBe("as the server says");
 });
 
 it("a law that controls stands among the equations in its own words, the paper's once", async () => {

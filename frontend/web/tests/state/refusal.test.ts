@@ -1,3 +1,4 @@
+import "../browserless";
 import { describe, expect, it } from "vitest";
 import type { Violation } from "../../src/api/errors";
 import { QUANTITIES, quantityOf } from "../../src/quantities";

@@ -1,0 +1,154 @@
+"""The audit log read again: who did what, the newest first, in a worker beside the server."""
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from starlette.routing import compile_path
+
+from svsa_server.access.audit import FILE
+from svsa_server.control.hand import CHANGING
+
+OTHER = "other"
+_LONGEST_LINE = 20_000
+
+
+class Operation(NamedTuple):
+    """What is called by a method at the paths of a pattern: its kind, and its name in words."""
+
+    method: str
+    pattern: str
+    kind: str
+    name: str
+
+
+class Question(NamedTuple):
+    """Which lines are asked for; empty or None is any.
+
+    person: an id. kind: of an `Operation`. refused: whether it was. until: a time of the log, the
+    newest one to be told, so that pages stay the same while lines are added.
+    """
+
+    person: str
+    kind: str
+    refused: bool | None
+    until: str
+    page: int
+    page_size: int
+
+
+def list_operations(schema: dict[str, Any]) -> list[Operation]:
+    """Every operation of an OpenAPI schema that changes something, by its first tag."""
+    return [
+        Operation(
+            method.upper(),
+            compile_path(path)[0].pattern,
+            next(iter(operation.get("tags", ())), OTHER),
+            operation["operationId"].replace("_", " ").capitalize(),
+        )
+        for path, item in schema["paths"].items()
+        for method, operation in item.items()
+        if method.upper() in CHANGING
+    ]
+
+
+def read_audit(folder: Path, operations: list[Operation], asked: Question) -> dict[str, Any]:
+    """A page of the log in this folder, and who and which kinds occur up to its newest line."""
+    known: dict[tuple[str, str], Operation | None] = {}
+    people: dict[str, str] = {}
+    kinds: set[str] = set()
+    found, total, newest = [], 0, asked.until
+    first = (asked.page - 1) * asked.page_size
+    for line in read_backwards(folder):
+        if asked.until and line["time"] > asked.until:
+            continue
+        newest = newest or line["time"]
+        told = tell(line, operations, known)
+        kinds.add(told["kind"])
+        if told["person"] is not None:
+            people.setdefault(told["person"], told["name"] or told["person"])
+        if not _is_asked_for(told, asked):
+            continue
+        if first <= total < first + asked.page_size:
+            found.append(told)
+        total += 1
+    return {
+        "lines": found,
+        "total": total,
+        "until": newest,
+        "people": [{"id": key, "name": name} for key, name in people.items()],
+        "kinds": sorted(kinds),
+    }
+
+
+def _is_asked_for(told: dict[str, Any], asked: Question) -> bool:
+    return (
+        (not asked.person or told["person"] == asked.person)
+        and (not asked.kind or told["kind"] == asked.kind)
+        and (asked.refused is None or told["refused"] is asked.refused)
+    )
+
+
+def tell(
+    line: dict[str, Any],
+    operations: list[Operation],
+    known: dict[tuple[str, str], Operation | None],
+) -> dict[str, Any]:
+    """A line as people read it. known: what calls were found to be, kept from line to line."""
+    status, problem = line.get("status"), line.get("problem")
+    if "method" in line:
+        call = line["method"], line["path"]
+        if call not in known:
+            known[call] = _find_operation(*call, operations)
+        operation = known[call]
+        kind, did = (operation.kind, operation.name) if operation else (OTHER, " ".join(call))
+    elif "event" in line:
+        kind, did = line["event"], f"{line['event']} went on".capitalize()
+        problem = str(line["why"]).replace("_", " ")
+    else:
+        kind, did = "lti", str(line.get("action", "")).removeprefix("lti ").capitalize()
+    return {
+        "time": line["time"],
+        "person": line.get("person"),
+        "name": line.get("name"),
+        "role": line.get("role"),
+        "kind": kind,
+        "did": did,
+        "path": line.get("path"),
+        "status": status,
+        "refused": status >= 400 if status is not None else "event" not in line and bool(problem),
+        "why": problem,
+        "session": line.get("session"),
+        "run_number": line.get("run"),
+        "tick": line.get("tick"),
+    }
+
+
+def _find_operation(method: str, path: str, operations: list[Operation]) -> Operation | None:
+    matching = (one for one in operations if one.method == method and re.match(one.pattern, path))
+    return next(matching, None)
+
+
+def read_backwards(folder: Path) -> Iterator[dict[str, Any]]:
+    """The lines, the newest first, of every file that is kept; what is no line is left out."""
+    files = [folder / FILE, *sorted(folder.glob(f"{FILE}.*"), key=_count_aside)]
+    for path in files:
+        try:
+            lines = path.read_bytes().splitlines()
+        except FileNotFoundError:
+            continue
+        for written in reversed(lines):
+            try:
+                line = json.loads(written[:_LONGEST_LINE])
+            except ValueError:
+                continue
+            if isinstance(line, dict) and isinstance(line.get("time"), str):
+                yield line
+
+
+def _count_aside(path: Path) -> int:
+    """How often a file was set aside: 1 is the newest of those."""
+    number = path.suffix.removeprefix(".")
+    return int(number) if number.isdecimal() else 0

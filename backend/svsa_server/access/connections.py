@@ -1,0 +1,58 @@
+"""Connections of clients that stop in the middle: of a request, or of reading what they are sent.
+
+Nobody else waits for them, but each is a socket and what was to be sent, kept for as long as the
+other machine says that it lives. uvicorn closes such a WebSocket only once all was sent.
+"""
+
+import asyncio
+
+import h11
+from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+
+
+class BoundHttp(H11Protocol):
+    """HTTP whose requests are there, body and all, within `ws_ping_timeout` s."""
+
+    _overdue: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Wait for the first request."""
+        super().connection_made(transport)
+        self._watch()
+
+    def data_received(self, data: bytes) -> None:
+        """Read on, and see whether a request is whole."""
+        super().data_received(data)
+        self._watch()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Nothing more is waited for."""
+        self._stop_watching()
+        super().connection_lost(exc)
+
+    def _watch(self) -> None:
+        is_awaited = self.conn.their_state in (h11.IDLE, h11.SEND_BODY)
+        is_upgraded = self.transport.get_protocol() is not self
+        if not is_awaited or is_upgraded or self.transport.is_closing():
+            self._stop_watching()
+        elif self._overdue is None and self.config.ws_ping_timeout is not None:
+            patience_s = self.config.ws_ping_timeout
+            self._overdue = self.loop.call_later(patience_s, self.transport.abort)
+
+    def _stop_watching(self) -> None:
+        if self._overdue is not None:
+            self._overdue.cancel()
+            self._overdue = None
+
+
+class BoundWebSocket(WebSocketsSansIOProtocol):
+    """A WebSocket that ends where a ping is not answered within `ws_ping_timeout` s.
+
+    What was still to be sent is thrown away: a client that reads nothing would never have it.
+    """
+
+    def keepalive_timeout(self) -> None:
+        """Let go of a client that does not answer."""
+        super().keepalive_timeout()
+        self.transport.abort()

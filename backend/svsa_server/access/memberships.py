@@ -1,0 +1,105 @@
+"""The memberships of a class: who has joined, whom the instructor removed, and how one comes back.
+
+What people carry names a membership, and is worth what that is at each request: one that was ended
+is worth nothing from then on, also after a restart. Read from memory, written to a file at once.
+"""
+
+import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from threading import Lock
+from typing import NamedTuple
+
+from svsa.errors import SecurityError, StateError
+from svsa_server.access.roles import Person, Role
+from svsa_server.problems import UnknownError
+
+FILE = "members.sqlite"
+MAX_MEMBERS = 20_000
+_TABLE = (
+    "CREATE TABLE IF NOT EXISTS member (id TEXT PRIMARY KEY, name TEXT NOT NULL,"
+    " role TEXT NOT NULL, return_hash BLOB, ended INTEGER NOT NULL DEFAULT 0)"
+)
+
+
+class Membership(NamedTuple):
+    """A person of the class. return_hash: of the code by which they come back, if they have one."""
+
+    person: Person
+    return_hash: bytes | None = None
+    is_ended: bool = False
+
+
+class Memberships:
+    """Those in a file that only this user reads, made where there is none; thread-safe.
+
+    Raises `SecurityError` where the file cannot be read or written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path, self._lock = path, Lock()
+        with self._open() as file:
+            file.execute(_TABLE)
+            rows = file.execute("SELECT id, name, role, return_hash, ended FROM member").fetchall()
+        self._members = {
+            id_: Membership(Person(id_, name, Role[role.upper()]), return_hash, bool(ended))
+            for id_, name, role, return_hash, ended in rows
+        }
+
+    def find(self, person_id: str) -> Membership | None:
+        """The membership of this id, ended or not."""
+        return self._members.get(person_id)
+
+    def find_returning(self, return_hash: bytes) -> Membership | None:
+        """Whose code to come back has this hash."""
+        with self._lock:
+            known = [*self._members.values()]
+        return next((one for one in known if one.return_hash == return_hash), None)
+
+    def list_ended(self) -> list[Person]:
+        """Whom the instructor has removed, in the order of their names."""
+        ended = [one.person for one in self._members.values() if one.is_ended]
+        return sorted(ended, key=lambda person: (person.name.casefold(), person.id))
+
+    def keep(self, membership: Membership) -> None:
+        """Keep a new one, or what has changed of one. Raises `StateError` where the class is full.
+
+        On the disk before it holds, so that no restart takes it back.
+        """
+        person = membership.person
+        with self._lock:
+            if person.id not in self._members and len(self._members) >= MAX_MEMBERS:
+                raise StateError(
+                    f"{MAX_MEMBERS} people have joined, which is all that a class takes: delete"
+                    f" {self._path.name} while the lab is stopped, and everybody joins anew."
+                )
+            with self._open() as file:
+                file.execute(
+                    "REPLACE INTO member VALUES (?, ?, ?, ?, ?)",
+                    (person.id, person.name, person.role.word, *membership[1:]),
+                )
+            self._members[person.id] = membership
+
+    def set_ended(self, person_id: str, is_ended: bool) -> Person:
+        """End a membership, or take that back; raises `UnknownError` where there is none."""
+        found = self._members.get(person_id)
+        if found is None:
+            raise UnknownError(f"Nobody of the id {person_id[:80]!r} has joined this class.")
+        if found.is_ended is not is_ended:
+            self.keep(found._replace(is_ended=is_ended))
+        return found.person
+
+    @contextmanager
+    def _open(self) -> Iterator[sqlite3.Connection]:
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            os.close(os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600))
+            with closing(sqlite3.connect(self._path)) as file, file:
+                yield file
+        except (OSError, sqlite3.Error) as error:
+            raise SecurityError(
+                f"The members of the class in {self._path} cannot be kept ({error}): delete the"
+                " file while the lab is stopped, and everybody joins anew."
+            ) from None

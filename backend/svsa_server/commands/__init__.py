@@ -1,0 +1,1 @@
+"""`svsa serve`, `excite`, `openapi`: what is started from the shell."""

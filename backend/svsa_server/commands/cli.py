@@ -1,0 +1,72 @@
+"""The commands that the server adds to `svsa`."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from svsa.extras import require_extra
+
+
+def serve(
+    host: Annotated[
+        str,
+        typer.Option(
+            help="Address; 'auto' is every address with SVSA_SECRET or --class, else 127.0.0.1."
+        ),
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 8000,
+    bench: Annotated[
+        Path | None, typer.Option(help="Bench file: drive this bench; simulate if left out.")
+    ] = None,
+    parameters: Annotated[
+        Path | None,
+        typer.Option(help="Parameter file, as identify writes it; the paper's if left out."),
+    ] = None,
+    classroom: Annotated[
+        bool,
+        typer.Option(
+            "--class", help="People join with a name and a class code; one operates at a time."
+        ),
+    ] = False,
+    root_path: Annotated[
+        str,
+        typer.Option(help="Path under which a proxy has the lab, such as /svsa; it takes it off."),
+    ] = "",
+    course: Annotated[
+        Path | None,
+        typer.Option(help="Folder with exercises of one's own, beside those of the package."),
+    ] = None,
+) -> None:
+    """Start the lab: the page, the REST interface, the streams and the 3D view.
+
+    Listening beyond this machine needs --class, or a shared secret in SVSA_SECRET.
+    """
+    require_extra("server")
+    from svsa_server.commands.serve import run_server
+
+    run_server(host, port, bench, parameters, classroom, course, root_path)
+
+
+def excite(
+    url: Annotated[str, typer.Option(help="Where the lab is.")] = "http://127.0.0.1:8000",
+    session: Annotated[str, typer.Option(help="Session to excite.")] = "lab",
+    name: Annotated[str, typer.Option(help="Name of the run.")] = "Identification",
+) -> None:
+    """Play and record on a running lab the excitation that identify takes, 32 s.
+
+    A lab with a secret gets it from SVSA_SECRET; a bench is to be armed before.
+    """
+    require_extra("server")
+    from svsa_server.commands.excite import play_excitation
+
+    play_excitation(url, session, name)
+
+
+def openapi() -> None:
+    """Print the OpenAPI schema of the server."""
+    require_extra("server")
+    from svsa_server.app import build_app
+
+    print(json.dumps(build_app().openapi(), indent=2))

@@ -1,0 +1,158 @@
+"""Listen, say where, and serve until told to stop."""
+
+import gc
+import socket
+from pathlib import Path
+
+import uvicorn
+from rich.console import Console
+
+from svsa.cli import prepare
+from svsa.control.installed import BASELINE, PAPERS_LAW
+from svsa.course.file import read_course
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.records.catalogue.runs import find_data_folder
+from svsa.run.configuration import read_design
+from svsa_server.access.class_keys import FILE, ClassKeys, ToldOnce
+from svsa_server.access.connections import BoundHttp, BoundWebSocket
+from svsa_server.access.origin import EVERYWHERE
+from svsa_server.commands.compiling import compile_laws
+from svsa_server.commands.console import HINT, watch_keyboard
+from svsa_server.config import Settings
+
+SEND_BUFFER_BYTES = 64 * 1024
+KEPT_S = 15
+"""A connection is kept silent for so long: httpx uses one again within 5 s, and what it asks on one
+that is closed just then is lost."""
+
+
+class ListenError(SvsaError):
+    """The address cannot be listened on."""
+
+
+def bind(host: str, port: int) -> socket.socket:
+    """A bound socket; a small send buffer, so that a slow client is noticed soon.
+
+    Raises `ListenError` with the reason and what to do.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+    try:
+        listener.bind((host.strip("[]"), port))
+    except OSError as error:
+        listener.close()
+        raise ListenError(
+            f"Cannot listen on {host}:{port}: {error.strerror or error}. Try another --port."
+        ) from None
+    return listener
+
+
+class AnnouncedServer(uvicorn.Server):
+    """A server that says where it is once it answers there.
+
+    What is there by then stays to the end: Python, which would look through it for circles again
+    and again, 0.2 s a time in which nothing else goes on, leaves it alone.
+    """
+
+    announcement = ""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Start as uvicorn does, then print the announcement."""
+        await super().startup(sockets)
+        gc.freeze()
+        if self.started:
+            Console(soft_wrap=True).print(self.announcement, highlight=False)
+
+
+def run_server(
+    host: str,
+    port: int,
+    bench: Path | None,
+    parameters: Path | None,
+    classroom: bool = False,
+    course: Path | None = None,
+    root_path: str = "",
+) -> None:
+    """Serve the lab until a signal ends it, with a bench where its file is given.
+
+    Raises `SecurityError`, `ListenError`, and `ParameterError` for a wrong bench file or
+    exercise. A bench
+    is opened while the lab is served already, see `open_bench`.
+    """
+    config = Settings()
+    bench = bench or config.bench
+    config = config.model_copy(
+        update={
+            "parameters": parameters or config.parameters,
+            "classroom": classroom or config.classroom,
+            "course": course or config.course,
+            "root_path": root_path or config.root_path,
+        }
+    )
+    if bench is not None and config.parameters is not None:
+        bound = "left out with a bench: its own file names it, as [design] file"
+        raise ParameterError(Violation("--parameters", str(config.parameters), "", bound))
+    config.check_root_path()
+    design = read_design(config.parameters) if config.parameters else None
+    read_course(config.course)
+    chosen = config.choose_host(host)
+    config.check_exposure(chosen)
+    listener = bind(chosen, port)
+    # A bench's loop cannot wait for a compiler: it has every law before it begins.
+    prepare((PAPERS_LAW, BASELINE) if bench is None else None)
+    keys, told = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
+    from svsa_server.app import build_app  # late: a refusal above should not wait for it
+    from svsa_server.sessions.laboratory import build_shared_session
+
+    shared = build_shared_session(bench, design)
+    server = AnnouncedServer(
+        uvicorn.Config(
+            build_app(config, shared, keys, chosen),
+            log_level="warning",
+            http=BoundHttp,
+            ws=BoundWebSocket,
+            ws_max_size=65536,
+            ws_ping_interval=config.silence_s,
+            ws_ping_timeout=config.silence_s,
+            ws_per_message_deflate=False,
+            timeout_keep_alive=KEPT_S,
+            timeout_graceful_shutdown=2,
+            root_path=config.root_path,
+        )
+    )
+    server.announcement = describe_address(host, chosen, listener.getsockname()[1])
+    if keys is not None:
+        server.announcement += f"\n{describe_class(told)}"
+    with compile_laws(), watch_keyboard(shared.stop_from_keyboard) as watched:
+        if watched and bench:
+            server.announcement += f"\n{HINT}"
+        server.run(sockets=[listener])
+
+
+def describe_class(told: ToldOnce | None) -> str:
+    """What lets people into the class; told once, at its first start."""
+    if told is None:
+        return (
+            "A class: its code and instructor token are those of its first start. The instructor's"
+            f" page makes a new code; without {FILE} in SVSA_DATA the next start makes both anew."
+        )
+    return (
+        f"A class. Students join with their name and the code [bold]{told.code}[/].\n"
+        f"The instructor's token: [bold]{told.instructor_token}[/]\n"
+        "Neither is shown again, nor kept but as a hash."
+    )
+
+
+def describe_address(asked: str, host: str, port: int) -> str:
+    """Where the lab is, and who reaches it there."""
+    everywhere = host in EVERYWHERE
+    name = "localhost" if everywhere else host
+    reach = " and on every address of this machine" if everywhere else ""
+    text = f"SVSA Lab is at [bold]http://{name}:{port}/[/]{reach}  (stop with Ctrl-C)"
+    if asked == "auto" and not everywhere:
+        text += (
+            "\nOnly this machine or container reaches it: others need --class, or SVSA_SECRET set."
+        )
+    return text

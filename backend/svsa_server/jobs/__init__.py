@@ -1,0 +1,1 @@
+"""Long work beside the live sessions: queue, progress, cancelling."""

@@ -1,0 +1,89 @@
+"""The falsifier as a job: its worker writes the worst so far, and the scenario at the end."""
+
+import json
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from svsa.control.installed import BASELINE, PAPERS_LAW
+from svsa.falsify.adversary import Adversary
+from svsa.falsify.file import format_scenario, read_scenario
+from svsa.falsify.find import falsify
+from svsa.falsify.measure import run_scenario
+from svsa.falsify.scenario import LoadScenario
+from svsa.records.header import replace_file
+from svsa.study.tables import make_plain
+from svsa_server.jobs.progress import JobFolder
+
+_WORST, _OUTCOMES, _SCENARIO = "worst.toml", "outcomes.json", "scenario.toml"
+_STEPS = "steps.json"
+
+
+class Asked(NamedTuple):
+    """What is to be searched."""
+
+    adversary: Adversary
+    runs: int
+    seed: int
+
+
+def search(folder: JobFolder, asked: Asked) -> bool:
+    """Search in a worker, and put the law and another one through what was found; whether all of
+    the search was done.
+    """
+
+    def keep_worst(scenario: LoadScenario) -> None:
+        replace_file(folder.path / _WORST, format_scenario(scenario).encode())
+
+    found = falsify(
+        asked.adversary,
+        runs=asked.runs,
+        seed=asked.seed,
+        on_generation=lambda done, worst: folder.tell(done, asked.runs),
+        on_worse=keep_worst,
+        is_cancelled=folder.is_cancelled,
+    )
+    folder.tell(len(found.severities), asked.runs)
+    keep_worst(found.as_found)
+    steps = [] if found.shrunk is None else [*found.shrunk.steps]
+    (folder.path / _STEPS).write_text(json.dumps(steps), encoding="utf-8")
+    compared = run_scenario(found.scenario, list_beside(asked.adversary.law))
+    outcomes = make_plain([one._asdict() for one in compared])
+    (folder.path / _OUTCOMES).write_text(json.dumps(outcomes), encoding="utf-8")
+    (folder.path / _SCENARIO).write_text(format_scenario(found.scenario), encoding="utf-8")
+    return found.is_complete
+
+
+def list_beside(law: str) -> tuple[str, str]:
+    """A law, and NDOBC beside it; beside NDOBC what the paper compares it with."""
+    return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
+
+
+def read_worst(folder: Path) -> LoadScenario | None:
+    """The worst that was found so far, as it was found."""
+    path = folder / _WORST
+    return read_scenario(path) if path.exists() else None
+
+
+def find_file(folder: Path) -> Path | None:
+    """The file of the scenario, once the search has ended with one."""
+    path = folder / _SCENARIO
+    return path if path.exists() else None
+
+
+class Found(NamedTuple):
+    """The simplest that still does it, how it became that, and what came of each law in it."""
+
+    scenario: LoadScenario
+    steps: list[str]
+    outcomes: list[dict[str, Any]]
+
+
+def read_found(folder: Path) -> Found | None:
+    """What a search found, once it has ended."""
+    path = find_file(folder)
+    if path is None:
+        return None
+    steps, outcomes = (
+        json.loads((folder / name).read_text(encoding="utf-8")) for name in (_STEPS, _OUTCOMES)
+    )
+    return Found(read_scenario(path), steps, outcomes)

@@ -1,0 +1,40 @@
+"""The grading of a class as a job."""
+
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+from svsa.course.exercise import Exercise
+from svsa.grading.book import Book
+from svsa.grading.class_grades import grade_class
+from svsa_server.jobs.progress import JobFolder
+
+WORKERS = min(4, os.cpu_count() or 1)
+"""All cores of a small machine: they give way to live sessions, by their low priority."""
+
+
+class Asked(NamedTuple):
+    """What is to be graded. runs: folder of the runs. book: the class's folder.
+
+    again: also what has its grade.
+    """
+
+    files: tuple[Path, ...]
+    exercises: dict[str, Exercise]
+    runs: Path
+    book: Path
+    again: bool
+
+
+def grade_all(folder: JobFolder, asked: Asked) -> bool:
+    """Grade in a worker; whether it came to its end. What is done is kept."""
+    return grade_class(
+        asked.files,
+        asked.exercises,
+        asked.runs,
+        Book(asked.book),
+        asked.again,
+        folder.tell,
+        folder.is_cancelled,
+        WORKERS,
+    )

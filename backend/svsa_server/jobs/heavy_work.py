@@ -1,0 +1,83 @@
+"""Exports, replays, comparisons, maps, laws in the arena: in processes of their own, few at once.
+
+They take seconds of computing, which would make every live session late, so that a worker has a
+low priority. Who finds the queue full is told to come again.
+"""
+
+import asyncio
+import multiprocessing
+import os
+import tempfile
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+from typing import IO, TypeVar
+
+from svsa.errors import SvsaError
+from svsa.worker_process import give_way
+
+MAX_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
+RETRY_AFTER_S = 5
+_JOBS_A_WORKER = 100
+
+T = TypeVar("T")
+
+
+class BusyError(SvsaError):
+    """Too much is being worked at already; nothing was begun."""
+
+
+class HeavyWork:
+    """The workers of one server, begun when the first is needed.
+
+    most: how many jobs are worked at or wait. workers: processes.
+    """
+
+    def __init__(self, most: int, workers: int = MAX_WORKERS) -> None:
+        self._most, self._workers = most, workers
+        self._taken = 0
+        self._pool: ProcessPoolExecutor | None = None
+
+    async def run(self, job: Callable[..., T], *arguments: object) -> T:
+        """What the job returns, done in a worker; raises what it raises, and `BusyError`."""
+        if self._taken >= self._most:
+            raise BusyError(
+                f"{self._taken} exports, replays, comparisons, maps and laws in the arena are being"
+                f" worked at, which is all this lab takes at once: try again in {RETRY_AFTER_S} s."
+            )
+        self._taken += 1
+        try:
+            return await asyncio.get_running_loop().run_in_executor(
+                self._get_pool(), job, *arguments
+            )
+        except BrokenProcessPool:
+            self._pool = None
+            raise BusyError("The process that worked at this has ended: try again.") from None
+        finally:
+            self._taken -= 1
+
+    async def write(self, job: Callable[[Path, Path], None], folder: Path) -> IO[bytes]:
+        """The file that a job makes of a record's folder, open to be read and named no more."""
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+            target = Path(place) / "file"
+            await self.run(job, folder, target)
+            return target.open("rb")
+
+    def _get_pool(self) -> ProcessPoolExecutor:
+        if self._pool is None:
+            self._pool = ProcessPoolExecutor(
+                self._workers,
+                multiprocessing.get_context("spawn"),
+                give_way,
+                max_tasks_per_child=_JOBS_A_WORKER,
+            )
+        return self._pool
+
+    def close(self) -> None:
+        """End these workers, and no other's, also in the middle of a job."""
+        if self._pool is not None:
+            workers = [*(self._pool._processes or {}).values()]  # Python 3.14 has a name for it
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            for worker in workers:
+                worker.terminate()

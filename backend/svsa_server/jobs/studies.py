@@ -1,0 +1,47 @@
+"""A study as a job, and what is worked out of one beside the server."""
+
+from typing import Any
+
+from svsa.records.catalogue.runs import Catalogue
+from svsa.study.execution import run_study
+from svsa.study.replay import record_replay, replay_row
+from svsa.study.store import StoredStudy, read_rows
+from svsa.study.summary import estimate_sensitivity, pair_laws, summarize_laws
+from svsa.study.tables import make_plain
+from svsa_server.jobs.heavy_work import MAX_WORKERS
+from svsa_server.jobs.progress import JobFolder
+
+ROWS_A_PART = 256
+MAX_ROWS = 10**7
+
+
+def run(folder: JobFolder, stored: StoredStudy) -> bool:
+    """Run what is not done of a study; whether all of it is done then."""
+    return run_study(
+        stored,
+        workers=MAX_WORKERS if MAX_WORKERS > 1 else 0,
+        rows_a_part=ROWS_A_PART,
+        progress=folder.tell,
+        is_cancelled=folder.is_cancelled,
+    )
+
+
+def summarize(stored: StoredStudy) -> dict[str, Any]:
+    """Every law of a study, and the first less each other one, as JSON."""
+    study, rows = stored.study, read_rows(stored)
+    first, *others = study.laws
+    pairings = [pair_laws(rows, first, other) for other in others]
+    return make_plain({"laws": summarize_laws(study, rows), "pairings": pairings})
+
+
+def decide(stored: StoredStudy, outcome: str) -> list[dict[str, Any]]:
+    """Sobol indices of an outcome under each law, as JSON."""
+    study, rows = stored.study, read_rows(stored)
+    return make_plain([estimate_sensitivity(study, rows, law, outcome) for law in study.laws])
+
+
+def replay(stored: StoredStudy, row: int, owner: str) -> dict[str, Any]:
+    """Run a row again and record it; the run's id, and whether its metrics are the table's."""
+    found = replay_row(stored, row)
+    run_id = record_replay(stored, found, Catalogue(), owner).id
+    return {"run_id": run_id, "row": row, "differing": found.differing}

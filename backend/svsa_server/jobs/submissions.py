@@ -1,0 +1,37 @@
+"""A law for the leaderboard as a job: it goes through the season, then the lab's that miss it."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+from svsa.leaderboard.board import Board, measure_missing, submit
+from svsa_server.jobs.progress import JobFolder
+
+
+class Asked(NamedTuple):
+    """What is to be measured. board: the season's folder. law: its text, None for the lab's.
+
+    author: who submits it.
+    """
+
+    board: Path
+    name: str
+    law: bytes | None
+    author: str = ""
+
+
+def enter(folder: JobFolder, asked: Asked) -> bool:
+    """Measure in a worker; whether it came to its end. What has its entry keeps it.
+
+    While a law is measured it tells of the law's runs alone: then the law has its entry.
+    """
+    board = Board(asked.board)
+    first = 0 if asked.law is None else board.season.run_count
+
+    def tell_missing(done: int, total: int) -> None:
+        folder.tell(first + done, first + total)
+
+    if asked.law is not None:
+        entry = submit(board, asked.name, asked.law, folder.tell, folder.is_cancelled, asked.author)
+        if entry is None:
+            return False
+    return measure_missing(board, tell_missing, folder.is_cancelled)

@@ -1,0 +1,100 @@
+"""What a platform's signed token says of a launch, checked (LTI 1.3 core, 5.1.3 and 5.3)."""
+
+from typing import Any, Literal, NamedTuple
+
+from joserfc import jwt
+from joserfc.errors import JoseError
+from joserfc.jwk import KeySet
+
+from svsa_server.lti.platforms import Platform, check_address
+from svsa_server.lti.refusal import LaunchError
+
+_CLAIM = "https://purl.imsglobal.org/spec/lti/claim/"
+_GRADES = "https://purl.imsglobal.org/spec/lti-ags/claim/endpoint"
+SCORE_SCOPE = "https://purl.imsglobal.org/spec/lti-ags/scope/score"
+_ROLES = "http://purl.imsglobal.org/vocab/lis/v2/membership#"
+LEEWAY_S = 60
+_LONGEST_NAME = 60
+
+
+class Launch(NamedTuple):
+    """A launch. user: id at the platform. target: address that is wanted. exercise: as its custom
+    parameter names it. line_item: where points of it go, if anywhere.
+    """
+
+    user: str
+    name: str
+    role: Literal["student", "instructor"]
+    target: str
+    exercise: str
+    line_item: str | None
+
+
+def read_launch(platform: Platform, keys: KeySet, token: str, nonce: str) -> Launch:
+    """The launch of a token; raises `LaunchError` that says what is wrong with it."""
+    try:
+        claims = jwt.decode(token, keys, algorithms=["RS256"]).claims
+        needed = jwt.JWTClaimsRegistry(
+            leeway=LEEWAY_S,
+            iss={"essential": True, "value": platform.issuer},
+            aud={"essential": True, "value": platform.client_id},
+            exp={"essential": True},
+            iat={"essential": True},
+            nonce={"essential": True, "value": nonce},
+        )
+        needed.validate(claims)
+    except (JoseError, ValueError, TypeError, KeyError) as error:
+        raise LaunchError(f"The platform's token is not good: {error}") from None
+    audience = claims["aud"]
+    if isinstance(audience, list) and len(audience) > 1:
+        _check(claims, "azp", (platform.client_id,))
+    _check(claims, f"{_CLAIM}message_type", ("LtiResourceLinkRequest",))
+    _check(claims, f"{_CLAIM}version", ("1.3.0",))
+    _check(claims, f"{_CLAIM}deployment_id", platform.deployments)
+    user = claims.get("sub")
+    if not isinstance(user, str) or not 0 < len(user) <= 255:
+        raise LaunchError("The platform does not say who launches (sub): allow it to.")
+    custom = _read_table(claims, f"{_CLAIM}custom")
+    return Launch(
+        user,
+        _read_name(claims),
+        _read_role(claims, platform),
+        str(claims.get(f"{_CLAIM}target_link_uri") or ""),
+        str(custom.get("exercise") or ""),
+        _read_line_item(claims),
+    )
+
+
+def _check(claims: dict[str, Any], name: str, allowed: tuple[str, ...]) -> None:
+    given = claims.get(name)
+    if given not in allowed:
+        word = name.rpartition("/")[2]
+        raise LaunchError(f"{word} is {given!r:.100}: it must be {' or '.join(allowed)}.")
+
+
+def _read_table(claims: dict[str, Any], name: str) -> dict[str, Any]:
+    found = claims.get(name)
+    return found if isinstance(found, dict) else {}
+
+
+def _read_name(claims: dict[str, Any]) -> str:
+    given = claims.get("name") or claims.get("given_name") or ""
+    printable = "".join(one for one in str(given) if one.isprintable()).strip()
+    return printable[:_LONGEST_NAME] or "Student"
+
+
+def _read_role(claims: dict[str, Any], platform: Platform) -> Literal["student", "instructor"]:
+    roles = claims.get(f"{_CLAIM}roles")
+    is_instructor = isinstance(roles, list) and f"{_ROLES}Instructor" in roles
+    return "instructor" if is_instructor and platform.takes_instructors else "student"
+
+
+def _read_line_item(claims: dict[str, Any]) -> str | None:
+    grades = _read_table(claims, _GRADES)
+    item, scopes = grades.get("lineitem"), grades.get("scope")
+    if not isinstance(item, str) or not isinstance(scopes, list) or SCORE_SCOPE not in scopes:
+        return None
+    try:
+        return check_address(item)
+    except ValueError:
+        return None

@@ -1,0 +1,66 @@
+"""Where points of whom go: what launches said, what was sent, and when it is tried again."""
+
+import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+FILE = "lti.sqlite"
+_TABLE = (
+    "CREATE TABLE IF NOT EXISTS link (person TEXT, exercise TEXT, issuer TEXT, client_id TEXT,"
+    " user TEXT, line_item TEXT, sent TEXT NOT NULL DEFAULT '', tries INTEGER NOT NULL DEFAULT 0,"
+    " due REAL NOT NULL DEFAULT 0, PRIMARY KEY (person, exercise))"
+)
+
+
+class Link(NamedTuple):
+    """Points of a person in an exercise go to a line item of a platform.
+
+    sent: the submission whose points have arrived there, or were given up. tries: how often the
+    present ones were tried in vain; due: not before this time, s since 1970.
+    """
+
+    person: str
+    exercise: str
+    issuer: str
+    client_id: str
+    user: str
+    line_item: str
+    sent: str = ""
+    tries: int = 0
+    due: float = 0.0
+
+
+class Links:
+    """The links in a file that only this user reads; raises `OSError` or `sqlite3.Error`."""
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder / FILE
+        folder.mkdir(parents=True, exist_ok=True)
+        with self._open() as file:
+            file.execute(_TABLE)
+
+    def list(self) -> list[Link]:
+        """All of them."""
+        with self._open() as file:
+            return [Link(*row) for row in file.execute("SELECT * FROM link ORDER BY rowid")]
+
+    def learn(self, link: Link) -> None:
+        """What a launch says; what was sent to the same line item stays sent."""
+        for known in self.list():
+            if known[:6] == link[:6]:
+                return
+        self.keep(link)
+
+    def keep(self, link: Link) -> None:
+        """Keep it in place of the one of the same person and exercise."""
+        with self._open() as file:
+            file.execute("REPLACE INTO link VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", link)
+
+    @contextmanager
+    def _open(self) -> Iterator[sqlite3.Connection]:
+        os.close(os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600))
+        with closing(sqlite3.connect(self._path)) as file, file:
+            yield file

@@ -1,0 +1,70 @@
+"""The platforms that may launch, from a TOML file; none, and nobody launches."""
+
+from pathlib import Path
+from typing import Annotated
+from urllib.parse import urlsplit
+
+from pydantic import AfterValidator, Field
+
+from svsa.checked import Checked, Flag, quantity
+from svsa.errors import ParameterError, Violation
+from svsa.toml_file import read_toml
+from svsa_server.config import is_loopback
+
+LTI_FILE = "LTI file"
+
+
+def check_address(address: str) -> str:
+    """An https address, or one of this machine; raises `ValueError`."""
+    parts = urlsplit(address)
+    is_safe = parts.scheme == "https" and bool(parts.hostname)
+    if not is_safe and not (parts.scheme == "http" and is_loopback(parts.hostname or "")):
+        raise ValueError("an https address, or http on this machine")
+    return address
+
+
+Address = Annotated[str, Field(max_length=1000), AfterValidator(check_address)]
+_Name = Annotated[str, Field(min_length=1, max_length=500)]
+
+
+class Platform(Checked):
+    """A platform as it describes itself, and what it may.
+
+    deployments: ids of those that may launch. takes_instructors: whether an instructor there is the
+    instructor here; else everybody from there is a student.
+    """
+
+    issuer: _Name = quantity("", "Who signs (Platform ID)")
+    client_id: _Name = quantity("", "Id that it has given to this lab")
+    deployments: tuple[_Name, ...] = quantity("", "Deployment ids", min_length=1, max_length=100)
+    login_url: Address = quantity("", "Authentication request URL")
+    token_url: Address = quantity("", "Access token URL")
+    keyset_url: Address = quantity("", "Public keyset URL")
+    takes_instructors: Flag = quantity("", "Whether instructors come as such", default=False)
+
+
+class LtiSettings(Checked):
+    """All platforms; key_file: the lab's private key (PEM), beside the file, made if missing."""
+
+    key_file: Path = quantity("", "Private key of the lab, PEM")
+    platforms: tuple[Platform, ...] = quantity("", "Who may launch", min_length=1, max_length=100)
+
+    def find(self, issuer: str, client_id: str | None) -> Platform | None:
+        """The platform of an issuer; client_id: where it has given several."""
+        found = [one for one in self.platforms if one.issuer == issuer]
+        if client_id is not None:
+            found = [one for one in found if one.client_id == client_id]
+        return found[0] if len(found) == 1 else None
+
+
+def read_lti_file(path: Path) -> LtiSettings:
+    """The settings of a file; raises `ParameterError` with its name."""
+    values = read_toml(path, LTI_FILE)
+    try:
+        found = LtiSettings(**values)
+        keys = [(one.issuer, one.client_id) for one in found.platforms]
+        if len(set(keys)) < len(keys):
+            raise ParameterError(Violation("platforms", keys, "", "each issuer and client_id once"))
+    except ParameterError as error:
+        raise ParameterError(*error.violations, file=str(path)) from None
+    return found.changed(key_file=path.parent / found.key_file)

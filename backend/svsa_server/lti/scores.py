@@ -1,0 +1,168 @@
+"""Points go back to the platform: LTI Assignment and Grade Services 2.0, 3.4, as a client.
+
+What has been graded of those who were launched is looked for every ten seconds, sent once, tried
+again where it does not arrive, and noted in the audit log each time.
+"""
+
+import asyncio
+import logging
+import secrets
+import time
+from collections.abc import Callable
+from datetime import UTC, datetime
+from urllib.parse import urlsplit
+
+import httpx
+from joserfc import jwt
+
+from svsa.course.progress import ProgressStore
+from svsa.errors import ParameterError
+from svsa.grading.class_grades import open_book
+from svsa.grading.grade import Grade
+from svsa.grading.submission import Submission
+from svsa_server.access.audit import AuditLog
+from svsa_server.lti.launch import SCORE_SCOPE
+from svsa_server.lti.links import Link
+from svsa_server.lti.platforms import Platform
+from svsa_server.lti.tool import LtiTool
+
+LOOK_S = 10.0
+FIRST_WAIT_S, LONGEST_WAIT_S = 30.0, 3600.0
+MAX_TRIES = 40
+"""A day and a half; then a person has to look, and a new launch begins anew."""
+_ASSERTION_S = 60
+_ASSERTION = "urn:ietf:params:oauth:client-assertion-type:jwt-bearer"
+_SCORE_TYPE = "application/vnd.ims.lis.v1.score+json"
+
+
+class ScoreSender:
+    """Sends the grades of the book of the class whose progress `store` is. clock: s since 1970."""
+
+    def __init__(
+        self,
+        tool: LtiTool,
+        store: ProgressStore,
+        audit: AuditLog,
+        clock: Callable[[], float] = time.time,
+    ) -> None:
+        self._tool, self._store, self._audit, self._clock = tool, store, audit, clock
+        self._tokens: dict[Platform, tuple[float, str]] = {}
+
+    async def run(self) -> None:
+        """Look and send until cancelled."""
+        while True:
+            await asyncio.sleep(LOOK_S)
+            try:
+                await self.send_due()
+            except Exception:
+                logging.getLogger(__name__).exception("Grades could not be sent.")
+
+    async def send_due(self) -> None:
+        """Send what is graded and has not arrived, as far as it is time to try."""
+        for link, grade in await asyncio.to_thread(self._list_due):
+            problem = await self._try(link, grade)
+            await asyncio.to_thread(self._note, link, grade, problem)
+
+    def _list_due(self) -> list[tuple[Link, Grade]]:
+        links, found = self._tool.links.list(), list[tuple[Link, Grade]]()
+        if not links:
+            return []
+        book = open_book(self._store)
+        for link in links:
+            if link.due > self._clock():
+                continue
+            path = self._store.find_hand_in(link.exercise, link.person)
+            try:
+                digest = Submission.read(path).digest if path.exists() else ""
+                grade = book.find(digest) if digest not in ("", link.sent) else None
+            except ParameterError as error:
+                self._tell(link, None, str(error))
+                continue
+            if grade is not None:
+                found.append((link, grade))
+        return found
+
+    async def _try(self, link: Link, grade: Grade) -> str:
+        """Send it; why it did not arrive, or an empty text."""
+        platform = self._tool.settings.find(link.issuer, link.client_id)
+        if platform is None:
+            return "The platform is not configured any more."
+        try:
+            token = await self._get_token(platform)
+            answer = await self._tool.client.post(
+                build_scores_address(link.line_item),
+                json=build_score(link.user, grade, self._clock()),
+                headers={"Authorization": f"Bearer {token}", "Content-Type": _SCORE_TYPE},
+            )
+            if answer.status_code == 401:
+                self._tokens.pop(platform, None)
+            answer.raise_for_status()
+        except (httpx.HTTPError, ValueError, KeyError, TypeError) as error:
+            return f"{type(error).__name__}: {error}"[:300]
+        return ""
+
+    async def _get_token(self, platform: Platform) -> str:
+        """An access token, by an assertion that the lab's key signs (RFC 7523)."""
+        now = self._clock()
+        until, token = self._tokens.get(platform, (0.0, ""))
+        if until > now:
+            return token
+        claims = {
+            "iss": platform.client_id, "sub": platform.client_id, "aud": platform.token_url,
+            "iat": int(now), "exp": int(now) + _ASSERTION_S, "jti": secrets.token_urlsafe(16),
+        }  # fmt: skip
+        key = self._tool.key
+        answer = await self._tool.client.post(
+            platform.token_url,
+            data={
+                "grant_type": "client_credentials",
+                "client_assertion_type": _ASSERTION,
+                "client_assertion": jwt.encode({"alg": "RS256", "kid": key.kid}, claims, key),
+                "scope": SCORE_SCOPE,
+            },
+        )
+        told = answer.raise_for_status().json()
+        token = str(told["access_token"])
+        self._tokens[platform] = now + float(told.get("expires_in", 0)) - _ASSERTION_S, token
+        return token
+
+    def _note(self, link: Link, grade: Grade, problem: str) -> None:
+        if not problem:
+            link = link._replace(sent=grade.submission, tries=0, due=0.0)
+        elif link.tries + 1 >= MAX_TRIES:
+            link = link._replace(sent=grade.submission, tries=0, due=0.0)
+            problem = f"Given up after {MAX_TRIES} times. {problem}"
+        else:
+            wait_s = min(FIRST_WAIT_S * 2**link.tries, LONGEST_WAIT_S)
+            link = link._replace(tries=link.tries + 1, due=self._clock() + wait_s)
+        self._tool.links.keep(link)
+        self._tell(link, grade, problem)
+
+    def _tell(self, link: Link, grade: Grade | None, problem: str) -> None:
+        self._audit.write(
+            action="lti score",
+            person=link.person,
+            exercise=link.exercise,
+            line_item=link.line_item,
+            points=grade and grade.points,
+            max_points=grade and grade.max_points,
+            problem=problem or None,
+        )
+
+
+def build_scores_address(line_item: str) -> str:
+    """The scores of a line item: `/scores` behind its path, before its query."""
+    parts = urlsplit(line_item)
+    return parts._replace(path=f"{parts.path.rstrip('/')}/scores").geturl()
+
+
+def build_score(user: str, grade: Grade, now: float) -> dict[str, object]:
+    """A score on the wire; it is whole and final."""
+    return {
+        "userId": user,
+        "scoreGiven": grade.points,
+        "scoreMaximum": grade.max_points,
+        "activityProgress": "Completed",
+        "gradingProgress": "FullyGraded",
+        "timestamp": datetime.fromtimestamp(now, UTC).isoformat(timespec="milliseconds"),
+    }

@@ -1,0 +1,141 @@
+"""The lab as a tool of learning platforms: logins, launches, and whom they make members."""
+
+import asyncio
+import hashlib
+import hmac
+import re
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlencode, urlsplit
+
+import httpx
+from joserfc.errors import JoseError
+from joserfc.jwk import KeySet
+from joserfc.jws import extract_compact
+
+from svsa_server.access.doors import REMOVED, ClassDoor
+from svsa_server.access.memberships import Membership
+from svsa_server.access.roles import Person, Role
+from svsa_server.lti.keys import PlatformKeys, open_key
+from svsa_server.lti.launch import Launch, read_launch
+from svsa_server.lti.links import Link, Links
+from svsa_server.lti.logins import Logins
+from svsa_server.lti.platforms import LtiSettings, Platform, read_lti_file
+from svsa_server.lti.refusal import LaunchError
+
+ANSWER_S = 10.0
+_LANDING = re.compile(r"learn(/[a-z0-9][a-z0-9-]{0,39}){0,2}")
+_ROLES = {"student": Role.OPERATOR, "instructor": Role.INSTRUCTOR}
+
+
+class LtiTool:
+    """What one lab knows of its platforms. client: how they are asked; closed with it."""
+
+    def __init__(self, settings: LtiSettings, data: Path) -> None:
+        self.settings = settings
+        self.key = open_key(settings.key_file)
+        self.client = httpx.AsyncClient(timeout=ANSWER_S, trust_env=False)
+        self.links = Links(data)
+        self._keys, self._logins = PlatformKeys(self.client), Logins()
+
+    @classmethod
+    def open(cls, path: Path, data: Path) -> "LtiTool":
+        """The tool of an LTI file. data: the lab's folder. Raises `ParameterError`."""
+        return cls(read_lti_file(path), data)
+
+    def list_keys(self) -> dict[str, Any]:
+        """The public keys of the lab, as a JWKS."""
+        return dict(KeySet([self.key]).as_dict(private=False))
+
+    def find_platform(self, asked: Mapping[str, str]) -> Platform:
+        """The platform that a login comes from; raises `LaunchError` for one that is not known."""
+        platform = self.settings.find(asked.get("iss", ""), asked.get("client_id"))
+        if platform is None:
+            raise LaunchError(f"This lab knows no platform {asked.get('iss', '')!r:.200}.")
+        if not asked.get("login_hint"):
+            raise LaunchError("The platform does not say who comes (login_hint).")
+        return platform
+
+    def begin(self, asked: Mapping[str, str], redirect: str) -> tuple[str, str]:
+        """Where a login goes on, and its state. redirect: where the platform answers.
+
+        Raises `LaunchError` for a platform that is not known.
+        """
+        platform = self.find_platform(asked)
+        state, nonce = self._logins.begin(platform)
+        wanted = {
+            "scope": "openid", "response_type": "id_token", "response_mode": "form_post",
+            "prompt": "none", "client_id": platform.client_id, "redirect_uri": redirect,
+            "login_hint": asked["login_hint"], "state": state, "nonce": nonce,
+        }  # fmt: skip
+        if hint := asked.get("lti_message_hint"):
+            wanted["lti_message_hint"] = hint
+        mark = "&" if urlsplit(platform.login_url).query else "?"
+        return f"{platform.login_url}{mark}{urlencode(wanted)}", state
+
+    async def take(self, given: Mapping[str, str], cookie: str) -> tuple[Platform, Launch]:
+        """The launch that a platform has sent. cookie: the state that this browser began with.
+
+        Raises `LaunchError`.
+        """
+        state, token = given.get("state", ""), given.get("id_token", "")
+        if error := given.get("error"):
+            raise LaunchError(f"The platform says: {error} {given.get('error_description', '')}")
+        if not hmac.compare_digest(state.encode(), cookie.encode()):
+            raise LaunchError(
+                "It was not begun in this browser, or its cookies are blocked: launch it again, in"
+                " a window of its own."
+            )
+        login = self._logins.end(state)
+        if login is None:
+            raise LaunchError("It was used already, or is too old: launch it again.")
+        try:
+            kid = extract_compact(token.encode()).headers().get("kid")
+        except (JoseError, ValueError, TypeError) as error:
+            raise LaunchError(f"The platform's token is not good: {error}") from None
+        keys = await self._keys.get(login.platform.keyset_url, kid)
+        return login.platform, read_launch(login.platform, keys, token, login.nonce)
+
+    async def admit(self, door: ClassDoor, platform: Platform, launch: Launch) -> Person:
+        """The member of the class that the platform's user is, the same at each launch.
+
+        Raises `LaunchError` for who was removed from the class.
+        """
+        told = "\n".join((platform.issuer, platform.client_id, launch.user))
+        id_ = f"p-{hashlib.sha256(told.encode()).hexdigest()[:24]}"
+        known, role = door.members.find(id_), _ROLES[launch.role]
+        if known is not None and known.is_ended:
+            raise LaunchError(REMOVED)
+        before = known or Membership(Person(id_, launch.name, role))
+        person = door.people.come(before.person._replace(role=role))
+        if known is None or person != known.person:
+            await asyncio.to_thread(door.members.keep, before._replace(person=person))
+        return person
+
+    def find_landing(self, launch: Launch, base: str, course: Collection[str]) -> str:
+        """The place of the page that is wanted, below the lab's address; the course by itself.
+
+        Raises `LaunchError` for an exercise that is not there.
+        """
+        place = launch.target.removeprefix(base) if launch.target.startswith(base) else ""
+        if launch.exercise:
+            place = f"learn/{launch.exercise}"
+        if not _LANDING.fullmatch(place):
+            return "learn"
+        name = find_exercise(place)
+        if name and name not in course:
+            raise LaunchError(f"There is no exercise {name!r:.80}; there are {', '.join(course)}.")
+        return place
+
+    def learn(self, platform: Platform, launch: Launch, person: Person, exercise: str) -> None:
+        """Keep where this person's points of this exercise go, if the platform takes any."""
+        if exercise and launch.line_item:
+            link = (person.id, exercise, platform.issuer, platform.client_id)
+            self.links.learn(Link(*link, launch.user, launch.line_item))
+
+
+def find_exercise(place: str) -> str:
+    """The exercise of a place of the page, as learn/NAME/STEP; "" where it is none."""
+    parts = place.split("/")
+    return parts[1] if len(parts) > 1 else ""

@@ -1,0 +1,100 @@
+"""The lanes of a session or a recorded run on every page, in 3D and in a replay: who controlled
+them, from when on, under which name and in which ink.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from svsa.records.reader import Record
+from svsa.run.timeline import Stretch, Timeline, Window
+from svsa.session.journal import KEPT_S
+from svsa.session.session import Session
+from svsa_server.schemas.lane import EndedWindowState, StretchState, WindowState
+
+MAX_STRETCHES = 200
+
+
+def list_kept_stretches(session: Session) -> list[list[Stretch]]:
+    """Of every lane the stretches of the last `KEPT_S`; the last one is the present."""
+    first_tick = session.run.tick - KEPT_S / session.run.period_s
+    return session.journal.timeline.list_stretches(first_tick, MAX_STRETCHES)
+
+
+def list_session_stretches(session: Session, since_tick: int = 0) -> list[list[StretchState]]:
+    """Those of the last `KEPT_S`; of what has ended only what did so at since_tick or later."""
+    kept = list_kept_stretches(session)
+    return _build(session.journal.timeline, kept, session.run.period_s, since_tick)
+
+
+def list_record_stretches(record: Record, timeline: Timeline | None) -> list[list[StretchState]]:
+    """Of every lane its stretches in the record; without a timeline, the lane by its own name."""
+    period_s = record.header.period_s
+    if timeline is not None:
+        return _build(timeline, timeline.list_stretches(), period_s)
+    whole = {"start_tick": 0, "start_s": 0.0, "end_tick": None, "end_s": None}
+    return [
+        [StretchState(number=lane + 1, name=name, ink=lane, **whole)]
+        for lane, name in enumerate(record.header.lanes)
+    ]
+
+
+def name_lanes(stretches: Sequence[Sequence[StretchState]]) -> list[str]:
+    """A name for each lane as a whole: NDOBC → FL where its controller changed."""
+    return [" → ".join(dict.fromkeys(one.name for one in lane)) for lane in stretches]
+
+
+def build_window(window: Window, period_s: float) -> WindowState:
+    """A window with its times."""
+    return WindowState(**_tell_window(window, period_s))
+
+
+def _tell_window(window: Window, period_s: float) -> dict[str, Any]:
+    end = window.end_tick
+    return {
+        "kind": window.kind,
+        "label": window.label,
+        "start_tick": window.first_tick,
+        "start_s": window.first_tick * period_s,
+        "end_tick": end,
+        "end_s": None if end is None else end * period_s,
+    }
+
+
+def list_ended_windows(session: Session, since_tick: int = 0) -> list[EndedWindowState]:
+    """The windows of the last `KEPT_S` that have ended, each with its metrics.
+
+    since_tick: only those that ended at this tick or later.
+    """
+    journal, period_s = session.journal, session.run.period_s
+    ended = {one.first_tick: one.lanes for one in journal.metrics.ended}
+    first_tick = max(0, session.run.tick - round(KEPT_S / period_s))
+    windows = journal.timeline.list_windows(first_tick, session.run.tick + 1)
+    return [
+        EndedWindowState(**_tell_window(window, period_s), lanes=ended[window.first_tick])
+        for window in windows
+        if window.end_tick is not None
+        and window.end_tick >= since_tick
+        and window.first_tick in ended
+    ]
+
+
+def _build(
+    timeline: Timeline, lanes: Sequence[Sequence[Stretch]], period_s: float, since_tick: int = 0
+) -> list[list[StretchState]]:
+    names = timeline.name_stretches(lanes)
+    return [
+        [
+            StretchState(
+                number=one.number,
+                name=names[one.number],
+                ink=one.ink,
+                start_tick=one.first_tick,
+                start_s=one.first_tick * period_s,
+                end_tick=one.end_tick,
+                end_s=None if one.end_tick is None else one.end_tick * period_s,
+            )
+            for one in lane
+            if one.end_tick is None or one.end_tick >= since_tick
+        ]
+        for lane in lanes
+    ]

@@ -1,0 +1,53 @@
+"""The worst run of an entry of the leaderboard as one page with 3D replay and plots."""
+
+import numpy as np
+
+from svsa.leaderboard.board import Board, Entry
+from svsa.leaderboard.worst_run import replay_worst
+from svsa.records.measured_window import MeasuredWindow
+from svsa.run.events import list_events
+from svsa.signals import CHANNELS
+from svsa_scene.replay import build_replay_html
+from svsa_server.runs.replay_export import trace_hung_mass
+
+
+def build_worst_run_page(board: Board, entry: Entry) -> str:
+    """The page's HTML; takes seconds. Measured is what the board's error is of.
+
+    Raises `StateError` where nothing is kept of the run, or it ended at its first tick.
+    """
+    scenario, lanes, result = replay_worst(board, entry)
+    samples = np.stack([result.samples, *(one.samples for one in result.rivals)], axis=1)
+    period_s = result.configuration.sampling.period_s
+    ticks = len(samples)
+    first = round(scenario.measured_s / period_s)
+    start = first if first < ticks else 0
+    return build_replay_html(
+        f"{lanes[0]}: {scenario.title}",
+        period_s,
+        list(lanes),
+        [channel.name for channel in CHANNELS],
+        samples,
+        trace_hung_mass(result.configuration, (), 0, ticks),
+        {
+            "version": entry.version,
+            "measured": entry.entered,
+            "notes": f"Its worst run on the leaderboard. {entry.standing.worst.problem}".strip(),
+            "plant": "simulated",
+            "seed": result.configuration.seed,
+            "configuration": result.configuration.model_dump(mode="json") | {"law": lanes[0]},
+            "fault": "" if result.fault is None else result.fault.message,
+            "commands": [],
+        },
+        events=list_events(result.configuration, (), result.fault),
+        window=MeasuredWindow(
+            "load",
+            scenario.title,
+            start,
+            ticks,
+            start * period_s,
+            ticks * period_s,
+            start == 0,
+            tuple(lanes),
+        ),
+    )

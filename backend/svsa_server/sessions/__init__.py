@@ -1,0 +1,1 @@
+"""What the server keeps about each session: its state, recording, bench, stream."""

@@ -1,0 +1,32 @@
+"""An experiment of the course on a bench, which keeps what it is."""
+
+from svsa.course.steps import Experiment
+from svsa.errors import StateError
+from svsa.run.command import SetGains, SetObserver, SetParameters
+from svsa.session.bench import BenchSession
+
+
+def check_for_step(session: BenchSession, step: Experiment) -> None:
+    """Raise `StateError` where this bench cannot be set to the step, now or at all."""
+    if step.bench is None:
+        raise StateError(
+            f"Step {step.name!r} is simulated and nothing else, and a bench has its own plant and"
+            " effects: set up a simulated session."
+        )
+    session.loop.check_started()
+    if session.status == "running":
+        raise StateError("The bench is moving: stop it, and wait until it stands.")
+
+
+def set_up_bench(session: BenchSession, step: Experiment) -> None:
+    """Law, references, loads, gains, parameters and observer of the step, for the next start."""
+    asked = step.bench_configuration
+    session.load(asked)
+    for command in (
+        SetGains(argument=asked.gains),
+        SetParameters(argument=asked.parameters),
+        SetObserver(argument=asked.observer),
+    ):
+        had = session.run.configuration
+        if command.configure(had) != had:
+            session.change(command)

@@ -1,0 +1,84 @@
+"""Where one client is in the history of a session, and the next batch of samples for it."""
+
+import math
+
+from svsa.session.batch import pack_batch
+from svsa.session.session import Session
+from svsa.signals import CHANNEL_INDEX
+from svsa_server.schemas.stream import StreamRequest
+from svsa_server.sessions.versioned import Versioned
+
+BATCH_PERIOD_S = 1.0 / 30.0
+# Faster than so many times, samples do not lie further apart: of each batch only the newest are
+# sent, and between them is a gap. A line from sample to sample over seconds would be a guess.
+MAX_THINNING = 5
+MAX_FAST_ROWS = 32
+
+
+class SampleCursor:
+    """Where one client is. packed: batches that were packed for others at the same place."""
+
+    def __init__(
+        self,
+        session: Session,
+        request: StreamRequest,
+        channels: tuple[str, ...],
+        packed: Versioned[bytes] | None = None,
+    ) -> None:
+        self._session = session
+        self._packed = packed or Versioned()
+        self._columns = tuple(CHANNEL_INDEX[channel] for channel in channels)
+        self._stride = max(1, round(1.0 / (session.run.period_s * request.rate_hz)))
+        self._lanes = request.lanes
+        self._run, history = session.journal.run_number, session.journal.history
+        past = round(request.history_s / session.run.period_s)
+        self._next = self._align(max(history.end_tick - past, history.first_tick))
+
+    @property
+    def rate_hz(self) -> float:
+        """The rate that is really sent, at speed 1."""
+        return 1.0 / (self._stride * self._session.run.period_s)
+
+    def take_batch(self, slow: bool) -> bytes | None:
+        """The samples since the last batch, or only the newest for a `slow` client."""
+        session, history = self._session, self._session.journal.history
+        missed = 0
+        if session.journal.run_number != self._run:
+            self._run, self._next = session.journal.run_number, 0
+        pace = session.pace
+        speed = pace.speed if math.isfinite(pace.speed) else pace.real_time_factor
+        stride = self._stride * min(MAX_THINNING, max(1, round(speed)))
+        if speed > MAX_THINNING:
+            newest = self._align(history.end_tick - MAX_FAST_ROWS * stride)
+            self._next = max(self._next, newest)
+        oldest = history.first_tick
+        if slow:
+            oldest = max(oldest, history.end_tick - round(stride * self.rate_hz * BATCH_PERIOD_S))
+        if self._next < oldest:
+            skipped_to = self._align(oldest)
+            missed = (skipped_to - self._next) // stride
+            self._next = skipped_to
+        first, count = self._next, len(range(self._next, history.end_tick, stride))
+        if not count:
+            return None
+        self._next = first + stride * count
+        lanes = tuple(self.read_lanes())
+        return self._packed.get(
+            (self._run, history.end_tick, session.version),
+            (first, stride, missed, lanes, self._columns),
+            lambda: self._pack(first, stride, missed, lanes),
+        )
+
+    def _pack(self, first: int, stride: int, missed: int, lanes: tuple[int, ...]) -> bytes:
+        journal = self._session.journal
+        rows = journal.history.read(first, stride, [*self._columns], [*lanes])
+        ids = (journal.timeline.lane_ids[lane] for lane in lanes)
+        return pack_batch(self._run, first, stride, missed, ids, rows)
+
+    def read_lanes(self) -> list[int]:
+        """The lanes of the next batch, counted from 0: those asked for that there are."""
+        there = range(len(self._session.run.lanes))
+        return [lane for lane in there if self._lanes is None or lane + 1 in self._lanes]
+
+    def _align(self, tick: int) -> int:
+        return -(-tick // self._stride) * self._stride

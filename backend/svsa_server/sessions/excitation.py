@@ -1,0 +1,84 @@
+"""The identification excitation played on a session: one reference after another, recorded."""
+
+import asyncio
+import logging
+from collections import deque
+
+from svsa.errors import StateError, SvsaError
+from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
+from svsa.session.session import Session
+from svsa_server.schemas.recording import ExcitationState
+from svsa_server.sessions.turn import take_turn
+
+FASTEST_SPEED = 10.0
+TAG = "identification"
+_BREAKS_OFF = ("position", "stiffness", "stop")
+_PERIOD_S = 1.0 / 60.0
+_log = logging.getLogger("svsa")
+
+
+class Excitation:
+    """The excitation from this tick of a session's run on, which is being recorded.
+
+    It ends with the recording: when it has been played, or earlier where the run ends, somebody
+    gives a reference of his own, or the run refuses one. `broken_off`: it is not to go on.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session, self._run_number = session, session.journal.run_number
+        self._first_tick = session.run.tick
+        self._waiting = deque(build_commands(session.run.period_s, self._first_tick))
+        self._seen = len(session.journal.commands)
+        self.broken_off = False
+
+    @property
+    def elapsed_s(self) -> float:
+        """How much of it has been played, s."""
+        return (self._session.run.tick - self._first_tick) * self._session.run.period_s
+
+    @property
+    def over(self) -> bool:
+        """Whether it has ended, or was broken off."""
+        session = self._session
+        return (
+            session.journal.recorder is None
+            or session.journal.run_number != self._run_number
+            or session.status == "fault"
+            or self.elapsed_s >= EXCITATION_DURATION_S
+            or any(
+                command.kind in _BREAKS_OFF for command in session.journal.commands[self._seen :]
+            )
+        )
+
+    async def play(self) -> None:
+        """Give each reference when it is due, until it is over; what refuses one breaks it off."""
+        try:
+            while not (self.broken_off or self.over):
+                await take_turn(self._give_due)
+                await asyncio.sleep(_PERIOD_S)
+        except SvsaError as error:
+            name = self._session.name
+            _log.warning("The excitation of session %s was broken off. %s", name, error)
+
+    def _give_due(self) -> None:
+        while self._waiting and self._waiting[0].tick <= self._session.run.tick:
+            command = self._waiting.popleft()
+            self._session.change(command)
+            self._seen = len(self._session.journal.commands)
+
+
+def check_excitable(session: Session) -> None:
+    """Raise `StateError` where the excitation would not tell what it should."""
+    if session.journal.recorder is not None:
+        raise StateError("The session is being recorded: stop that first, this is its own run.")
+    if any(load.end_tick > session.run.tick for load in session.run.loads):
+        raise StateError("A load is on, or is to come: take every load off first.")
+    if session.pace.speed > FASTEST_SPEED:
+        raise StateError(f"Speed {session.pace.speed:g} is too fast: at most {FASTEST_SPEED:g}.")
+
+
+def build_excitation(excitation: Excitation | None) -> ExcitationState | None:
+    """How far it is, or None."""
+    if excitation is None:
+        return None
+    return ExcitationState(elapsed_s=excitation.elapsed_s, duration_s=EXCITATION_DURATION_S)

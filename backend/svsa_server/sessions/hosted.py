@@ -1,0 +1,215 @@
+"""A session as this server hosts it: who is in control, whose streams are open, its last use."""
+
+import asyncio
+import contextlib
+import math
+import secrets
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from svsa.errors import StateError
+from svsa.session.session import Session
+from svsa_server.control.hand import ControlHand, Holder, Settled
+from svsa_server.control.queue import ControlQueue
+from svsa_server.sessions.excitation import Excitation, check_excitable
+from svsa_server.sessions.versioned import Versioned
+
+
+class Round:
+    """When the streams of a session send: all of them, right after it was woken."""
+
+    def __init__(self) -> None:
+        self._begun = asyncio.Event()
+
+    def begin(self) -> None:
+        """Have everybody send who waits."""
+        self._begun.set()
+        self._begun.clear()
+
+    async def wait(self) -> None:
+        """Until the next one begins."""
+        await self._begun.wait()
+
+
+class HostedSession:
+    """A session, and what is the server's own of it. Times are monotonic, s.
+
+    session: what people start, pause and change. `hand`: who is in control of it. `excitation`:
+    what is being played on it, or None. `news`, `progress`, `told`, `batches`: what its streams
+    are sent in each `round`, made once for all. `last_use`: when it was last asked for; infinite
+    for one that never ends by itself. `owner`: the id of the person whose it is; empty for
+    everybody's. `instance`: no other session has it, also none of this name before or after.
+    note_settled: told whom the hand let go without having been asked.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        last_use: float = math.inf,
+        owner: str = "",
+        hand: ControlHand | None = None,
+        note_settled: "NoteSettled" = lambda hosted, settled: None,
+    ) -> None:
+        self.session, self.owner = session, owner
+        self.instance = secrets.token_hex(4)
+        self._note_settled = note_settled
+        self.hand = hand or ControlHand(session.name)
+        self.excitation: Excitation | None = None
+        self.last_use = last_use
+        self.news, self.progress, self.told = Versioned[Any](), Versioned[Any](), Versioned[Any]()
+        self.batches = Versioned[bytes]()
+        self.round = Round()
+        self._streams: Counter[str | None] = Counter()
+        self._changes = 0
+        self._playing: asyncio.Task[None] | None = None
+
+    @property
+    def version(self) -> int:
+        """Grows with every change of the session, and of what the server has of it."""
+        return self.session.version + self._changes
+
+    @property
+    def revision(self) -> str:
+        """Another one after every change of settings or loads, for `If-Match`.
+
+        No other session has it, also none of this name in a server that was started anew.
+        """
+        journal = self.session.journal
+        return f"{self.instance}.{journal.run_number}.{len(journal.commands)}"
+
+    def close(self) -> None:
+        """End the session for good, and tell its streams."""
+        self.session.close()
+        self.round.begin()
+
+    @property
+    def streams(self) -> int:
+        """How many are open."""
+        return self._streams.total()
+
+    def touch(self) -> None:
+        """Somebody has asked for it."""
+        self.last_use = max(self.last_use, time.monotonic())
+
+    def is_idle(self, now: float, idle_s: float) -> bool:
+        """Whether nobody has used it for longer than idle_s."""
+        return not self.streams and now - self.last_use > idle_s
+
+    @contextlib.contextmanager
+    def streamed_to(self, client: str | None) -> Iterator[None]:
+        """While a stream of this client is open."""
+        self._count_stream(client, 1)
+        try:
+            yield
+        finally:
+            self._count_stream(client, -1)
+
+    def _count_stream(self, client: str | None, change: int) -> None:
+        self._streams[client] += change
+        if not self._streams[client]:
+            del self._streams[client]
+        self.session.watched = self.streams > 0
+        self._changes += 1
+        self.touch()
+
+    def tell_instant(self) -> dict[str, int | str | None]:
+        """Run and tick of this instant, and the client in control."""
+        holder = self.hand.holder
+        return {
+            "run": self.session.journal.run_number,
+            "tick": self.session.run.tick,
+            "in_control": holder.client if holder else None,
+        }
+
+    def list_viewers(self) -> set[str]:
+        """The clients that have a stream of it open, of those that name themselves."""
+        return {client for client in self._streams if client is not None}
+
+    def take_control(self, holder: Holder, take_over: bool) -> None:
+        """As `ControlHand.take`, now."""
+        with self._changing_hand():
+            self.hand.take(holder, take_over, time.monotonic())
+
+    def give_control_back(self, client: str | None) -> None:
+        """As `ControlHand.give_back`."""
+        with self._changing_hand():
+            self.hand.give_back(client, time.monotonic())
+
+    def hand_control_over(self, client: str | None, to: str) -> None:
+        """As `ControlQueue.hand_over`; raises `StateError` where nobody waits in a queue."""
+        with self._changing_hand():
+            self.find_queue().hand_over(client, to, time.monotonic())
+
+    def lock_control(self, is_locked: bool) -> None:
+        """As `ControlQueue.lock`; raises `StateError` where there is no queue."""
+        with self._changing_hand():
+            self.find_queue().lock(is_locked, time.monotonic())
+
+    def find_queue(self) -> ControlQueue:
+        """The hand of a class's session; raises `StateError` for any other."""
+        if not isinstance(self.hand, ControlQueue):
+            raise StateError(f"Nobody waits for control of session {self.session.name}.")
+        return self.hand
+
+    def free_hand_if_left(self, now: float, patience_s: float) -> None:
+        """End the control of a holder who, with no stream open, is silent for patience_s."""
+        for client in self.list_viewers():
+            self.hand.hear(client, now)
+        holder = self.hand.holder
+        settled = self.hand.settle(now, patience_s)
+        if settled:
+            self._changes += 1
+            self._rest_after(holder)
+        for one in settled:
+            self._note_settled(self, one)
+
+    def let_go(self, client: str) -> None:
+        """Have this client, who is no longer of the class, neither in control nor waiting."""
+        if self.hand.is_held_by(client) or isinstance(self.hand, ControlQueue):
+            self.give_control_back(client)
+
+    @contextlib.contextmanager
+    def _changing_hand(self) -> Iterator[None]:
+        holder = self.hand.holder
+        yield
+        self._changes += 1
+        self._rest_after(holder)
+
+    def _rest_after(self, before: Holder | None) -> None:
+        """A bench ramps down where it is handed on; it does not start before it is at rest."""
+        now = self.hand.holder
+        if before is None or (now is not None and now.client == before.client):
+            return
+        if now is None and not self.hand.rests_when_free:
+            return
+        if self.session.plant != "simulated" and self.session.status == "running":
+            self.session.halt("control was handed over")
+
+    def check_excitable(self) -> None:
+        """Raise `StateError` where the excitation would not tell what it should."""
+        if self.excitation is not None:
+            raise StateError("The excitation is being played already.")
+        check_excitable(self.session)
+
+    def begin_excitation(self) -> None:
+        """Play it in the background from now on; the session runs and is being recorded."""
+        self.excitation = Excitation(self.session)
+        self._changes += 1
+        self._playing = asyncio.get_running_loop().create_task(self._play(self.excitation))
+
+    async def _play(self, excitation: Excitation) -> None:
+        await excitation.play()
+        if self.excitation is excitation:
+            self.end_excitation()
+
+    def end_excitation(self) -> None:
+        """Break it off; the recording ends, the references stay as they are."""
+        if self.excitation is not None:
+            self.excitation.broken_off, self.excitation = True, None
+            self.session.stop_recording()
+            self._changes += 1
+
+
+NoteSettled = Callable[[HostedSession, Settled], None]

@@ -1,0 +1,225 @@
+"""The sessions of this server and the background task that keeps them going."""
+
+import asyncio
+import itertools
+import logging
+import math
+import secrets
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from svsa.bench.file import read_bench
+from svsa.errors import StateError
+from svsa.paper import get_figure
+from svsa.plant.disturbances import Load
+from svsa.rig.control import RigControl, RigError
+from svsa.run.command import Command
+from svsa.run.configuration import Configuration, Design
+from svsa.session.bench import BenchSession
+from svsa.session.hands import Hands
+from svsa.session.session import Session
+from svsa.session.simulated import SimulatedSession
+from svsa_server.access.roles import INSTRUCTOR
+from svsa_server.control.hand import ControlHand
+from svsa_server.problems import TooManyError, UnknownError
+from svsa_server.sessions.hosted import HostedSession, NoteSettled
+from svsa_server.sessions.turn import let_pass
+
+WAKE_PERIOD_S = 1.0 / 60.0
+HANDS_S = 0.005
+BURST_S = 0.5 * WAKE_PERIOD_S
+SHARED_SESSION = "lab"
+
+_log = logging.getLogger("svsa")
+
+
+class Laboratory:
+    """The sessions by name: the shared one, and private ones that end when nobody uses them.
+
+    max_sessions: private ones at once; max_each: of one owner, but the instructor. idle_s: how
+    long a private session lives without a request or a stream, s. control_s: how long control of
+    a session outlives what its holder does, s. shared_hand: that of the shared session, of a
+    class. note_settled: told of each hand that goes on by itself.
+    """
+
+    def __init__(
+        self,
+        shared: Session,
+        max_sessions: int,
+        idle_s: float,
+        control_s: float,
+        shared_hand: ControlHand | None = None,
+        max_each: int | None = None,
+        note_settled: NoteSettled = lambda hosted, settled: None,
+    ) -> None:
+        self._note_settled = note_settled
+        self.sessions = {
+            shared.name: HostedSession(shared, hand=shared_hand, note_settled=note_settled)
+        }
+        self._max_sessions = max_sessions
+        self._idle_s = idle_s
+        self._control_s = control_s
+        self._most_each = max_each
+
+    def get(self, name: str) -> HostedSession:
+        """The session of this name, which counts as using it; raises `UnknownError`."""
+        if name not in self.sessions:
+            open_to_all = [one for one, hosted in self.sessions.items() if not hosted.owner]
+            known = ", ".join(open_to_all[:10])
+            raise UnknownError(f"There is no session {name[:80]!r}; sessions here: {known}.")
+        self.sessions[name].touch()
+        return self.sessions[name]
+
+    def create(self, configuration: Configuration, owner: str = "") -> HostedSession:
+        """A new private session, running; refused as by `check_room`."""
+        self.check_room(owner)
+        session = SimulatedSession(build_name(), configuration)
+        session.start()
+        return self._add(session, owner)
+
+    async def branch(
+        self,
+        configuration: Configuration,
+        commands: list[Command],
+        tick: int,
+        run_id: str,
+        owner: str = "",
+    ) -> HostedSession:
+        """A private session, paused, that goes on from a recorded run at a tick."""
+        self.check_room(owner)
+        session = await asyncio.to_thread(
+            SimulatedSession.branch, build_name(), configuration, commands, tick, run_id
+        )
+        return self._add(session, owner)
+
+    def check_room(self, owner: str) -> None:
+        """Raise `TooManyError` where this owner has too many, `StateError` where all have."""
+        own = sum(hosted.owner == owner for hosted in self.sessions.values())
+        most = None if owner in ("", INSTRUCTOR.id) else self._most_each
+        if most is not None and own >= most:
+            raise TooManyError(
+                f"{own} private sessions of yours are open, and each person may have {most}: end"
+                " one first."
+            )
+        if len(self.sessions) > self._max_sessions:
+            raise StateError(
+                f"{self._max_sessions} private sessions are open, which is all this lab allows:"
+                " end one, or wait for an idle one to end."
+            )
+
+    def _add(self, session: Session, owner: str) -> HostedSession:
+        hosted = self.sessions[session.name] = HostedSession(
+            session, time.monotonic(), owner, note_settled=self._note_settled
+        )
+        return hosted
+
+    def end(self, name: str) -> None:
+        """End a private session; raises `StateError` for the shared one."""
+        self.get(name)
+        if name == SHARED_SESSION:
+            raise StateError("The shared session is not ended; reset it instead.")
+        self._remove(name)
+
+    def close(self) -> None:
+        """End every session, recordings first."""
+        for hosted in self.sessions.values():
+            hosted.close()
+
+    async def run(self) -> None:
+        """Wake every session 60 times a second until cancelled; streams send every other time."""
+        for sends in itertools.cycle((True, False)):
+            begin = time.monotonic()
+            self._end_idle(begin)
+            self.free_hands(begin)
+            for hosted in list(self.sessions.values()):
+                self._wake(hosted.session)
+                if sends:
+                    hosted.round.begin()
+            await asyncio.sleep(max(0.001, begin + WAKE_PERIOD_S - time.monotonic()))
+
+    def _wake(self, session: Session) -> None:
+        """An error in one session pauses that session and stops no other."""
+        try:
+            if math.isinf(session.pace.speed):
+                self._run_unpaced(session)
+            else:
+                session.wake(time.monotonic())
+        except Exception:
+            _log.exception("Session %s was paused by an error of the program", session.name)
+            session.halt()
+
+    def _run_unpaced(self, session: Session) -> None:
+        """As fast as it goes: bursts of ticks for this session's share of half the time."""
+        others = (hosted.session for hosted in self.sessions.values())
+        unpaced = sum(math.isinf(other.pace.speed) for other in others)
+        end = time.monotonic() + BURST_S / unpaced
+        while session.status == "running":
+            session.burst(time.monotonic())
+            if time.monotonic() >= end:
+                break
+
+    def free_hands(self, now: float) -> None:
+        """End the control of whoever is gone at `now` (monotonic, s), and tell everybody."""
+        for hosted in self.sessions.values():
+            hosted.free_hand_if_left(now, self._control_s)
+
+    def _end_idle(self, now: float) -> None:
+        for name, hosted in list(self.sessions.items()):
+            if hosted.is_idle(now, self._idle_s):
+                self._remove(name)
+
+    def _remove(self, name: str) -> None:
+        self.sessions.pop(name).close()
+
+
+def build_shared_session(bench: Path | None, design: Design | None = None) -> Session:
+    """The session that everyone shares: Figure 4A running with the load in your hand, or a bench.
+
+    design: of the simulation, the paper's if left out; a bench has its own, and has still to be
+    opened.
+    """
+    configuration = get_figure("4a").build_configuration(load=False, design=design)
+    if bench is not None:
+        hands = find_hands(bench)
+        return BenchSession(SHARED_SESSION, bench, configuration, hands, let_pass)
+    session = SimulatedSession(SHARED_SESSION, configuration)
+    session.start()
+    return session
+
+
+class RigHands(Hands):
+    """Does to an emulated rig what a person does to a bench, one after another, in a thread."""
+
+    def __init__(self, control_port: int) -> None:
+        self._port = control_port
+        self._thread = ThreadPoolExecutor(1, "hands")
+
+    def hang(self, loads: tuple[Load, ...]) -> None:
+        """These loads and no others are on, soon."""
+        self._thread.submit(self._tell, lambda control: control.set_loads(loads))
+
+    def set_to_marks(self) -> None:
+        """Set the mechanism to its zero marks; time passes until it stands there."""
+        done = self._thread.submit(self._tell, RigControl.home)
+        while not done.done():
+            let_pass(HANDS_S)
+
+    def _tell(self, say: Callable[[RigControl], object]) -> None:
+        try:
+            with RigControl(self._port, timeout_s=0.2) as control:
+                say(control)
+        except RigError as error:
+            _log.warning("The emulated rig was not told. %s", error)
+
+
+def find_hands(bench: Path) -> Hands:
+    """Who stands at the bench: a person, or the stand-in of its emulated rig."""
+    emulator = read_bench(bench).emulator
+    return RigHands(emulator.control_port) if emulator else Hands()
+
+
+def build_name() -> str:
+    """A name that nobody guesses for a private session."""
+    return f"private-{secrets.token_hex(4)}"

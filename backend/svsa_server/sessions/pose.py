@@ -1,0 +1,41 @@
+"""What the 3D view shows of a session."""
+
+import math
+
+from svsa.plant.disturbances import get_hung_mass
+from svsa.session.session import Session
+from svsa.signals import CHANNEL_INDEX
+from svsa_scene import ActuatorPose, RivalPose
+from svsa_scene.pose import POSE_CHANNELS, draw_nothing_unknown
+from svsa_server.runs.lanes import list_session_stretches
+
+
+def read_pose(session: Session) -> ActuatorPose | None:
+    """The session's newest sample as the 3D view needs it; None before the first."""
+    newest = session.journal.history.read_newest()
+    if newest is None:
+        return None
+
+    values = {channel: float(newest[CHANNEL_INDEX[channel]]) for channel in POSE_CHANNELS}
+    return ActuatorPose(
+        **draw_nothing_unknown(values),
+        rivals=_read_rivals(session),
+        load_mass_kg=_find_hung_mass(session),
+    )
+
+
+def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
+    """Where the links of the other lanes are; none before a lane's first sample."""
+    poses = []
+    for number, stretches in enumerate(list_session_stretches(session)[1:], start=1):
+        newest = session.journal.history.read_newest(number)
+        position = math.nan if newest is None else float(newest[CHANNEL_INDEX["position_rad"]])
+        if math.isfinite(position):
+            present = stretches[-1]
+            poses.append(RivalPose(present.name, position, present.ink))
+    return tuple(poses)
+
+
+def _find_hung_mass(session: Session) -> float:
+    on = (held.load for held in session.run.loads if held.is_on(session.run.tick))
+    return sum(map(get_hung_mass, on))

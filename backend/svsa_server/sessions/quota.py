@@ -1,0 +1,65 @@
+"""How much disk a person of a class may fill with runs and studies.
+
+A recording that goes beyond is ended.
+"""
+
+import asyncio
+from collections import Counter
+
+from svsa.records.catalogue.entry import CatalogueError
+from svsa.records.catalogue.runs import Catalogue
+from svsa.study.store import measure_bytes as measure_studies
+from svsa_server.sessions.laboratory import Laboratory
+from svsa_server.sessions.recording import NoCatalogue
+
+CHECK_S = 2.0
+_MB = 1e6
+
+
+class DiskQuota:
+    """most_bytes: of one person, with runs in the trash, live recordings and studies."""
+
+    def __init__(
+        self, catalogue: Catalogue | NoCatalogue, laboratory: Laboratory, most_bytes: float
+    ) -> None:
+        self._catalogue, self._laboratory, self._most = catalogue, laboratory, most_bytes
+
+    async def check(self, owner: str) -> None:
+        """Raise `CatalogueError` where a person has no room for another run."""
+        if not owner:
+            return
+        taken = await asyncio.to_thread(self._catalogue.measure_bytes, owner)
+        taken += await asyncio.to_thread(measure_studies, owner)
+        taken += self._measure_live()[owner]
+        if taken >= self._most:
+            raise CatalogueError(
+                f"Your runs and studies take {taken / _MB:.0f} MB of the {self._most / _MB:.0f} MB"
+                " that each person has here: ask the instructor to delete some."
+            )
+
+    async def run(self) -> None:
+        """Look every two seconds until cancelled."""
+        while True:
+            await asyncio.sleep(CHECK_S)
+            await self.end_what_is_too_much()
+
+    async def end_what_is_too_much(self) -> None:
+        """End the recordings of those whose runs take too much; what is recorded is kept."""
+        for owner, live in self._measure_live().items():
+            taken = live + await asyncio.to_thread(self._catalogue.measure_bytes, owner)
+            if taken > self._most:
+                self._end_recordings(owner)
+
+    def _end_recordings(self, owner: str) -> None:
+        for hosted in self._laboratory.sessions.values():
+            recorder = hosted.session.journal.recorder
+            if recorder is not None and recorder.header.owner == owner:
+                hosted.session.stop_recording()
+
+    def _measure_live(self) -> Counter[str]:
+        live: Counter[str] = Counter()
+        for hosted in self._laboratory.sessions.values():
+            recorder = hosted.session.journal.recorder
+            if recorder is not None and recorder.header.owner:
+                live[recorder.header.owner] += recorder.status.bytes
+        return live

@@ -1,0 +1,129 @@
+"""Recordings of the sessions: begun, finished in the background, opened again as branches."""
+
+import asyncio
+import logging
+import threading
+from collections.abc import Callable
+from datetime import UTC, datetime
+from typing import Any, NoReturn
+
+import svsa
+from svsa.control.gains import Gains
+from svsa.records.catalogue.entry import CatalogueError
+from svsa.records.catalogue.runs import Catalogue, build_run_id
+from svsa.records.header import RecordHeader
+from svsa.records.recorder import Recorder
+from svsa.session.session import Session
+from svsa.signals import CHANNELS
+
+FINISH_TIMEOUT_S = 10.0
+
+_log = logging.getLogger("svsa")
+
+
+class NoCatalogue:
+    """Stands where the catalogue could not be opened: every use says why; control goes on."""
+
+    def __init__(self, reason: str) -> None:
+        self._reason = reason
+
+    def __getattr__(self, _: str) -> Callable[..., NoReturn]:
+        def refuse(*_: Any, **__: Any) -> NoReturn:
+            raise CatalogueError(self._reason)
+
+        return refuse
+
+
+def open_catalogue() -> Catalogue | NoCatalogue:
+    """The catalogue in SVSA_DATA, with what a crash cut off finished; for every start.
+
+    What an older version did not enter of its runs is read in the background.
+    """
+    try:
+        catalogue = Catalogue()
+        catalogue.recover()
+    except CatalogueError as error:
+        _log.warning("Nothing can be recorded. %s", error)
+        return NoCatalogue(str(error))
+    threading.Thread(target=_describe_older, args=(catalogue,), daemon=True).start()
+    return catalogue
+
+
+def _describe_older(catalogue: Catalogue) -> None:
+    try:
+        catalogue.describe_older()
+    except CatalogueError as error:
+        _log.warning("The settings of older runs are not all in the list. %s", error)
+
+
+class Recordings:
+    """Begins recordings, and finishes their files while the loop goes on."""
+
+    def __init__(self, catalogue: Catalogue | NoCatalogue) -> None:
+        self._catalogue = catalogue
+        self._finishing: set[asyncio.Task[None]] = set()
+
+    async def start(
+        self, session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
+    ) -> None:
+        """Record a session from now on; raises `StateError`, `RecordError`, `ParameterError`.
+
+        owner: id of the person whose run it is, in a class.
+        """
+        session.prepare_recording()
+        header = build_header(session, name, tags, notes, owner)
+        recorder = await asyncio.to_thread(self._catalogue.record, header)
+        session.journal.on_recorded = self.finish
+        try:
+            session.start_recording(recorder)
+        except svsa.StateError:
+            self.finish(recorder)
+            raise
+
+    def finish(self, recorder: Recorder) -> None:
+        """See to it in the background that an ended recording gets its file and its entry."""
+        task = asyncio.get_running_loop().create_task(self._finish(recorder))
+        self._finishing.add(task)
+        task.add_done_callback(self._finishing.discard)
+
+    async def close(self) -> None:
+        """Wait for the files that are being finished; the next start does what is left."""
+        if self._finishing:
+            await asyncio.wait(self._finishing, timeout=FINISH_TIMEOUT_S)
+
+    async def _finish(self, recorder: Recorder) -> None:
+        status = await asyncio.to_thread(recorder.close)
+        while status.state == "recording":
+            status = await asyncio.to_thread(recorder.close)
+        try:
+            await asyncio.to_thread(self._catalogue.finish, recorder.header.run_id, status)
+        except svsa.SvsaError as error:
+            _log.warning("Run %s was not entered: %s", recorder.header.run_id, error)
+
+
+def build_header(
+    session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
+) -> RecordHeader:
+    """What the record of this session says of itself; raises `ParameterError`.
+
+    Unstable gains, which may be tried in a private session, are refused as everywhere: their
+    record could not be opened again.
+    """
+    Gains(**dict(session.journal.initial.gains))
+    return RecordHeader(
+        version=svsa.__version__,
+        run_id=build_run_id(),
+        created=datetime.now(UTC).isoformat(timespec="milliseconds"),
+        session=session.name,
+        plant=session.plant,
+        name=name,
+        tags=tags if session.plant == "simulated" else tuple(dict.fromkeys((*tags, session.plant))),
+        notes=notes,
+        owner=owner,
+        branch_of=session.journal.branch_of,
+        lanes=tuple(f"lane{number + 1}" for number in range(len(session.run.lanes))),
+        configuration=session.journal.initial.model_dump(mode="json"),
+        seed=session.journal.initial.seed,
+        period_s=session.run.period_s,
+        channels=CHANNELS,
+    )

@@ -1,0 +1,195 @@
+"""A session as it is told on the wire."""
+
+import math
+from dataclasses import asdict
+
+import numpy as np
+
+from svsa.control.gains import Gains
+from svsa.plant.disturbances import ScheduledLoad
+from svsa.records.header import BranchPoint
+from svsa.records.recorder import Recorder
+from svsa.run.metrics import Metrics
+from svsa.session.bench import BenchSession
+from svsa.session.session import Session
+from svsa.signals import CHANNEL_NAMES
+from svsa_server.control.hand import ControlHand, asking
+from svsa_server.control.queue import ControlQueue
+from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_stretches
+from svsa_server.schemas.control import ControlState, QueueState, WaitingState
+from svsa_server.schemas.gain import GainsState, Root
+from svsa_server.schemas.lane import LaneMetrics, LaneState
+from svsa_server.schemas.recording import RecordingState
+from svsa_server.schemas.session import BranchState, LoadState, SessionProgress, SessionState
+from svsa_server.schemas.setting import ConfigurationState
+from svsa_server.sessions.bench_state import build_bench_state
+from svsa_server.sessions.excitation import build_excitation
+from svsa_server.sessions.hosted import HostedSession
+
+
+def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgress:
+    """What of the session moves by itself, at this instant.
+
+    since_tick: of what is over only what reaches to this tick is told.
+    """
+    session = hosted.session
+    run, pace = session.run, session.pace
+    stretches = list_session_stretches(session, since_tick)
+    timeline = session.journal.timeline
+    load_window = timeline.load_window
+    return SessionProgress(
+        status=session.status,
+        run_number=session.journal.run_number,
+        tick=run.tick,
+        time_s=run.time_s,
+        speed="max" if math.isinf(pace.speed) else pace.speed,
+        real_time_factor=pace.real_time_factor,
+        stretched_s=pace.stretched_s,
+        fault=session.fault,
+        window=build_window(timeline.window, run.period_s),
+        load_window=load_window and build_window(load_window, run.period_s),
+        metrics=LaneMetrics(**_summarize(session, 0)),
+        lanes=[
+            LaneState(
+                lane=number + 1,
+                id=timeline.lane_ids[number],
+                law=lane.law,
+                name=stretches[number][-1].name,
+                stretches=stretches[number],
+                **_summarize(session, number),
+            )
+            for number, lane in enumerate(run.configuration.lanes)
+        ],
+        recording=_build_recording(session.journal.recorder),
+        excitation=build_excitation(hosted.excitation),
+        bench=build_bench_state(session) if isinstance(session, BenchSession) else None,
+    )
+
+
+def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
+    """Everything about the session at this instant; since_tick as for `build_progress`."""
+    session = hosted.session
+    run = session.run
+    newest = session.journal.history.read_newest()
+    return SessionState(
+        **dict(build_progress(hosted, since_tick)),
+        session=session.name,
+        instance=hosted.instance,
+        revision=hosted.revision,
+        branch_of=_build_branch(session.journal.branch_of),
+        control=build_control(hosted),
+        queue=build_queue(hosted.hand),
+        rate_hz=1.0 / run.period_s,
+        configuration=_build_configuration(session),
+        loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
+        events=[event for event in session.journal.events if event.tick >= since_tick],
+        ended_windows=list_ended_windows(session, since_tick),
+        sample=None if newest is None else _name_values(newest),
+    )
+
+
+def build_control(hosted: HostedSession) -> ControlState:
+    """Who is in control, told to the client that asks."""
+    hand = hosted.hand
+    return ControlState(
+        holder=hand.holder.name if hand.holder else None,
+        mine=hand.is_held_by(asking.get()),
+        watching=hosted.streams,
+    )
+
+
+def build_queue(hand: ControlHand) -> QueueState | None:
+    """Who waits, told to the client that asks; None where nobody waits in turn."""
+    if not isinstance(hand, ControlQueue):
+        return None
+    return QueueState(
+        waiting=[WaitingState(id=one.client, name=one.name) for one in hand.waiting],
+        place=hand.find_place(asking.get()),
+        locked=hand.is_locked,
+        idle_s=hand.idle_s,
+    )
+
+
+def _build_branch(branch_of: BranchPoint | None) -> BranchState | None:
+    return None if branch_of is None else BranchState(run_id=branch_of.run_id, tick=branch_of.tick)
+
+
+def _build_recording(recorder: Recorder | None) -> RecordingState | None:
+    if recorder is None:
+        return None
+    header = recorder.header
+    return RecordingState(run_id=header.run_id, name=header.name, **asdict(recorder.status))
+
+
+def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
+    metrics = session.journal.metrics
+    kinds = {
+        "since_start": metrics.since_start,
+        "in_window": metrics.in_window,
+        "since_load": metrics.since_load,
+    }
+    then = _find_lane_at_load(session, lane)
+    places = {"since_start": lane, "in_window": lane, "since_load": then}
+    running = {
+        kind: None if lanes is None or (place := places[kind]) is None else lanes[place]
+        for kind, lanes in kinds.items()
+    }
+    return {kind: one and _tell_known(one.summarize()) for kind, one in running.items()}
+
+
+def _tell_known(metrics: Metrics | None) -> Metrics | None:
+    """None for a lane that has ended, whose numbers would be of what was before."""
+    return None if metrics is None or math.isnan(metrics.rms_position_error_rad) else metrics
+
+
+def _find_lane_at_load(session: Session, lane: int) -> int | None:
+    """The lane that who controls this one now had when the load came; None where it had none."""
+    timeline = session.journal.timeline
+    number = timeline.lanes[lane][-1].number
+    return timeline.load_numbers.index(number) if number in timeline.load_numbers else None
+
+
+def _build_configuration(session: Session) -> ConfigurationState:
+    configuration = session.run.configuration
+    return ConfigurationState(
+        law=configuration.law,
+        position=configuration.position,
+        stiffness=configuration.stiffness,
+        gains=_build_gains(configuration.gains),
+        parameters={
+            law: parameters.model_dump(mode="json")
+            for law, parameters in configuration.list_parameters().items()
+        },
+        observer=configuration.observer,
+        limits=configuration.limits,
+        actuator=configuration.actuator,
+        nominal=configuration.nominal,
+        rivals=configuration.rivals,
+        effects=configuration.effects,
+        seed=configuration.seed,
+    )
+
+
+def _build_gains(gains: Gains) -> GainsState:
+    return GainsState(
+        position_coefficients=list(gains.position_coefficients),
+        stiffness_coefficients=list(gains.stiffness_coefficients),
+        position_roots_rad_per_s=[Root(re=r.real, im=r.imag) for r in gains.position_roots],
+        stiffness_roots_rad_per_s=[Root(re=r.real, im=r.imag) for r in gains.stiffness_roots],
+    )
+
+
+def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadState:
+    return LoadState(
+        id=scheduled.number,
+        start_s=scheduled.start_tick * period_s,
+        end_s=None if math.isinf(scheduled.end_tick) else scheduled.end_tick * period_s,
+        active=scheduled.is_on(tick),
+        load=scheduled.load,
+    )
+
+
+def _name_values(row: np.ndarray) -> dict[str, float | None]:
+    """A sample by channel; what is not known (NaN) is null."""
+    pairs = zip(CHANNEL_NAMES, row.tolist(), strict=True)
+    return {name: value if math.isfinite(value) else None for name, value in pairs}

@@ -1,0 +1,32 @@
+"""The design that somebody tries: a session's configuration with other gains, stable or not."""
+
+from svsa.control.gains import TriedGains
+from svsa.reference.trajectories import compute_start_value
+from svsa.run.configuration import Configuration
+from svsa.session.session import Session
+from svsa.signals import CHANNEL_INDEX
+from svsa_server.schemas.stability import DesignRequest
+
+
+def build_tried(session: Session, request: DesignRequest) -> tuple[Configuration, float]:
+    """What the session would be set to, and σ_d, N·m/rad; raises `ParameterError`."""
+    configuration, sigma = session.run.configuration, read_stiffness(session)
+    if request.observer is not None:
+        configuration = configuration.changed(observer=request.observer)
+    if request.gains is not None:
+        gains = request.gains.apply_to(configuration.gains, TriedGains)
+        configuration = configuration.changed(gains=gains)
+    if request.law is not None:
+        configuration = configuration.changed(law=request.law)
+    if request.stiffness_nm_per_rad is not None:
+        sigma = request.stiffness_nm_per_rad
+        configuration.limits.check_stiffness("stiffness_nm_per_rad", sigma, sigma)
+    return configuration, sigma
+
+
+def read_stiffness(session: Session) -> float:
+    """σ_d now, N·m/rad; before the first tick, where it begins."""
+    newest = session.journal.history.read_newest()
+    if newest is None:
+        return compute_start_value(session.run.configuration.stiffness)
+    return float(newest[CHANNEL_INDEX["stiffness_reference_nm_per_rad"]])

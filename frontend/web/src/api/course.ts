@@ -1,0 +1,47 @@
+/** The course: exercises, one's progress in them, runs judged; one function a call. */
+import { request, sessionName } from "./request";
+import type { components } from "./schema";
+import type { SessionState } from "./types";
+
+type Schemas = components["schemas"];
+
+export type ExerciseSummary = Schemas["ExerciseSummary"];
+export type Exercise = Schemas["ExerciseState"];
+export type Step = Schemas["StepState"];
+export type CriterionResult = Schemas["CriterionState"];
+export type Judgement = Schemas["JudgementState"];
+
+const LONG_WAIT_MS = 60_000;
+const pathOf = (exercise: string, rest = "") => `course/${encodeURIComponent(exercise)}${rest}`;
+const stepOf = (exercise: string, step: string, rest: string) =>
+  pathOf(exercise, `/steps/${encodeURIComponent(step)}/${rest}`);
+const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
+
+export const listCourse = () => request("get", "course") as Promise<Schemas["CourseState"]>;
+export const readExercise = (exercise: string) =>
+  request("get", pathOf(exercise)) as Promise<Exercise>;
+export const putPlace = (exercise: string, step: string) =>
+  request("put", pathOf(exercise, "/place"), { step }) as Promise<Exercise>;
+export const putAnswer = (exercise: string, step: string, answer: number | string) =>
+  request("put", stepOf(exercise, step, "answer"), { answer }) as Promise<Exercise>;
+export const checkRun = (exercise: string, step: string, run: string) =>
+  request("post", stepOf(exercise, step, "check"), { run_id: run }, LONG_WAIT_MS) as Promise<
+    CriterionResult[]
+  >;
+export const putLaw = (exercise: string, law: string) =>
+  request("put", pathOf(exercise, "/law"), { text: law }, LONG_WAIT_MS) as Promise<Exercise>;
+export const handIn = (exercise: string, student: string) =>
+  request("post", pathOf(exercise, "/hand-in"), { student }, LONG_WAIT_MS) as Promise<Judgement>;
+/** Sets this page's session as an experiment asks, at t = 0 and paused. */
+export const setUpStep = (exercise: string, step: string) =>
+  request("post", `${SESSION}/exercise`, { exercise, step }) as Promise<SessionState>;
+/** The run is called by its exercise and step. */
+export const recordStep = (name: string) =>
+  request("post", `${SESSION}/recording`, {
+    name,
+    tags: ["course"],
+    notes: "",
+  }) as Promise<SessionState>;
+/** The name of a private session of one's own. */
+export const openOwnSession = async () =>
+  ((await request("post", "sessions", {}, LONG_WAIT_MS)) as SessionState).session;

@@ -1,0 +1,54 @@
+/** Searches for the load that hurts a law most, and the scenarios that are kept of them. */
+import { API, request } from "./request";
+import type { components } from "./schema";
+import type { Law, SessionState } from "./types";
+
+type Schemas = components["schemas"];
+
+export type Search = Schemas["FalsificationState"];
+export type AdversaryState = Schemas["AdversaryState"];
+export type Adversary = Schemas["Adversary"];
+export type Term = Adversary["terms"][number];
+export type LawTrace = Schemas["LawTraceState"];
+export type Trace = Schemas["ScenarioTraceState"];
+export type KeptScenario = Schemas["KeptScenario"];
+/** As it would stand in its file. */
+export type Scenario = KeptScenario["scenario"];
+
+/** What is searched; one of adversary, text and definition. */
+export interface SearchWish {
+  adversary?: string;
+  text?: string;
+  definition?: Adversary;
+  law?: Law;
+  runs: number;
+  seed: number;
+}
+
+/** Many laws, some of which have to be compiled first. */
+const LONG_WAIT_MS = 180_000;
+const searchPath = (id: string, rest = ""): string =>
+  `falsifications/${encodeURIComponent(id)}${rest}`;
+const scenarioPath = (name: string, rest = ""): string =>
+  `scenarios/${encodeURIComponent(name)}${rest}`;
+
+export const listAdversaries = () =>
+  request("get", "falsifications/adversaries") as Promise<AdversaryState[]>;
+export const listSearches = () => request("get", "falsifications") as Promise<Search[]>;
+export const startSearch = (wish: SearchWish) =>
+  request("post", "falsifications", wish) as Promise<Search>;
+export const readSearch = (id: string) => request("get", searchPath(id)) as Promise<Search>;
+export const stopSearch = (id: string) => request("delete", searchPath(id)) as Promise<Search>;
+export const searchFileOf = (id: string): string => new URL(searchPath(id, "/file"), API).href;
+
+export const listScenarios = () => request("get", "scenarios") as Promise<KeptScenario[]>;
+export const keepScenario = (name: string, scenario: Scenario) =>
+  request("put", scenarioPath(name), scenario) as Promise<KeptScenario>;
+export const scenarioFileOf = (name: string): string =>
+  new URL(scenarioPath(name, "/file"), API).href;
+/** What came of each law, and its errors over time. */
+export const runLaws = (scenario: Scenario, laws: readonly Law[]) =>
+  request("post", "scenarios/runs", { scenario, laws }, LONG_WAIT_MS) as Promise<Trace>;
+/** A private session of laws beside each other. */
+export const seeLaws = (scenario: Scenario, laws: readonly Law[]) =>
+  request("post", "scenarios/sessions", { scenario, laws }) as Promise<SessionState>;

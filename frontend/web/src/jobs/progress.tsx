@@ -1,0 +1,50 @@
+/** Long work on the server: how far it is, how fast it goes, how long it still takes. */
+import type { ComponentChildren } from "preact";
+import type { Job } from "../api/jobs";
+import { text } from "../text/en";
+import { formatSeconds } from "../units";
+
+const words = text.jobs;
+
+export const isGoing = (job: Pick<Job, "status"> | null): boolean =>
+  job?.status === "waiting" || job?.status === "running";
+
+/** How it stands in a few words: nothing more of what is simply done. */
+export function tellJob(job: Job | null): string[] {
+  if (job === null) return [];
+  const told = isGoing(job) || job.status !== "done" ? [words.status[job.status]] : [];
+  if (job.problem) told.push(job.problem);
+  if (job.status !== "running") return told;
+  told.push(job.rate_per_s === null ? words.compiling : words.rate(job.rate_per_s));
+  if (job.left_s !== null) told.push(words.left(formatSeconds(job.left_s)));
+  return told;
+}
+
+interface JobProgressProps {
+  job: Job | null;
+  /** How much is done, in words. */
+  done: string;
+  total: number;
+  /** What the bar is of, for whoever does not see where it stands. */
+  label: string;
+  onCancel: () => void;
+  /** What can be done with it while nobody works at it. */
+  children?: ComponentChildren;
+}
+
+export function JobProgress({ job, done, total, label, onCancel, children }: JobProgressProps) {
+  const isUnderWay = isGoing(job);
+  return (
+    <div class="desk-progress">
+      <span role="status">{[done, ...tellJob(job)].join(" · ")}</span>
+      {isUnderWay && <progress value={job?.done ?? 0} max={total} aria-label={label} />}
+      {isUnderWay ? (
+        <button type="button" class="button" title={words.cancelHint} onClick={onCancel}>
+          {words.cancel}
+        </button>
+      ) : (
+        children
+      )}
+    </div>
+  );
+}

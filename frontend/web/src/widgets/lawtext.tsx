@@ -1,0 +1,78 @@
+/** A law of one's own, as a file or as a text. */
+import { useState } from "preact/hooks";
+import { text } from "../text/en";
+
+const words = text.lawText;
+export const MAX_BYTES = 1 << 16;
+
+const countBytes = (law: string): number => new TextEncoder().encode(law).length;
+
+/** Why a text cannot be sent; "" where it can. */
+export function findFault(law: string): string {
+  const bytes = countBytes(law);
+  return bytes > MAX_BYTES ? words.tooLong(bytes, MAX_BYTES) : "";
+}
+
+interface LawTextProps {
+  law: string;
+  onLaw: (law: string) => void;
+  /** Name of the file that it was read from. */
+  onFile?: (name: string) => void;
+  /** A law to begin with, and what the button says that takes it; "" for none. */
+  start: string;
+  startWord: string;
+}
+
+export function LawText({ law, onLaw, onFile, start, startWord }: LawTextProps) {
+  const [unreadable, setUnreadable] = useState("");
+  const fault = unreadable || findFault(law);
+  const take = async (file: File | undefined) => {
+    setUnreadable("");
+    if (file === undefined) return;
+    if (file.size > MAX_BYTES) {
+      setUnreadable(words.tooLong(file.size, MAX_BYTES));
+      return;
+    }
+    try {
+      onLaw(await file.text());
+      onFile?.(file.name);
+    } catch {
+      setUnreadable(words.unreadable);
+    }
+  };
+  return (
+    <>
+      <label class="law-text">
+        <span>{words.file}</span>
+        <input
+          type="file"
+          accept=".py,text/x-python"
+          onChange={({ currentTarget }) => void take(currentTarget.files?.[0])}
+        />
+      </label>
+      <label class="law-text">
+        <span>{words.text}</span>
+        <textarea
+          rows={14}
+          spellcheck={false}
+          autocomplete="off"
+          wrap="off"
+          value={law}
+          onInput={({ currentTarget }) => {
+            setUnreadable("");
+            onLaw(currentTarget.value);
+          }}
+        />
+        <small>{words.most(MAX_BYTES)}</small>
+      </label>
+      {law === "" && start !== "" && (
+        <button type="button" class="button" onClick={() => onLaw(start)}>
+          {startWord}
+        </button>
+      )}
+      <p class="problem" role="alert" hidden={fault === ""}>
+        {fault}
+      </p>
+    </>
+  );
+}

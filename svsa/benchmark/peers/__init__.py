@@ -1,0 +1,1 @@
+"""The plant of a run solved by others, to the accuracy that it has here."""

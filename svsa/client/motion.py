@@ -1,0 +1,79 @@
+"""A session that is run on, stopped, and begun again."""
+
+import time
+from typing import Any, Literal
+
+from svsa.client.control import ControlledDoor
+from svsa.errors import Fault, FaultError, StateError
+
+MAX_STEP_TICKS = 10_000
+LOOK_S = 0.05
+
+
+class MovingDoor(ControlledDoor):
+    """A session whose time goes on when it is told to: a simulation, or a bench in real time."""
+
+    @property
+    def fault(self) -> Fault | None:
+        """What has ended the run, or stopped the bench."""
+        return _read_fault(self.read_state())
+
+    def start(self) -> None:
+        """Run on from where it is."""
+        self.call("POST", "/start")
+
+    def pause(self) -> None:
+        """Stop time; on a bench, ramp down."""
+        self.call("POST", "/pause")
+
+    def come_to_rest(self) -> None:
+        """Pause, and on a bench wait until the ramp has ended."""
+        self.pause()
+        while self.read_state()["status"] == "running":
+            time.sleep(LOOK_S)
+
+    def quick_stop(self) -> None:
+        """Zero current at once on a bench, latched until cleared; a simulation pauses."""
+        self.call("POST", "/quick-stop")
+
+    def reset(self) -> None:
+        """Begin again at t = 0 with everything as it is set now."""
+        self.call("POST", "/reset")
+
+    def set_speed(self, factor: float | Literal["max"]) -> None:
+        """Session seconds a wall second, or as fast as it goes."""
+        self.call("PUT", "/speed", {"factor": factor})
+
+    def run_until(self, time_s: float) -> None:
+        """Run to this session time: a paused simulation as fast as it goes, a bench in real time.
+
+        A bench at t = 0 is started, and runs on afterwards. Raises `FaultError` where the run ends
+        before, and `StateError` where a bench is stopped before.
+        """
+        state = self.read_state()
+        end = round(time_s * state["rate_hz"])
+        if state["bench"] is not None:
+            state = self._wait_for(state, end)
+        while state["tick"] < end and state["fault"] is None:
+            ticks = min(MAX_STEP_TICKS, end - state["tick"])
+            state = self.call("POST", "/step", {"ticks": ticks})
+        if fault := _read_fault(state):
+            raise FaultError(fault)
+
+    def _wait_for(self, state: dict[str, Any], end: int) -> dict[str, Any]:
+        """The state of a bench once it has come to this tick, or has a fault."""
+        if state["tick"] == 0 and end > 0 and state["status"] == "paused":
+            state = self.call("POST", "/start")
+        while state["tick"] < end and state["fault"] is None:
+            if state["status"] != "running":
+                raise StateError(
+                    f"The bench of session {self.name} was stopped at {state['time_s']:.3f} s."
+                )
+            time.sleep(LOOK_S)
+            state = self.read_state()
+        return state
+
+
+def _read_fault(state: dict[str, Any]) -> Fault | None:
+    """The fault in a session's state."""
+    return None if state["fault"] is None else Fault(**state["fault"])

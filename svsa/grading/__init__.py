@@ -1,0 +1,1 @@
+"""Grades: what was handed in, run again where nobody can peek."""

@@ -1,0 +1,46 @@
+"""What goes wrong between the lab and a law in a process of its own, by name."""
+
+import re
+from typing import Literal, Self
+
+from svsa.errors import SvsaError
+
+LawFaultCode = Literal["error", "late", "early", "ended", "garbled"]
+"""It raised; it did not answer in time; it answered what was not asked; it ended; it wrote what is
+no answer."""
+
+
+_OWN_LINE = re.compile(r'File "law\.py", line (\d+)')
+
+
+class NotIsolatedError(SvsaError):
+    """A machine that cannot hold a law that nobody has read, and why."""
+
+    def __init__(self, reason: str) -> None:
+        self.reason = reason
+        super().__init__(
+            f"A law cannot be isolated on this machine: {reason}. It takes Linux with user"
+            " namespaces, bubblewrap (bwrap) and libseccomp."
+        )
+
+
+class LawFaultError(SvsaError):
+    """A law that did not do its part. code: why. output: the end of what it printed."""
+
+    def __init__(self, code: LawFaultCode, message: str, output: str = "") -> None:
+        self.code: LawFaultCode = code
+        self.output = output
+        super().__init__(message)
+
+    def __reduce__(self) -> tuple[type[Self], tuple[LawFaultCode, str, str]]:
+        """To another process and back."""
+        return type(self), (self.code, str(self), self.output)
+
+
+def tell_last_words(output: str) -> str:
+    """The last line that a law printed, with the line of its file that a traceback names; ""."""
+    lines = output.strip().splitlines()
+    if not lines:
+        return ""
+    at = _OWN_LINE.findall(output)
+    return f"line {at[-1]}: {lines[-1]}" if at else lines[-1]

@@ -1,0 +1,48 @@
+"""A lab with two runs."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.browser.runs.recorded import BOTH, STIFF, record
+from tests.lab import Lab
+from tests.server.routes.test_recording_routes import wait_for_run
+
+
+@pytest.fixture(scope="module")
+def lab(lab_without_runs: Lab) -> Lab:
+    """The shared lab, in which there are no runs but those of the module."""
+    return lab_without_runs
+
+
+@pytest.fixture(scope="module")
+def recorded(lab: Lab) -> tuple[str, str]:
+    """Two runs, the older first."""
+    pair = (
+        record(lab, BOTH, "4a", ["fl"], ["class"]),
+        record(lab, STIFF, "4b", [], []),
+    )
+    for run in pair:
+        assert wait_for_run(lab, run)["state"] == "complete"
+    return pair
+
+
+@pytest.fixture
+def runs(lab: Lab, recorded: tuple[str, str]) -> Iterator[tuple[str, str]]:
+    """Both runs, which are afterwards what they were before."""
+    yield recorded
+    for run, name, tags in zip(recorded, (BOTH, STIFF), (["class"], []), strict=True):
+        path = f"/api/v1/runs/{run}"
+        if lab.client.get(path).json()["deleted"] is not None:
+            lab.client.post(path + "/restore").raise_for_status()
+        wanted = {"name": name, "tags": tags, "notes": ""}
+        lab.client.patch(path, json=wanted).raise_for_status()
+
+
+@pytest.fixture
+def without_replay(page: Page) -> None:
+    """The frame of a replay stays empty, for tests that do not look at it: it has a 3D view."""
+    empty = {"body": "<p>No replay</p>", "content_type": "text/html"}
+    page.route(re.compile(r"/replay(\?|$)"), lambda route: route.fulfill(**empty))

@@ -1,0 +1,31 @@
+"""Where nothing is recorded the page tells how; then the first run is there."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.test_page import go_to_page
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+
+def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, lab: Lab) -> None:
+    lab.load_figure()
+    page.goto(lab.url)
+    expect(page.get_by_role("button", name="Record", exact=True)).to_be_enabled()
+    page.keyboard.press("o")
+    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
+    page.get_by_role("link", name="Back to the lab", exact=True).click()
+    page.get_by_role("button", name="Record", exact=True).click()
+    page.get_by_role("button", name=re.compile("^Recording (?!0:00)")).click()
+    note = page.get_by_role("status").filter(has_text="Saved: Fig. 4A · NDOBC · σ 15 · no load")
+    expect(note).to_be_visible()
+    go_to_page(page, "Runs")
+    row = page.get_by_role("table", name="Recorded runs").get_by_role("row").nth(1)
+    expect(row.get_by_role("link", name="Fig. 4A · NDOBC · σ 15 · no load")).to_be_visible()
+    page.set_viewport_size({"width": 1440, "height": 900})
+    expect(row.get_by_role("img", name=re.compile("Position error of NDOBC"))).to_be_visible()
+    row.get_by_role("button", name=re.compile("^Delete")).click()
+    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()

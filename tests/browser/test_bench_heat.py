@@ -1,0 +1,60 @@
+"""Heat of a bench's motors on the page, which `bench_fixture` puts before a simulating lab."""
+
+import copy
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
+from tests.browser.test_bench import find_bench, find_details
+from tests.browser.test_page import open_page
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("bench_page", "without_3d")]
+
+HEAT_FAULT = {
+    "code": "lever_end",
+    "lane": 0,
+    "tick": 5728,
+    "time_s": 5.728,
+    "message": "Motor 2 was held back by heat: End of the spiral.",
+    "values": {"motor2_heat": 1.0, "motor2_asked_nm": 5.0, "motor2_held_to_nm": 1.27},
+}
+
+
+def test_heat_that_holds_a_motor_back_is_told_in_band_and_table(page: Page, lab: Lab) -> None:
+    """And a fault that came of it has heat as the first thing to know, not the gains."""
+    motors = copy.deepcopy(BENCH["motors"])
+    bench = PatchedBench(page, status="run", homing=HOMED, fault=HEAT_FAULT)
+    open_page(page, lab)
+    find_details(page).click()
+    row = page.get_by_role("row", name=re.compile("^Motor 2"))
+    expect(row).to_contain_text("31 %")
+    expect(page.get_by_text("is held back by heat")).to_have_count(0)
+    motors[1] |= {"heat": 0.985, "allowed_torque_nm": 1.83, "held_back": True}
+    bench.change(motors=motors)
+    expect(row).to_contain_text("held to 1.83 N·m")
+    expect(find_bench(page).get_by_role("alert")).to_have_text("Motor 2 is held back by heat.")
+    expect(find_bench(page)).to_contain_text("it gives 1.83 N·m at most (1.22 N·m for ever)")
+    bench.change(status="fault")
+    page.get_by_text("Why this happens, and what to try").press("Enter")
+    expect(page.get_by_text("Let the motor cool")).to_be_visible()
+
+
+def test_beside_the_load_stands_which_motor_bears_it_for_how_long(page: Page, lab: Lab) -> None:
+    bench = PatchedBench(page, status="run", homing=HOMED)
+    bench.endurance = {
+        "motor": "motor2",
+        "torque_nm": 2.25,
+        "lasting_torque_nm": 1.22,
+        "seconds": 3.79,
+    }
+    open_page(page, lab)
+    expect(page.get_by_text("Motor 2 bears this for about 4 s from cold")).to_be_visible()
+    bench.endurance |= {"motor": "motor1", "seconds": 0.4}
+    page.get_by_role("radio", name="Hung mass").press("Space")
+    expect(page.get_by_text("Motor 2 bears this")).to_have_count(0)
+    expect(page.get_by_text("Motor 1 bears this for less than a second")).to_be_visible()
+    asked = [body for call, body in bench.calls if call == "bench/endurance"]
+    assert [load["kind"] for load in asked] == ["paper", "mass"]

@@ -1,0 +1,59 @@
+"""The page of the falsifier: searched, kept, put to other laws and seen in 3D, by keyboard; axe."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
+from tests.browser.test_page import WORKER_MS
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+
+def test_a_load_is_searched_kept_put_to_a_law_and_seen(page: Page, lab: Lab) -> None:
+    page.goto(lab.url)
+    page.get_by_role("button", name="Pages").press("Enter")
+    page.get_by_role("link", name=re.compile("^Falsifier")).press("Enter")
+    page.get_by_label("What counts as hurt").select_option(label="peak error")
+    page.get_by_label("Effects").select_option(label="none")
+    page.get_by_label("Length of a run, s").fill("8")
+    page.get_by_label("Runs at most").fill("64")
+    page.get_by_role("button", name="Search").press("Enter")
+    told = page.get_by_role("region", name=re.compile("^NDOBC: "))
+    expect(told).to_contain_text("The simplest load that still does it", timeout=WORKER_MS)
+    expect(told).to_contain_text(re.compile(r"pulse of .* N·m on the link"), timeout=WORKER_MS)
+    laws = page.get_by_role("region", name="Laws under this load")
+    expect(laws).to_contain_text("All 2 went through without a fault.", timeout=WORKER_MS)
+    for name in ("Load", "Position error", "Stiffness error"):
+        expect(page.get_by_role("region", name=name, exact=True)).to_be_visible()
+    expect_no_violation(page, WIDE, TABLET, PHONE)
+
+    page.get_by_label("Keep it as").fill("mine")
+    page.get_by_label("Keep it as").press("Enter")
+    page.wait_for_url(re.compile("scenario=mine"))
+    page.get_by_text("Choose laws").press("Enter")
+    page.get_by_role("checkbox", name="FL", exact=True).press("Space")
+    expect(laws).to_contain_text("It went through without a fault.", timeout=WORKER_MS)
+    assert "laws=ndobc" in page.url
+    address = page.url
+    page.get_by_role("button", name="Open NDOBC under this load in 3D").press("Enter")
+    page.wait_for_url(re.compile("session="))
+
+    page.goto(address)
+    rows = page.get_by_role("table").get_by_role("row")
+    expect(rows).to_have_count(2, timeout=WORKER_MS)
+    (kept,) = lab.client.get("/api/v1/scenarios").json()
+    assert kept["name"] == "mine"
+
+
+def test_a_wrong_bound_is_told_with_its_name_and_nothing_is_begun(page: Page, lab: Lab) -> None:
+    page.goto(lab.url + "/?falsifier=all")
+    before = len(lab.client.get("/api/v1/falsifications").json())
+    page.get_by_label("Onset from, s").fill("7.5")
+    page.get_by_role("button", name="Search").press("Enter")
+    alert = page.get_by_role("alert").first
+    expect(alert).to_contain_text("terms[0]")
+    expect(alert).to_contain_text("start_s")
+    assert len(lab.client.get("/api/v1/falsifications").json()) == before

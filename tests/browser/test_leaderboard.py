@@ -1,0 +1,88 @@
+"""The page Leaderboard: sorted and left for a worst run by keyboard alone, and a law submitted."""
+
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from svsa.leaderboard import board as boards
+from svsa.leaderboard.board import FOLDER, Board, build_entry, digest_law, measure_missing
+from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
+from tests.browser.test_page import WORKER_MS, go_to_page, open_page
+from tests.lab import Lab, run_lab
+from tests.leaderboard.test_leaderboard import build_short_season
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+
+ALL_WITHIN_THE_PAGE = """() => {
+    const page = document.querySelector("main");
+    return [...page.querySelectorAll(".visually-hidden")]
+        .every(({ offsetParent }) => page.contains(offsetParent));
+}"""
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A board with FL, NDOBC and a submitted law that did as FL."""
+    folder = tmp_path_factory.mktemp("data")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(boards, "build_season", build_short_season)
+        patched.setattr(boards, "list_law_names", lambda: ("fl", "ndobc"))
+        board = Board(folder / FOLDER)
+        measure_missing(board)
+        standing = board.get("fl").standing
+        board.keep(build_entry(digest_law(b"mine"), "Mine", False, standing, "Ada"))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def lab_with_board(data: Path):
+    with run_lab(data=str(data)) as lab:
+        yield lab
+
+
+def test_it_is_sorted_and_left_for_a_worst_run_and_survives_a_reload(
+    page: Page, lab_with_board: Lab
+) -> None:
+    open_page(page, lab_with_board)
+    go_to_page(page, "Leaderboard")
+    table = page.get_by_role("region", name=re.compile("^Rank, score"))
+    rows = table.get_by_role("row")
+    expect(rows.nth(1)).to_contain_text("NDOBC")
+    expect(table.get_by_role("row", name=re.compile("Mine by Ada"))).to_be_visible()
+    expect(table.get_by_text("not measured in this season yet").first).to_be_visible()
+    head = table.get_by_role("columnheader", name="Accuracy")
+    head.get_by_role("button").press("Enter")
+    expect(head).to_have_attribute("aria-sort", "descending")
+    expect_no_violation(page, WIDE, PHONE)
+    assert page.evaluate(ALL_WITHIN_THE_PAGE), "else the document would be as long as the table"
+    page.set_viewport_size({"width": 1280, "height": 720})
+    words = table.locator(".is-worst .visually-hidden").first
+    # Else those of the last rows make the window scroll beside the page.
+    assert words.evaluate("word => word.offsetParent.matches('main')")
+    table.get_by_role("link", name=re.compile("^Mine, worst run in 3D")).press("Enter")
+    expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
+    expect(page.get_by_text("nothing is kept")).to_be_visible(timeout=WORKER_MS)
+    page.reload()
+    expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
+    page.get_by_role("link", name="Leaderboard").press("Enter")
+    expect(table).to_be_visible()
+    page.goto(lab_with_board.url + "/leaderboard")
+    expect(page).to_have_url(re.compile(r"/\?leaderboard=all$"))
+    expect(table).to_be_visible()
+
+
+def test_a_law_that_fails_is_told_where(page: Page, lab_with_board: Lab) -> None:
+    page.goto(lab_with_board.url + "/?leaderboard=all")
+    page.get_by_role("textbox", name="What it is called").fill("Broken")
+    page.get_by_role("textbox", name=re.compile("^Its text")).fill(
+        "def law(*given):\n    return spring\n"
+    )
+    page.get_by_role("button", name="Submit", exact=True).press("Enter")
+    expect(page.get_by_role("heading", name=re.compile("^Measur.*: Broken"))).to_be_in_viewport()
+    told = page.get_by_role("alert").filter(has_text="It did not get onto the board.")
+    expect(told).to_contain_text(
+        "line 2: NameError: name 'spring' is not defined", timeout=WORKER_MS
+    )

@@ -1,0 +1,111 @@
+"""An exercise beside the live lab, as a hand that has only a keyboard goes through it."""
+
+import re
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from svsa.course.exercise import Exercise
+from svsa.course.steps import Experiment, Explain, Predict
+from tests.course.runs import find_exercise
+from tests.course.test_exercises import RIGHT
+from tests.exhaustive import exhaust
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+FOCUSED = (
+    "() => document.activeElement.closest('a, button') ? document.activeElement.innerText : ''"
+)
+MAX_TABS = 12
+LONG_MS = 90_000
+
+
+class Hand:
+    """A hand on the keyboard, at an exercise that is open."""
+
+    def __init__(self, page: Page, exercise: Exercise) -> None:
+        self.page, self.exercise = page, exercise
+
+    def go_on(self, name: str) -> None:
+        """Tab to what is called so, which must not be far, and press it."""
+        for _ in range(MAX_TABS):
+            self.page.keyboard.press("Tab")
+            if str(self.page.evaluate(FOCUSED)).startswith(name):
+                self.page.keyboard.press("Enter")
+                return
+        raise AssertionError(f"{name} is more than {MAX_TABS} tabs away")
+
+    def go_to_step(self, title: str) -> None:
+        self.go_on("Next")
+        expect(self.page.get_by_role("heading", name=title)).to_be_focused()
+
+    def foretell(self, answer: float) -> None:
+        number = f"{answer:.4g}"
+        self.page.keyboard.press("Tab")
+        self.page.keyboard.type(number)
+        self.page.keyboard.press("Enter")
+        expect(self.page.get_by_text(f"You predicted {number}")).to_be_visible()
+
+    def experiment(self, step: Experiment) -> None:
+        if step.free:
+            self.go_on("Set up")
+            expect(self.page.get_by_role("button", name="Run and record")).to_be_enabled()
+            self.go_on("Run and record")
+        else:
+            self.go_on("Set up and run")
+        expect(self.find_results().get_by_role("listitem").first).to_be_visible(timeout=LONG_MS)
+        expect(self.page.get_by_text("Saved:")).to_be_hidden()
+
+    def choose(self, step: Explain, answer: str) -> None:
+        self.page.keyboard.press("Tab")
+        self.page.keyboard.press("Space")
+        for _ in range([one.name for one in step.options].index(answer)):
+            self.page.keyboard.press("ArrowDown")
+        self.page.keyboard.press("Enter")
+        expect(self.find_results().get_by_text("Right").first).to_be_visible()
+
+    def find_results(self) -> Locator:
+        return self.page.get_by_role("region", name=re.compile("^What came of it")).first
+
+    def hand_in(self) -> None:
+        if self.exercise.takes_law:
+            self.go_on("Begin with the law above")
+            self.go_on("Try it and keep it")
+            tried = self.page.get_by_text(re.compile("^(It holds|Kept, not tried)")).first
+            expect(tried).to_be_visible(timeout=LONG_MS)
+        self.page.keyboard.press("Tab")
+        self.page.keyboard.type("Ada")
+        self.page.keyboard.press("Enter")
+
+
+def walk(hand: Hand) -> None:
+    """From the first step to the hand-in; settings that are free stay as they were."""
+    first, *others = hand.exercise.steps
+    expect(hand.page.get_by_role("heading", name=first.title)).to_be_focused()
+    answers, _ = RIGHT[hand.exercise.name]
+    for step in others:
+        hand.go_to_step(step.title)
+        if isinstance(step, Predict):
+            hand.foretell(answers[step.name])
+        elif isinstance(step, Explain):
+            hand.choose(step, answers[step.name])
+        elif isinstance(step, Experiment):
+            hand.experiment(step)
+    hand.hand_in()
+
+
+@pytest.mark.parametrize("name", exhaust([*RIGHT], ["mechanism"]))
+def test_an_exercise_is_done_and_handed_in_by_keyboard(page: Page, lab: Lab, name: str) -> None:
+    exercise = find_exercise(name)
+    lab.client.put(lab.session + "/speed", json={"factor": "max"}).raise_for_status()
+    begin = {"step": exercise.steps[0].name}
+    lab.client.put(f"/api/v1/course/{name}/place", json=begin).raise_for_status()
+    page.goto(lab.url + "/learn")
+    page.get_by_role("link", name=re.compile(exercise.title)).press("Enter")
+    walk(Hand(page, exercise))
+    most = f"{exercise.max_points:g}"
+    is_free = any(isinstance(one, Experiment) and one.free for one in exercise.steps)
+    points = r"[\d.]+" if is_free else most
+    told = page.get_by_text(re.compile(f"Handed in: {points} of {most} points"))
+    expect(told.first).to_be_visible()

@@ -1,0 +1,34 @@
+"""Two writers of one setting: the page says what the other has set, and sends its own again."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.test_page import open_page
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.mark.usefixtures("kept_page", "without_3d")
+def test_what_a_script_sets_while_somebody_types_is_told_and_not_undone(
+    page: Page, lab: Lab
+) -> None:
+    lab.load_figure()
+    open_page(page, lab)
+    motion = page.get_by_role("region", name="Motion", exact=True)
+    field = motion.get_by_role("spinbutton", name=re.compile("Frequency"))
+    expect(field).to_have_value("0.2")
+    field.fill("0.3")
+    theirs = lab.read()["configuration"]["position"] | {"frequency_hz": 0.25}
+    lab.client.put(lab.session + "/position", json=theirs).raise_for_status()
+    field.press("Enter")
+    told = motion.get_by_role("alert").filter(has_text="Somebody else changed this meanwhile")
+    expect(told).to_contain_text("It is now: Frequency 0.25 Hz.")
+    expect(field).to_have_value("0.25")
+    assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.25
+    told.get_by_role("button", name="Set mine all the same").click()
+    expect(told).to_be_hidden()
+    expect(field).to_have_value("0.3")
+    assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.3

@@ -1,0 +1,63 @@
+"""A lab that is locked with a secret: asked for once, never shown, and stopped without it."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
+from tests.browser.test_page import wait_for_samples
+from tests.browser.test_safety import wait_for_status
+from tests.browser.test_script import open_drawer
+from tests.lab import Lab, run_lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+SECRET = "correct horse battery"
+
+
+@pytest.fixture(scope="module")
+def locked_lab() -> Iterator[Lab]:
+    with run_lab(secret=SECRET) as lab:
+        yield lab
+
+
+@pytest.fixture
+def locked(page: Page, locked_lab: Lab) -> Lab:
+    """The lab, which runs, and a page that asks for its secret."""
+    locked_lab.load_figure()
+    locked_lab.client.post(locked_lab.session + "/start").raise_for_status()
+    page.goto(locked_lab.url)
+    expect(page.get_by_label("Secret")).to_be_visible()
+    return locked_lab
+
+
+@pytest.mark.usefixtures("locked")
+def test_the_secret_is_asked_for_once_and_never_shown(page: Page) -> None:
+    field = page.get_by_label("Secret")
+    field.fill("wrong wrong")
+    field.press("Enter")
+    expect(page.get_by_text(re.compile("not the secret", re.I))).to_be_visible()
+    field.fill(SECRET)
+    field.press("Enter")
+    wait_for_samples(page)
+    page.reload()
+    wait_for_samples(page)
+    drawer = open_drawer(page)
+    page.get_by_role("button", name="Pause", exact=True).click()
+    expect(drawer.get_by_role("listitem")).to_have_count(1)
+    expect(page.get_by_text(SECRET[:13])).to_have_count(0)
+
+
+def test_a_locked_page_stops_all_the_same(page: Page, locked: Lab) -> None:
+    page.get_by_label("Secret").fill("half a sec")
+    expect(page.get_by_role("dialog").get_by_role("button", name="Quick stop")).to_be_visible()
+    page.keyboard.press("Shift+Escape")
+    wait_for_status(page, locked, "paused")
+
+
+@pytest.mark.exhaustive
+@pytest.mark.usefixtures("locked")
+def test_the_login_has_no_violation(page: Page) -> None:
+    expect_no_violation(page, WIDE, PHONE)

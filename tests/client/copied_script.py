@@ -1,0 +1,80 @@
+"""The file that *Copy this experiment as a script* copies, made as the page makes it."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import httpx
+
+PAGE = Path(__file__).parents[2] / "frontend" / "web"
+WRITE = """
+import {{ writeExperiment }} from "./experiment.js";
+import {{ readFileSync }} from "node:fs";
+const origin = JSON.parse(readFileSync("origin.json", "utf8"));
+process.stdout.write(writeExperiment(origin, "Held against a load", {lab!r}));
+"""
+END_S = 1.5
+LONGEST_S = 300.0
+
+
+def do_experiment(lab: httpx.Client) -> dict:
+    """Change a private session here and there, and return what it came from."""
+    with_law = {"figure": "4a", "law": "ndobc", "load": False}
+    name = lab.post("/api/v1/sessions", json=with_law).raise_for_status().json()["session"]
+    path = f"/api/v1/sessions/{name}"
+
+    def tell(method: str, below: str, body: object = None) -> None:
+        lab.request(method, path + below, json=body).raise_for_status()
+
+    tell("POST", "/pause")
+    tell("PUT", "/stiffness", {"kind": "constant", "stiffness_nm_per_rad": 20.0})
+    tell("PUT", "/position", {"kind": "constant", "position_rad": 0.0})
+    tell("POST", "/reset")
+    tell("POST", "/step", {"ticks": 500})
+    tell("PUT", "/position", {"kind": "constant", "position_rad": 0.1})
+    tell("POST", "/loads", {"kind": "constant", "torque_nm": [0.5, 0.0, 0.0]})
+    tell("POST", "/step", {"ticks": 500})
+    tell("PUT", "/law", {"law": "fl"})
+    tell("POST", "/step", {"ticks": 500})
+    return lab.get(path + "/origin").raise_for_status().json()
+
+
+def write_copied_script(origin: dict, lab: str, folder: Path) -> Path:
+    """The script of an experiment, with this address of a lab in it."""
+    node = shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
+    assert node, "Node comes with the build requirements"
+    bundler = PAGE / "node_modules" / "rolldown" / "bin" / "cli.mjs"
+    source = PAGE / "src" / "script" / "experiment.ts"
+    bundle = [node, str(bundler), str(source), "--format", "esm", "--dir", str(folder)]
+    subprocess.run(bundle, check=True, capture_output=True, timeout=LONGEST_S)
+    (folder / "origin.json").write_text(json.dumps(origin), encoding="utf-8")
+    (folder / "write.mjs").write_text(WRITE.format(lab=lab), encoding="utf-8")
+    written = subprocess.run(
+        [node, "write.mjs"], cwd=folder, check=True, capture_output=True, timeout=LONGEST_S
+    )
+    path = folder / "experiment.py"
+    path.write_bytes(written.stdout)
+    return path
+
+
+def start_script(path: Path, token: str, *arguments: str) -> subprocess.Popen[str]:
+    """The script as a process of its own, as whoever has this token."""
+    return subprocess.Popen(
+        [sys.executable, str(path), *arguments],
+        env={**os.environ, "SVSA_SECRET": token},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+
+
+def expect_done(script: subprocess.Popen[str], laws: tuple[str, ...]) -> float:
+    """Where it came to, s; of each lane it has told its error."""
+    told, _ = script.communicate(timeout=LONGEST_S)
+    assert script.returncode == 0, told
+    *lanes, last = told.splitlines()
+    assert [line.partition(":")[0] for line in lanes] == [*laws], told
+    return float(last.removeprefix("reached ").removesuffix(" s"))

@@ -1,0 +1,204 @@
+"""What the encoders said comes through the law's interface: compiled, in a batch, in plain Python,
+in a process of its own and on a bench."""
+
+from importlib.metadata import EntryPoint
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+import svsa
+from svsa.compilation import compiled
+from svsa.control import installed
+from svsa.control.call import build_call
+from svsa.control.installed import get_law
+from svsa.control.law import Law
+from svsa.isolation.confinement import leave_open
+from svsa.isolation.process import LawProcess
+from svsa.loop.measured import Actuation, BenchConstants, Carried, follow_and_decide, pass_ticks
+from svsa.model.dynamics import build_actuator
+from svsa.packed import pack
+from svsa.plant.sensors import read_sensors
+from svsa.run.batch import build_run_batch, run_configurations
+from svsa.run.blocks import compute_start_ratio
+from svsa.run.run import Run
+from svsa.signals import CHANNELS, Measurement, Positions, Torque
+from svsa.simd.choice import choose
+from tests.session.sessions import EVERY_EFFECT, PULSE, advance, build_configuration
+
+TICKS = 60
+KP, KD = 30.0, 2.0
+"""N·m/rad and N·m·s/rad of a spring and a damper on motor 1."""
+
+
+class Heard(NamedTuple):
+    """What the law was told last, and θ1 the time before."""
+
+    q: float = 0.0
+    theta1: float = 0.0
+    theta2: float = 0.0
+    before: float = 0.0
+
+
+@compiled
+def hear(nominal, constants, memory, x, reference, estimate, applied, period, measured):
+    memory.before = memory.theta1
+    memory.q, memory.theta1, memory.theta2 = measured.q, measured.theta1, measured.theta2
+    velocity = (memory.theta1 - memory.before) / period
+    u1 = KP * (reference.q - measured.theta1) - KD * velocity - 0.1 * applied.u1
+    return Torque(choose(abs(u1) < 8.0, u1, 0.0), 0.0)
+
+
+@compiled
+def hear_branching(nominal, constants, memory, x, reference, estimate, applied, period, measured):
+    torque = hear(nominal, constants, memory, x, reference, estimate, applied, period, measured)
+    if measured.q > 1e3:
+        return Torque(0.0, 0.0)
+    return torque
+
+
+def build_in_python():
+    """The same law as a function in plain Python."""
+    before = 0.0
+
+    def law(time_s, reference, x, w, *, measured, applied):
+        nonlocal before
+        velocity, before = (measured.theta1 - before) / 0.001, measured.theta1
+        u1 = 30.0 * (reference.q - measured.theta1) - 2.0 * velocity - 0.1 * applied.u1
+        return (u1 if abs(u1) < 8.0 else 0.0), 0.0
+
+    return law
+
+
+AS_A_FILE = b"""
+before = 0.0
+
+def law(time_s, reference, x, w, measured, applied):
+    global before
+    velocity, before = (measured.theta1 - before) / 0.001, measured.theta1
+    u1 = 30.0 * (reference.q - measured.theta1) - 2.0 * velocity - 0.1 * applied.u1
+    return (u1 if abs(u1) < 8.0 else 0.0), 0.0
+"""
+HEAR = Law("hear", "Hear", "", "", "", hear, memory=Heard)
+HEAR_BRANCHING = Law("hear_branching", "Hear", "", "", "", hear_branching, memory=Heard)
+EFFECTS = {"ideal": svsa.IDEAL, "rig": svsa.RIG, "every": EVERY_EFFECT}
+
+
+@pytest.fixture(autouse=True)
+def _install(monkeypatch):
+    for law in ("HEAR", "HEAR_BRANCHING"):
+        entry = EntryPoint(law.lower(), f"{__name__}:{law}", installed.GROUP)
+        monkeypatch.setitem(installed._find_entries(), law.lower(), entry)
+    get_law.cache_clear()
+    yield
+    get_law.cache_clear()
+
+
+def build(law="hear", effects=svsa.RIG, **changes):
+    return build_configuration(PULSE, law=law, effects=effects, seed=3, **changes)
+
+
+@pytest.mark.parametrize("effects", EFFECTS)
+def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_noise(effects):
+    run = Run(build(effects=EFFECTS[effects]))
+    told, said, estimated = [], [], []
+    for tick in range(TICKS):
+        lane = run.lanes[0]
+        y = read_sensors(run.blocks[0].bench, lane.x, tick)
+        said.append((y.theta1 + y.phi, y.theta1, y.theta2))
+        estimated.append((lane.known.q, lane.known.theta1, lane.known.theta2))
+        run.advance(np.empty((1, 1, len(CHANNELS))))
+        told.append(run.lanes[0].memory[:3])
+    tolerance = 1e-15 if effects == "ideal" else 0.0
+    np.testing.assert_allclose(told, said, rtol=0.0, atol=tolerance)
+    is_another = np.any(np.array(estimated)[1:] != np.array(told)[1:])
+    assert is_another == (effects != "ideal"), "x̂ itself between exact sensors"
+
+
+@pytest.mark.parametrize(
+    ("law", "effects"), [("hear", "ideal"), ("hear", "every"), ("hear_branching", "every")]
+)
+def test_side_by_side_it_is_told_what_it_is_told_alone(law, effects):
+    configurations = [build(law, EFFECTS[effects]).changed(seed=seed) for seed in (3, 4, 5)]
+    assert (build_run_batch(configurations).control is None) == (law == "hear_branching")
+    summaries = run_configurations(configurations, 0.2)
+    for configuration, summary in zip(configurations, summaries, strict=True):
+        run = Run(configuration)
+        advance(run, 200)
+        assert tuple(run.lanes[0].x) == tuple(summary[name] for name in run.lanes[0].x._fields)
+
+
+@pytest.mark.parametrize("effects", EFFECTS)
+def test_a_law_in_plain_python_is_told_the_same_where_it_names_it(effects):
+    configuration = build(effects=EFFECTS[effects])
+    compiled_samples = advance(Run(configuration), 200)[0]
+    own = svsa.simulate(configuration, build_in_python(), duration_s=0.2)
+    np.testing.assert_allclose(own.samples, compiled_samples, rtol=1e-6, atol=1e-9)
+    assert np.abs(own.torque1_nm).max() > 0.5
+
+
+def test_a_law_in_a_process_of_its_own_is_told_the_same():
+    configuration = build()
+    model = build_actuator(configuration.nominal, compute_start_ratio(configuration))
+    with LawProcess(AS_A_FILE, model, place=leave_open) as law:
+        there = svsa.simulate(configuration, law, duration_s=0.1)
+    here = svsa.simulate(configuration, build_in_python(), duration_s=0.1)
+    np.testing.assert_array_equal(there.samples, here.samples)
+
+
+def test_on_a_bench_it_is_what_was_measured_after_ticks_that_were_missed_too():
+    run = Run(build())
+    call = build_call(run.laws[0], run.lanes[0].memory)
+    constants = pack(BenchConstants(run.blocks[0], Actuation(0.0, 0.0), call))
+    carried = pack(Carried())
+    for missed in (0, 7, 0):
+        if missed:
+            pass_ticks(constants, carried, missed)
+        y = Measurement(0.01 * (missed + 1), -0.02, 0.003, 0.0, 0.0, 0.0)
+        carried["measured"].view(float).reshape(-1)[:] = y
+        follow_and_decide(constants, run.inputs, carried, 0)
+        told = Positions(*run.lanes[0].memory[:3])
+        assert told == Positions(y.theta1 + y.phi, y.theta1, y.theta2)
+
+
+@compiled
+def take_seven(nominal, constants, memory, x, reference, estimate, applied):
+    return Torque(0.0, 0.0)
+
+
+def test_a_compiled_law_of_another_signature_is_refused_with_the_one_it_must_have():
+    with pytest.raises(svsa.ParameterError, match=r"7 arguments.*applied, period\[, measured\]"):
+        Law("seven", "Seven", "", "", "", take_seven)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        lambda time_s, reference, x: (0.0, 0.0),
+        lambda time_s, reference, x, w, wind: (0.0, 0.0),
+        lambda time_s, reference, x, w, *, period: (0.0, 0.0),
+    ],
+)
+def test_a_law_in_plain_python_of_another_signature_is_refused_with_the_one_it_must_have(law):
+    with pytest.raises(svsa.ParameterError, match=r"law\(time_s, reference, x, w\).*measured"):
+        svsa.simulate("4b", law, duration_s=0.01)
+
+
+def test_a_law_in_a_process_of_another_signature_says_the_one_it_must_have():
+    model = build_actuator(build().nominal, 0.5)
+    with pytest.raises(svsa.SvsaError) as raised:
+        LawProcess(b"def law(time_s): return 0, 0", model, place=leave_open)
+    assert "law(time_s) must be law(time_s, reference, x, w)" in raised.value.output
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        lambda *told: (0.1 * len(told), 0.0),
+        lambda measured, applied, x, w: (0.4 + 0.0 * (measured + applied.q), 0.0),
+        lambda t, r, x, w, gain=0.4: (gain, 0.0),
+    ],
+)
+def test_what_was_a_law_before_is_one_and_is_told_no_more(law):
+    samples = svsa.simulate("4b", law, duration_s=0.002, effects=svsa.IDEAL)
+    np.testing.assert_allclose(samples.torque1_nm, 0.4)

@@ -1,0 +1,129 @@
+"""A load that a motor does not bear for long, on the emulated rig in lockstep, from cold.
+
+The printed 3 kg have 2 N·m on motor 2, which bears 1.22 N·m for ever.
+"""
+
+import socket
+from typing import Any, NamedTuple
+
+import pytest
+
+from svsa.bench.endurance import Endurance, find_endurance
+from svsa.bench.file import read_bench
+from svsa.bench.realtime.configuration import build_bench_configuration
+from svsa.bench.realtime.link import Link
+from svsa.bench.realtime.memory import LoopMemory
+from svsa.bench.realtime.process import LoopProcess
+from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.bench.safety.machine import BenchStatus
+from svsa.errors import Fault
+from svsa.plant.disturbances import ConstantLoad, Load, MassLoad, PaperLoad, PulseLoad
+from svsa.result.bench_run import RIG_BENCH
+from tests.rig.in_process_rig import start_in_process
+
+from .watched_bench import FIGURE, Bench, make_ready
+
+LEFT_HEAT = [0.001, 0.002]
+"""Of a loop before this one: as good as cold."""
+BEFORE_TICKS, LONGEST_TICKS = 2000, 10_000
+LASTING_NM = 1.16 * 50.0 * 0.9 * 0.0234
+
+
+class Told(NamedTuple):
+    """What the loop's process shared and said while the load hung."""
+
+    seconds: float
+    allowed_nm: float
+    messages: list[dict[str, Any]]
+    fault: Fault
+
+
+@pytest.fixture(scope="module")
+def told() -> Told:
+    with start_in_process() as rig:
+        bench = make_ready(rig)
+        memory, beats = LoopMemory.create(), Heartbeats.create()
+        memory.fields["heat"] = LEFT_HEAT
+        ours, theirs = socket.socketpair()
+        link = Link(theirs)
+        try:
+            process = LoopProcess(
+                bench.loop, bench.plant, bench._clock, 1.0, Link(ours), memory, beats
+            )
+            assert [motor.winding.heat for motor in bench.plant.motors] == LEFT_HEAT
+            return hang_paper_load(bench, process, memory, link)
+        finally:
+            ours.close()
+            link.close()
+            memory.close()
+            beats.close()
+            bench.close()
+
+
+def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link: Link) -> Told:
+    bench.start()
+    bench.tick(BEFORE_TICKS)
+    bench.rig.control.load(PaperLoad())
+    begin, held, messages = bench.now(), None, []
+    for _ in range(LONGEST_TICKS):
+        bench.tick()
+        process._note(0.0, 0.0, 0)
+        process._tell()
+        messages += link.receive()
+        if held is None and memory.fields["is_held_back"][1]:
+            held = bench.now() - begin
+        if bench.plant.fault is not None:
+            assert held is not None
+            allowed = float(memory.fields["allowed_nm"][1])
+            return Told(held, allowed, messages, bench.plant.fault)
+    raise AssertionError("the motor bore it")
+
+
+def test_the_fault_that_it_ends_in_names_the_heat_first(told: Told) -> None:
+    assert told.fault.code == "lever_end"
+    assert told.fault.message.startswith("Motor 2 was held back by heat")
+    assert "End of the spiral" in told.fault.message
+    assert told.fault.values["motor2_heat"] > 0.9
+    assert LASTING_NM <= told.allowed_nm < 2.0
+
+
+def test_the_loop_tells_which_motor_is_held_back_before_the_fault(told: Told) -> None:
+    said = [(message["status"], message["held_back"]) for message in told.messages]
+    assert said[0] == (BenchStatus.RUN, [])
+    assert (BenchStatus.RUN, ["motor2"]) in said
+    assert said[-1] == (BenchStatus.FAULT, ["motor2"])
+
+
+def test_it_is_foretold_from_the_twin(told: Told) -> None:
+    """The twin has no friction and less noise: the rig's motor is warm a little earlier."""
+    foretold = foretell(PaperLoad())
+    assert foretold is not None
+    assert foretold.motor == "motor2"
+    assert foretold.lasting_torque_nm == pytest.approx(LASTING_NM)
+    assert foretold.torque_nm > 1.8
+    assert 0.6 * foretold.seconds < told.seconds < 1.4 * foretold.seconds
+
+
+def foretell(*loads: Load) -> Endurance | None:
+    bench = read_bench(RIG_BENCH)
+    return find_endurance(bench, build_bench_configuration(bench, FIGURE), loads)
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        MassLoad(),
+        ConstantLoad(torque_nm=(0.0, 0.0, 1.1)),
+        PulseLoad(torque_nm=(0.0, 0.0, 2.0), duration_s=2.0),
+    ],
+)
+def test_what_a_motor_bears_is_foretold_as_nothing(load: Load) -> None:
+    assert foretell(load) is None
+
+
+def test_two_loads_that_are_borne_alone_may_be_too_much_together() -> None:
+    half = ConstantLoad(torque_nm=(0.0, 0.0, 1.0))
+    assert foretell(half) is None
+    both = foretell(half, half)
+    assert both is not None
+    assert both.torque_nm == pytest.approx(2.0, abs=0.05)

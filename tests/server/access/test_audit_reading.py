@@ -1,0 +1,109 @@
+"""The audit log on the instructor's page: filtered, paged, the newest first; for nobody else."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from svsa_server.access import audit
+from svsa_server.access.audit_reading import Question, list_operations, read_audit
+from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
+from tests.server.schema import SCHEMA
+
+AUDIT = "/api/v1/class/audit"
+OPERATIONS = list_operations(SCHEMA)
+
+
+@pytest.fixture
+def classroom(tmp_path: Path) -> Iterator[Classroom]:
+    with run_class(tmp_path, control_s="1000") as room:  # nobody is gone, however slow it is
+        yield room
+
+
+def read(browser: httpx.Client, **asked: object) -> dict:
+    return browser.get(AUDIT, params=asked).raise_for_status().json()  # type: ignore[arg-type]
+
+
+def test_the_instructor_reads_who_did_what_at_which_tick(classroom: Classroom) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    ada.put(SHARED + "/control", json={"by": "Ada"}).raise_for_status()
+    ada.post(SHARED + "/pause").raise_for_status()
+    ada.put(SHARED + "/law", json={"law": "fl"}).raise_for_status()
+    tick = ada.post(SHARED + "/step", json={"ticks": 5}).json()["tick"]
+    assert bob.put(SHARED + "/law", json={"law": "pd"}).status_code == 409
+    for other in (ada, bob, classroom.lab.client):
+        assert read_kind(other.get(AUDIT)) in ("not_allowed", "join_needed")
+    told = read(instructor)
+    assert [(one["name"], one["did"], one["refused"]) for one in told["lines"][:4]] == [
+        ("Bob", "Set law", True),
+        ("Ada", "Step", False),
+        ("Ada", "Set law", False),
+        ("Ada", "Pause", False),
+    ]
+    assert (told["lines"][1]["session"], told["lines"][1]["tick"]) == ("lab", tick)
+    person = read_person(ada)["id"]
+    assert {"id": person, "name": "Ada"} in told["people"]
+    settings = read(instructor, person=person, kind="settings")
+    assert [(one["did"], one["status"]) for one in settings["lines"]] == [("Set law", 200)]
+    assert settings["kinds"] == told["kinds"] == ["access", "control", "session", "settings"]
+    refused = read(instructor, refused=True)
+    assert [one["name"] for one in refused["lines"]] == ["Bob"]
+
+
+def write(folder: Path, name: str, lines: list[dict]) -> None:
+    text = "".join(json.dumps(line) + "\n" for line in lines)
+    (folder / name).write_text(text, encoding="utf-8")
+
+
+def build_line(second: int, path: str = "/api/v1/sessions/lab/start", **more: object) -> dict:
+    time = f"2026-01-02T03:04:{second:02d}.000+00:00"
+    call = {"person": "p-1", "name": "Ada", "method": "POST", "path": path, "status": 200}
+    return {"time": time} | call | more
+
+
+def ask(**asked: object) -> Question:
+    known = {"person": "", "kind": "", "refused": None, "until": "", "page": 1, "page_size": 2}
+    return Question(**(known | asked))  # type: ignore[arg-type]
+
+
+def test_pages_go_back_into_files_that_were_set_aside_and_stay_while_more_is_done(
+    tmp_path: Path,
+) -> None:
+    write(tmp_path, audit.FILE + ".2", [build_line(1)])
+    write(tmp_path, audit.FILE + ".1", [build_line(2), build_line(3)])
+    write(tmp_path, audit.FILE, [build_line(4), build_line(5)])
+    first = read_audit(tmp_path, OPERATIONS, ask())
+    assert (first["total"], [line["time"][17:19] for line in first["lines"]]) == (5, ["05", "04"])
+    write(tmp_path, audit.FILE, [build_line(4), build_line(5), build_line(6)])
+    pages = [read_audit(tmp_path, OPERATIONS, ask(page=n, until=first["until"])) for n in (2, 3)]
+    assert [line["time"][17:19] for page in pages for line in page["lines"]] == ["03", "02", "01"]
+    assert read_audit(tmp_path, OPERATIONS, ask())["total"] == 6
+
+
+def test_a_line_that_is_none_and_a_folder_without_a_log_are_no_obstacle(tmp_path: Path) -> None:
+    assert read_audit(tmp_path, OPERATIONS, ask())["lines"] == []
+    write(tmp_path, audit.FILE, [build_line(1)])
+    with (tmp_path / audit.FILE).open("a", encoding="utf-8") as file:
+        file.write('{"time": "2026\n[1]\n{"no": "time"}\n')
+    assert read_audit(tmp_path, OPERATIONS, ask())["total"] == 1
+
+
+def test_what_nobody_called_for_and_what_a_platform_did_are_told_in_words(tmp_path: Path) -> None:
+    time = "2026-01-02T03:04:05.000+00:00"
+    idle = {"time": time, "event": "control", "why": "gone_from_queue", "person": "p-1"}
+    launch = {"time": time, "action": "lti launch", "person": None, "problem": "No such key."}
+    unknown = build_line(5, "/api/v1/nowhere", status=404)
+    write(tmp_path, audit.FILE, [idle, launch, unknown])
+    told = read_audit(tmp_path, OPERATIONS, ask(page_size=9))["lines"]
+    assert [(one["kind"], one["did"], one["why"], one["refused"]) for one in told] == [
+        ("other", "POST /api/v1/nowhere", None, True),
+        ("lti", "Launch", "No such key.", True),
+        ("control", "Control went on", "gone from queue", False),
+    ]
+
+
+def test_every_operation_that_changes_something_has_a_kind_and_words() -> None:
+    assert len(OPERATIONS) > 60
+    assert all(one.kind != "other" and one.name[0].isupper() for one in OPERATIONS)

@@ -1,0 +1,223 @@
+"""The instructor removes a person and lets them in again; a person comes back by a code."""
+
+import asyncio
+import json
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from svsa.errors import SecurityError, StateError
+from svsa_server.access import audit, memberships
+from svsa_server.access.class_keys import ClassKeys
+from svsa_server.access.doors import REMOVED, ClassDoor
+from svsa_server.access.guard import AccessGuard
+from svsa_server.access.memberships import FILE, Membership, Memberships
+from svsa_server.access.people import People
+from svsa_server.access.roles import Person, Role
+from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
+
+PEOPLE, CONTROL = "/api/v1/class/people", SHARED + "/control"
+ADA = Person("p-1", "Ada", Role.OPERATOR)
+
+
+@pytest.fixture(scope="module")
+def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
+    with run_class(tmp_path_factory.mktemp("class")) as room:
+        yield room
+
+
+def come_back(browser: httpx.Client, code: str) -> httpx.Response:
+    return browser.post("/api/v1/return", json={"code": code})
+
+
+def join(classroom: Classroom, name: str) -> tuple[httpx.Client, str]:
+    """A browser of somebody who has joined, and their return code."""
+    browser = classroom.open_browser()
+    body = {"name": name, "code": classroom.told.code}
+    told = browser.post("/api/v1/join", json=body).raise_for_status().json()
+    return browser, told["return_code"]
+
+
+def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
+    classroom: Classroom,
+) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    script = classroom.open_browser(ada.post("/api/v1/tokens", json={}).json()["token"])
+    ids = [read_person(one)["id"] for one in (ada, bob)]
+    for one in (ada, bob):
+        one.put(CONTROL, json={"by": "x"}).raise_for_status()
+    assert read_kind(bob.delete(f"{PEOPLE}/{ids[0]}")) == "not_allowed"
+    removed = instructor.delete(f"{PEOPLE}/{ids[0]}").raise_for_status().json()
+    assert removed == {"id": ids[0], "name": "Ada", "role": "operator"}
+    for one in (ada, script):
+        refused = one.get(SHARED)
+        assert (refused.status_code, read_kind(refused)) == (401, "removed")
+        assert refused.json()["detail"] == REMOVED
+    told = read_person(ada)
+    assert (told["inside"], told["removed"]) == (False, True)
+    state = bob.get(SHARED).json()
+    assert (state["control"]["mine"], state["queue"]["waiting"]) == (True, [])
+    instructor.delete(f"{PEOPLE}/{ids[1]}").raise_for_status()
+    assert instructor.get(SHARED).json()["control"]["holder"] is None
+    told = instructor.get("/api/v1/class").json()
+    assert [one["name"] for one in told["removed"]] == ["Ada", "Bob"]
+    assert [one["name"] for one in told["people"]] == ["Instructor"]
+    for one in ids:
+        restored = instructor.post(f"{PEOPLE}/{one}/restore").raise_for_status()
+        assert restored.json()["id"] == one
+    for one in (ada, bob, script):
+        assert one.get(SHARED).status_code == 200
+    assert instructor.get("/api/v1/class").json()["removed"] == []
+    assert instructor.delete(f"{PEOPLE}/p-none").status_code == 404
+    assert instructor.delete(f"{PEOPLE}/instructor").status_code == 404
+
+
+def test_a_place_in_the_queue_is_left_and_who_else_is_removed_is_for_no_student_to_know(
+    classroom: Classroom,
+) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    for one in (ada, bob):
+        one.put(CONTROL, json={"by": "x"}).raise_for_status()
+    person = read_person(bob)["id"]
+    for _ in range(2):
+        instructor.delete(f"{PEOPLE}/{person}").raise_for_status()
+    state = ada.get(SHARED).json()
+    assert (state["control"]["mine"], state["queue"]["waiting"]) == (True, [])
+    assert ada.get("/api/v1/class").json()["removed"] == []
+    ada.delete(CONTROL).raise_for_status()
+
+
+def test_removed_is_removed_after_a_restart_too_and_the_audit_log_has_it(tmp_path: Path) -> None:
+    with run_class(tmp_path) as room:
+        ada, bob = room.join("Ada"), room.join("Bob")
+        cookies = [dict(one.cookies) for one in (ada, bob)]
+        path = f"{PEOPLE}/{read_person(ada)['id']}"
+        room.log_in().delete(path).raise_for_status()
+    keys, _ = ClassKeys.open(tmp_path)
+    door = ClassDoor(keys, People(), Memberships(tmp_path / FILE))
+    found = []
+    for cookie in cookies:
+        headers = httpx.Headers({"cookie": f"svsa_access={cookie['svsa_access']}"})
+        found.append((door.admit(headers), door.is_removed(headers)))  # type: ignore[arg-type]
+    assert [person and person.name for person, _ in found] == [None, "Bob"]
+    assert [is_removed for _, is_removed in found] == [True, False]
+    lines = (tmp_path / audit.FILE).read_text(encoding="utf-8").splitlines()
+    last = json.loads(lines[-1])
+    assert (last["name"], last["method"], last["path"]) == ("Instructor", "DELETE", path)
+    assert last["status"] == 200
+
+
+def test_a_websocket_of_who_is_removed_is_closed_with_the_reason(tmp_path: Path) -> None:
+    keys, _ = ClassKeys.open(tmp_path)
+    members = Memberships(tmp_path / FILE)
+    members.keep(Membership(ADA))
+    door = ClassDoor(keys, People(), members)
+    left = []
+
+    async def serve(scope: dict, receive: object, send: object) -> None:
+        await send({"type": "websocket.accept"})  # type: ignore[operator]
+        try:
+            await asyncio.Event().wait()
+        finally:
+            left.append(scope["path"])
+
+    async def see_all(*_: object) -> bool:
+        return True
+
+    guard = AccessGuard(serve, door, frozenset(), see_all)  # type: ignore[arg-type]
+
+    async def remove() -> list[dict]:
+        sent: list[dict] = []
+        accepted = asyncio.Event()
+
+        async def send(message: dict) -> None:
+            sent.append(message)
+            accepted.set()
+
+        headers = [
+            (b"host", b"127.0.0.1"),
+            (b"cookie", f"svsa_access={keys.sign(ADA)}".encode()),
+        ]
+        scope = {"type": "websocket", "path": "/viser/lab", "headers": headers}
+        serving = asyncio.create_task(guard(scope, accepted.wait, send))  # type: ignore[arg-type]
+        await accepted.wait()
+        await door.set_removed(ADA.id, True)
+        await serving
+        return sent
+
+    sent = asyncio.run(remove())
+    assert sent[-1] == {"type": "websocket.close", "code": 1008, "reason": REMOVED}
+    assert left == ["/viser/lab"]
+
+
+def test_a_person_comes_back_by_their_code_from_another_browser_as_who_they_were(
+    classroom: Classroom,
+) -> None:
+    ada, code = join(classroom, "Gauss")
+    private = ada.post("/api/v1/sessions", json={}).raise_for_status().json()["session"]
+    other = classroom.open_browser()
+    refused = come_back(other, "AAAA-AAAA-AAAA")
+    assert (refused.status_code, read_kind(refused)) == (401, "wrong_code")
+    answer = come_back(other, code.lower().replace("-", " ")).raise_for_status()
+    assert "httponly" in answer.headers["set-cookie"].lower()
+    assert "return_code" not in answer.json()
+    assert read_person(other) == read_person(ada)
+    assert other.get(f"/api/v1/sessions/{private}").status_code == 200
+    new = other.post("/api/v1/return-code").raise_for_status().json()["return_code"]
+    assert come_back(classroom.open_browser(), code).status_code == 401
+    assert come_back(classroom.open_browser(), new).status_code == 200
+
+
+def test_a_return_code_gives_nobody_more_than_they_have(classroom: Classroom) -> None:
+    ada, code = join(classroom, "Noether")
+    instructor = classroom.log_in()
+    token = ada.post("/api/v1/tokens", json={"role": "observer"}).json()["token"]
+    for one in (classroom.open_browser(token), instructor):
+        assert one.post("/api/v1/return-code").status_code == 409
+    instructor.delete(f"{PEOPLE}/{read_person(ada)['id']}").raise_for_status()
+    refused = come_back(classroom.open_browser(), code)
+    assert (refused.status_code, read_kind(refused)) == (401, "removed")
+
+
+def test_who_comes_back_while_another_has_the_name_gets_a_number(classroom: Classroom) -> None:
+    ada, code = join(classroom, "Euler")
+    ada.post("/api/v1/leave").raise_for_status()
+    classroom.join("Euler")
+    back = classroom.open_browser()
+    assert come_back(back, code).json()["name"] == "Euler (2)"
+    assert read_person(back)["name"] == "Euler (2)"
+
+
+def test_guesses_of_return_codes_are_as_few_as_joins(tmp_path: Path) -> None:
+    with run_class(tmp_path, joins="3/minute") as room:
+        guesses = [come_back(room.lab.client, "AAAA-AAAA-AAAA").status_code for _ in range(4)]
+        assert guesses == [401, 401, 401, 429]
+
+
+def test_the_members_are_kept_as_hashes_that_others_cannot_read(tmp_path: Path) -> None:
+    with run_class(tmp_path) as room:
+        _, code = join(room, "Ada")
+    path = tmp_path / FILE
+    kept = path.read_bytes()
+    assert code.encode() not in kept
+    assert code.replace("-", "").encode() not in kept
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600 or os.name == "nt"
+    path.write_bytes(b"no database" * 100)
+    with pytest.raises(SecurityError, match="delete the file"):
+        Memberships(path)
+
+
+def test_a_class_that_is_full_takes_nobody_more(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(memberships, "MAX_MEMBERS", 1)
+    members = Memberships(tmp_path / FILE)
+    members.keep(Membership(ADA))
+    with pytest.raises(StateError, match="1 people have joined, which is all"):
+        members.keep(Membership(ADA._replace(id="p-2")))
+    members.set_ended(ADA.id, True)
+    assert [one.name for one in Memberships(tmp_path / FILE).list_ended()] == ["Ada"]

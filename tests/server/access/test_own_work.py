@@ -1,0 +1,160 @@
+"""What a person of a class may have at once, and whose the long work is."""
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from svsa.study.file import read_study
+from svsa.study.store import keep_study, measure_bytes, open_study
+from tests.server.access.classroom import SHARED, Classroom, read_kind, run_class
+
+SESSIONS, JOBS, TUNINGS = "/api/v1/sessions", "/api/v1/jobs", "/api/v1/tunings"
+STUDIES, FALSIFICATIONS = "/api/v1/studies", "/api/v1/falsifications"
+
+
+@pytest.fixture(scope="module")
+def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
+    with run_class(tmp_path_factory.mktemp("class"), max_sessions_each="2") as room:
+        yield room
+
+
+def test_each_person_has_so_many_private_sessions_and_no_more(classroom: Classroom) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    first, second = (ada.post(SESSIONS, json={}).raise_for_status().json() for _ in range(2))
+    others = (SESSIONS, "/api/v1/arena/sessions", SHARED + "/design/simulation")
+    for path in others:
+        body = {"scenario": "rig_4a", "law": "fl"} if "arena" in path else {}
+        refused = ada.post(path, json=body)
+        assert refused.status_code == 429, path
+        assert read_kind(refused) == "too_many"
+        assert "each person may have 2: end one first" in refused.json()["detail"]
+    assert bob.post(SESSIONS, json={}).status_code == 201
+    assert [instructor.post(SESSIONS, json={}).status_code for _ in range(3)] == [201] * 3
+    ada.delete(f"{SESSIONS}/{first['session']}").raise_for_status()
+    shown = ada.post(SHARED + "/design/simulation", json={})
+    assert shown.status_code == 201
+    assert bob.get(f"{SESSIONS}/{shown.json()['session']}").status_code == 403
+    assert second["session"] in {one["session"] for one in ada.get(SESSIONS).json()}
+
+
+def test_an_observer_makes_no_session(classroom: Classroom) -> None:
+    watching = classroom.join("Ola", role="observer")
+    assert watching.post(SHARED + "/design/simulation", json={}).status_code == 403
+
+
+def test_long_work_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    asked = {"law": "fl_integral", "budget": 200}
+    job = ada.post(TUNINGS, json=asked).raise_for_status().json()["id"]
+    assert [one["id"] for one in ada.get(JOBS).json()] == [job]
+    assert [one["id"] for one in ada.get(TUNINGS).json()] == [job]
+    assert bob.get(JOBS).json() == bob.get(TUNINGS).json() == []
+    for path in (f"{JOBS}/{job}", f"{TUNINGS}/{job}", f"{TUNINGS}/{job}/file"):
+        assert read_kind(bob.get(path)) == "not_yours", path
+    for path in (f"{JOBS}/{job}", f"{TUNINGS}/{job}"):
+        assert read_kind(bob.delete(path)) == "not_yours", path
+        assert ada.get(path).json()["status"] in ("waiting", "running")
+    assert bob.get(f"{JOBS}/none").status_code == 404
+    assert [one["id"] for one in instructor.get(JOBS).json()] == [job]
+    instructor.delete(f"{JOBS}/{job}").raise_for_status()
+
+
+def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    watching = classroom.join("Ola", role="observer")
+    asked = {"source": "load", "runs": 4, "laws": ["fl"]}
+    begun = [one.post(STUDIES, json=asked).raise_for_status().json() for one in (ada, bob)]
+    assert [one["name"] for one in begun] == ["load", "load-2"]
+    again = bob.post(STUDIES, json=asked | {"name": "load"})
+    assert (again.status_code, read_kind(again)) == (409, "study")
+    copied = bob.post(STUDIES + "/check", json={"source": "load-3", "runs": 4})
+    assert copied.status_code == 422
+    for one, sees in ((ada, ["load"]), (bob, ["load-2"]), (watching, [])):
+        assert [kept["name"] for kept in one.get(STUDIES).json()["kept"]] == sees
+    kept = instructor.get(STUDIES).json()["kept"]
+    assert {one["name"] for one in kept} == {"load", "load-2"}
+    for below in ("", "/summary", "/sensitivity", "/rows?column=succeeded", "/rows.parquet"):
+        for other in (bob, watching):
+            assert read_kind(other.get(f"{STUDIES}/load{below}")) == "not_yours", below
+    assert read_kind(bob.get(f"{STUDIES}/load/rows/0")) == "not_yours"
+    assert read_kind(bob.post(f"{STUDIES}/load/rows/0/replay")) == "not_yours"
+    wait_for_study(ada, "load")
+    run = ada.post(f"{STUDIES}/load/rows/0/replay").raise_for_status().json()["run_id"]
+    assert [one.get(f"/api/v1/runs/{run}").status_code for one in (ada, bob)] == [200, 403]
+    assert instructor.get(f"{STUDIES}/load/rows/0").status_code == 200
+    instructor.delete(f"{JOBS}/{begun[1]['job']['id']}").raise_for_status()
+    wait_for_study(bob, "load-2")
+    for other in (bob, watching):
+        assert other.delete(f"{STUDIES}/load").status_code == 403
+    for one, name in ((ada, "load"), (instructor, "load-2")):
+        assert one.delete(f"{STUDIES}/{name}").status_code == 204
+    assert instructor.get(STUDIES).json()["kept"] == []
+    assert ada.get(f"/api/v1/runs/{run}").is_success, "what was recorded of it stays"
+
+
+def wait_for_study(browser: httpx.Client, name: str) -> None:
+    """Until nothing works at it any more."""
+    while browser.get(f"{STUDIES}/{name}").json()["job"]["status"] in ("waiting", "running"):
+        time.sleep(0.05)
+
+
+def test_what_somebody_else_keeps_is_no_source(classroom: Classroom) -> None:
+    ada, bob = classroom.join("Ada"), classroom.join("Bob")
+    begun = ada.post(STUDIES, json={"source": "load", "runs": 4, "name": "mine"})
+    ada.delete(f"{JOBS}/{begun.json()['job']['id']}").raise_for_status()
+    assert ada.post(STUDIES + "/check", json={"source": "mine"}).status_code == 200
+    refused = bob.post(STUDIES + "/check", json={"source": "mine"})
+    assert refused.status_code == 422
+    assert refused.json()["violations"][0]["name"] == "source"
+
+
+def test_what_was_kept_outside_a_class_is_everybodys_to_read_and_the_instructors(
+    tmp_path: Path,
+) -> None:
+    folder = tmp_path / "studies"
+    keep_study("course", read_study("load")[1].changed(runs=4), folder)
+    with run_class(tmp_path) as room:
+        ada, instructor = room.join("Ada"), room.log_in()
+        assert ada.get(f"{STUDIES}/course").status_code == 200
+        asked = {"source": "course", "name": "course"}
+        assert read_kind(ada.post(STUDIES, json=asked)) == "study"
+        copied = ada.post(STUDIES, json={"source": "course"}).raise_for_status().json()
+        assert copied["name"] == "course-2"
+        begun = instructor.post(STUDIES, json=asked).raise_for_status().json()
+        for one in (copied, begun):
+            instructor.delete(f"{JOBS}/{one['job']['id']}").raise_for_status()
+
+
+def test_studies_count_towards_a_persons_room(tmp_path: Path) -> None:
+    stored = keep_study("mine", read_study("load")[1].changed(runs=4), tmp_path, "p-1")
+    (stored.folder / "rows.parquet").write_bytes(b"x" * 1000)
+    assert measure_bytes("p-1", tmp_path) > 1000
+    assert measure_bytes("p-2", tmp_path) == 0
+    assert open_study("mine", tmp_path).owner == "p-1"
+    with run_class(tmp_path, quota_mb="0") as room:
+        refused = room.join("Ada").post(STUDIES, json={"source": "load", "runs": 4})
+        assert (refused.status_code, read_kind(refused)) == (507, "storage")
+
+
+def test_a_search_and_what_it_found_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    asked = {"adversary": "blow", "runs": 2000}
+    search = ada.post(FALSIFICATIONS, json=asked).raise_for_status().json()["id"]
+    path = f"{FALSIFICATIONS}/{search}"
+    for answer in (bob.get(path), bob.get(path + "/file"), bob.delete(path)):
+        assert read_kind(answer) == "not_yours"
+    assert read_kind(bob.post(path + "/sessions")) == "not_yours"
+    for one, sees in ((ada, [search]), (bob, []), (instructor, [search])):
+        assert [each["id"] for each in one.get(FALSIFICATIONS).json()] == sees
+    instructor.delete(path).raise_for_status()
+
+
+def test_a_session_of_the_arena_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+    ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
+    body = {"scenario": "rig_4a", "law": "fl"}
+    state = ada.post("/api/v1/arena/sessions", json=body).raise_for_status().json()
+    path = f"{SESSIONS}/{state['session']}"
+    assert [one.get(path).status_code for one in (ada, bob, instructor)] == [200, 403, 200]

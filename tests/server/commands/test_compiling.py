@@ -1,0 +1,47 @@
+"""Laws that nobody has used yet are compiled beside the server."""
+
+import subprocess
+import sys
+
+import pytest
+
+from svsa_server.commands import compiling
+from svsa_server.commands.compiling import compile_laws
+
+WAIT = "import time; time.sleep(600)"
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """The processes that were started for compiling."""
+    processes: list[subprocess.Popen[bytes]] = []
+
+    class Noted(subprocess.Popen[bytes]):
+        def __init__(self, *arguments, **options):
+            super().__init__(*arguments, **options)
+            processes.append(self)
+
+    monkeypatch.setattr(subprocess, "Popen", Noted)
+    return processes
+
+
+def test_nothing_is_started_where_every_law_is_compiled(started):
+    with compile_laws():
+        assert started == []
+
+
+def test_what_compiles_ends_with_the_server(started, monkeypatch):
+    monkeypatch.setattr(compiling, "is_compiled_before", lambda control: False)
+    monkeypatch.setattr(compiling, "_COMPILE", (WAIT,))
+    with compile_laws():
+        (process,) = started
+        assert process.args == [sys.executable, "-c", WAIT]
+        assert process.poll() is None
+    assert process.poll() is not None
+
+
+def test_the_laws_are_compiled_by_the_command_that_compiles_all():
+    done = subprocess.run(
+        [sys.executable, "-c", *compiling._COMPILE], check=False, capture_output=True
+    )
+    assert done.returncode == 0, done.stderr

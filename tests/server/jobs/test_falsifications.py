@@ -1,0 +1,121 @@
+"""The falsifier over REST: followed to what it found, broken off, seen in a session, refused."""
+
+import time
+import tomllib
+
+import pytest
+
+from svsa.falsify.adversary import Adversary
+from svsa.falsify.file import read_adversary
+from svsa.falsify.find import falsify
+from tests.lab_in_process import run_lab_in_process
+
+LONGEST_S = 240.0
+SEARCHES = "/api/v1/falsifications"
+PULL = """\
+title = "A pull on the link"
+harm = "peak"
+duration_s = 1.0
+
+[base]
+figure = "4a"
+loads = []
+
+[[terms]]
+kind = "pulse"
+torque_nm = 2.0
+start_s = [0.2, 0.6]
+duration_s = [0.05, 0.3]
+"""
+OWN = tomllib.loads(PULL)
+
+
+@pytest.fixture(scope="module")
+def lab():
+    with run_lab_in_process(max_falsifications="2") as lab:
+        yield lab.client
+
+
+def wait_until(lab, name, is_there):
+    end = time.monotonic() + LONGEST_S
+    while time.monotonic() < end:
+        state = lab.get(f"{SEARCHES}/{name}").raise_for_status().json()
+        if is_there(state):
+            return state
+        time.sleep(0.1)
+    raise AssertionError(f"still {state['status']} after {state['done']}")
+
+
+def has_ended(state):
+    return state["status"] not in ("waiting", "running")
+
+
+def test_a_search_is_followed_to_what_it_found_and_seen_in_a_session(lab, tmp_path):
+    asked = {"text": PULL, "law": "fl", "runs": 96, "seed": 3}
+    begun = lab.post(SEARCHES, json=asked)
+    assert begun.status_code == 201
+    assert begun.json()["adversary"]["law"] == "fl"
+    name = begun.json()["id"]
+    state = wait_until(lab, name, has_ended)
+    assert (state["status"], state["problem"], state["law"]) == ("done", None, "fl")
+    assert [one["law"] for one in state["outcomes"]] == ["fl", "ndobc"]
+
+    (tmp_path / "pull.toml").write_text(PULL)
+    here = falsify(read_adversary(tmp_path / "pull.toml", law="fl"), runs=96, seed=3)
+    file = lab.get(f"{SEARCHES}/{name}/file").raise_for_status()
+    kept = here.scenario.model_dump(mode="json", exclude_none=True)
+    assert tomllib.loads(file.text) == state["scenario"] == kept
+    assert state["worst"] == here.as_found.model_dump(mode="json", exclude_none=True)
+    assert state["steps"] == [*here.shrunk.steps] != []
+    peaks = [one["metrics"]["peak_position_error_rad"] for one in state["outcomes"]]
+    assert peaks[0] > peaks[1], "NDOBC holds what hurts FL"
+
+    seen = lab.post(f"{SEARCHES}/{name}/sessions")
+    assert seen.status_code == 201
+    assert [lane["law"] for lane in seen.json()["lanes"]] == ["fl", "ndobc"]
+    loads = [one["load"]["kind"] for one in seen.json()["loads"]]
+    assert loads == [one["kind"] for one in state["scenario"]["loads"]]
+    lab.delete(f"/api/v1/sessions/{seen.json()['session']}").raise_for_status()
+
+
+def test_a_search_is_broken_off_and_keeps_its_worst(lab):
+    name = lab.post(SEARCHES, json={"text": PULL, "runs": 100_000}).json()["id"]
+    refused = lab.get(f"{SEARCHES}/{name}/file")
+    assert refused.status_code == 409
+    going = wait_until(lab, name, lambda state: state["done"] >= 32 and state["worst"])
+    assert 1 <= going["worst"]["found"]["at_run"] <= going["total"]
+    assert lab.delete(f"{SEARCHES}/{name}").is_success
+    state = wait_until(lab, name, has_ended)
+    assert state["status"] == "cancelled"
+    assert state["scenario"]["found"]["runs"] < 100_000
+    assert name in [job["id"] for job in lab.get("/api/v1/jobs").json()]
+
+
+def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
+    for asked, told in (
+        ({"adversary": "nobody"}, "blow"),
+        ({"text": PULL.replace("2.0", "-2.0")}, "line 11"),
+        ({"text": PULL, "adversary": "blow"}, "one of the three"),
+        ({}, "one of the three"),
+        ({"definition": OWN | {"terms": []}}, "definition.terms"),
+        ({"definition": OWN, "law": "nobody"}, "nobody"),
+        ({"text": PULL, "runs": 0}, "runs is 0"),
+    ):
+        refused = lab.post(SEARCHES, json=asked)
+        assert refused.status_code == 422, asked
+        assert told in refused.json()["detail"]
+
+
+def test_one_of_one_s_own_is_searched_as_its_text_is(lab):
+    states = []
+    for asked in ({"definition": OWN}, {"text": PULL}):
+        name = lab.post(SEARCHES, json=asked | {"runs": 64}).raise_for_status().json()["id"]
+        states.append(wait_until(lab, name, has_ended))
+    assert states[0]["adversary"] == states[1]["adversary"]
+    assert states[0]["scenario"] == states[1]["scenario"] is not None
+
+
+def test_those_of_the_lab_can_be_read_and_sent_back(lab):
+    for one in lab.get(f"{SEARCHES}/adversaries").json():
+        assert tomllib.loads(one["text"])["title"] == one["title"]
+        assert Adversary(**one["definition"]) == read_adversary(one["name"])

@@ -1,0 +1,124 @@
+"""Exports, replays and comparisons in processes of their own: bounded, and errors come back."""
+
+import asyncio
+import os
+import pickle
+import time
+
+import pytest
+
+from svsa.errors import ParameterError, Violation
+from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError, HeavyWork
+from svsa_server.problems import TYPE_PREFIX
+from tests.lab import Lab
+from tests.lab_in_process import run_lab_in_process
+from tests.server.jobs.done_by_workers import end, get_process, refuse, wait_for
+
+
+@pytest.fixture
+def work():
+    work = HeavyWork(most=2, workers=1)
+    yield work
+    work.close()
+
+
+def test_a_job_is_done_by_another_process_of_the_lowest_priority(work):
+    process, niceness = asyncio.run(work.run(get_process))
+    assert process != os.getpid()
+    assert niceness == 10
+
+
+def test_who_finds_the_queue_full_is_told_and_the_others_are_done(work, tmp_path):
+    async def crowd():
+        first = [asyncio.create_task(work.run(wait_for, tmp_path / "go")) for _ in range(2)]
+        await asyncio.sleep(0)
+        with pytest.raises(BusyError, match=r"2 exports.*try again in 5 s"):
+            await work.run(get_process)
+        (tmp_path / "go").touch()
+        await asyncio.gather(*first)
+        await work.run(get_process)
+
+    asyncio.run(crowd())
+
+
+def test_a_refusal_comes_back_with_its_values(work):
+    with pytest.raises(ParameterError) as refused:
+        asyncio.run(work.run(refuse, "frequency_hz"))
+    assert refused.value.violations == (Violation("frequency_hz", 9.0, "Hz", "at most 5 Hz"),)
+    again = pickle.loads(pickle.dumps(refused.value))  # noqa: S301
+    assert str(again) == str(refused.value)
+
+
+def test_a_worker_that_dies_is_replaced(work):
+    with pytest.raises(BusyError, match="has ended"):
+        asyncio.run(work.run(end))
+    assert asyncio.run(work.run(get_process))[0] != os.getpid()
+
+
+def test_one_lab_that_ends_takes_no_worker_from_another(work):
+    """Two in one process, as in these tests; its own worker ends in the middle of a job."""
+    process, _ = asyncio.run(work.run(get_process))
+
+    async def close_in_the_middle() -> None:
+        ending = HeavyWork(most=1, workers=1)
+        job = asyncio.create_task(ending.run(time.sleep, 300.0))
+        other = await work.run(get_process)
+        ending.close()
+        with pytest.raises(BusyError, match="has ended"):
+            await job
+        assert other[0] == process
+
+    asyncio.run(close_in_the_middle())
+    assert asyncio.run(work.run(get_process))[0] == process
+
+
+@pytest.fixture(scope="module")
+def busy_lab():
+    with run_lab_in_process(max_exports="0") as lab:
+        yield lab
+
+
+def record(lab: Lab, seconds: int) -> str:
+    lab.load_figure()
+    lab.client.post(lab.session + "/pause").raise_for_status()
+    began = lab.client.post(lab.session + "/recording", json={"name": "long"}).json()
+    lab.jump(seconds)
+    lab.client.delete(lab.session + "/recording").raise_for_status()
+    run_id = began["recording"]["run_id"]
+    for _ in range(300):
+        if lab.client.get(f"/api/v1/runs/{run_id}").json()["state"] == "complete":
+            break
+        time.sleep(0.1)
+    return run_id
+
+
+def test_a_full_queue_is_a_503_that_says_when_to_come_again(busy_lab: Lab) -> None:
+    run_id = record(busy_lab, 1)
+    for method, path in (
+        ("GET", "export?kind=csv"),
+        ("GET", "replay"),
+        ("GET", "replay.html"),
+        ("POST", "compare"),
+    ):
+        answer = busy_lab.client.request(method, f"/api/v1/runs/{run_id}/{path}")
+        assert answer.status_code == 503, path
+        assert answer.headers["retry-after"] == str(RETRY_AFTER_S)
+        assert answer.json()["type"] == TYPE_PREFIX + "busy"
+
+
+@pytest.mark.wall_clock
+def test_live_sessions_are_not_late_while_a_replay_is_built(shared_lab: Lab) -> None:
+    run_id = record(shared_lab, 20)
+    shared_lab.load_figure()
+    before = shared_lab.read()
+    began = time.monotonic()
+    path = f"/api/v1/runs/{run_id}/replay.html"
+    page = shared_lab.client.get(path, timeout=300)
+    while page.status_code == 503 and time.monotonic() - began < 120:
+        time.sleep(float(page.headers["Retry-After"]))  # what tests before asked for goes first
+        page = shared_lab.client.get(path, timeout=300)
+    page.raise_for_status()
+    waited, after = time.monotonic() - began, shared_lab.read()
+    assert len(page.content) > 500_000
+    given_up = after["stretched_s"] - before["stretched_s"]
+    assert given_up < 0.1 * waited, "while it waits for the page the lab is the only one to work"

@@ -1,0 +1,53 @@
+"""A class keeps time while a study runs."""
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.exhaustive import exhaust
+from tests.lab import run_lab
+
+pytestmark = pytest.mark.wall_clock
+CLASSES = [(8, 5.0), (40, 10.0)]
+"""Sessions, and how long they are watched, s."""
+STUDIES = "/api/v1/studies"
+
+
+def list_workers(process: int) -> list[int]:
+    """Python's workers that this process has begun, and those that they have begun."""
+    threads = Path(f"/proc/{process}/task").iterdir()
+    children = [int(one) for thread in threads for one in (thread / "children").read_text().split()]
+    family = [one for child in children for one in (child, *list_workers(child))]
+    return [one for one in family if b"spawn_main" in Path(f"/proc/{one}/cmdline").read_bytes()]
+
+
+def read_stretched(client) -> dict[str, float]:
+    return {one["session"]: one["stretched_s"] for one in client.get("/api/v1/sessions").json()}
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found in /proc")
+@pytest.mark.parametrize("size", exhaust(CLASSES, CLASSES[:1]))
+def test_its_sessions_keep_time_while_a_study_runs(size: tuple[int, float]) -> None:
+    """The scheduler's own measure: time that a session gave up for being late."""
+    sessions, watched_s = size
+    with run_lab() as lab:
+        for _ in range(sessions):
+            lab.client.post("/api/v1/sessions", json={"figure": "4a"}).raise_for_status()
+        asked = {"source": "perturbation", "runs": 1_000_000}
+        begun = lab.client.post(STUDIES, json=asked).raise_for_status().json()
+        path = f"/api/v1/jobs/{begun['job']['id']}"
+        end = time.monotonic() + 200.0
+        while not lab.client.get(path).json()["rate_per_s"]:
+            assert time.monotonic() < end
+            time.sleep(0.2)
+        workers = list_workers(lab.process.pid)
+        assert workers
+        assert {os.getpriority(os.PRIO_PROCESS, one) for one in workers} == {10}
+        before, done = read_stretched(lab.client), lab.client.get(path).json()["done"]
+        time.sleep(watched_s)
+        after = read_stretched(lab.client)
+        assert lab.client.get(path).json()["done"] > done, "the study went on meanwhile"
+        given_up = max(after[name] - before[name] for name in before)
+        assert given_up < 0.1 * watched_s

@@ -1,0 +1,136 @@
+"""A law for the leaderboard over REST: refused, followed, broken off, and kept once."""
+
+import time
+
+import pytest
+
+from svsa.isolation.refusal import NotIsolatedError
+from svsa.leaderboard.board import FOLDER, Board, digest_law
+from svsa_server.jobs.progress import JobFolder, ask_to_stop, read_progress
+from svsa_server.jobs.submissions import Asked, enter
+from tests.grading.handins import GOOD, LAZY
+from tests.isolation.test_attacks import isolation  # noqa: F401
+from tests.lab_in_process import run_lab_in_process
+from tests.leaderboard.test_leaderboard import short_season  # noqa: F401
+
+LONGEST_S = 240.0
+BOARD = "/api/v1/leaderboard"
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def lab(data):
+    with run_lab_in_process(data=str(data), max_submissions="2") as lab:
+        yield lab.client
+
+
+def wait_until(lab, name, is_there):
+    end = time.monotonic() + LONGEST_S
+    while time.monotonic() < end:
+        state = lab.get(f"/api/v1/jobs/{name}").json()
+        if is_there(state):
+            return state
+        time.sleep(0.1)
+    raise AssertionError(f"still {state['status']} after {state['done']}")
+
+
+def test_a_board_begins_with_all_laws_missing_and_its_secret_in_the_labs_folder(lab, data):
+    state = lab.get(BOARD).json()
+    assert state["entries"] == []
+    assert {"fl", "ndobc"} <= set(state["missing"])
+    assert state["runs"] > 250
+    assert (data / FOLDER / "secret").stat().st_mode & 0o077 == 0
+
+
+def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
+    law = "def law(*given):\n    return spring\n"
+    begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": law})
+    assert begun.status_code == 201
+    assert begun.json()["key"] == digest_law(law.encode())
+    state = wait_until(
+        lab, begun.json()["job"]["id"], lambda state: state["status"] not in ("waiting", "running")
+    )
+    assert state["status"] == "failed"
+    assert "name 'spring' is not defined" in state["problem"]
+    assert lab.get(BOARD).json()["entries"] == []
+
+
+def test_a_submission_is_followed_and_broken_off_and_enters_nothing(lab):
+    begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": LAZY.decode()}).json()
+    name = begun["job"]["id"]
+    state = wait_until(lab, name, lambda state: state["done"] >= 2)
+    assert state["kind"] == "submission"
+    assert state["title"] == "Mine"
+    assert state["total"] == lab.get(BOARD).json()["runs"]
+    lab.delete(f"/api/v1/jobs/{name}")
+    wait_until(lab, name, lambda state: state["status"] == "cancelled")
+    assert lab.get(BOARD).json()["entries"] == []
+
+
+@pytest.mark.parametrize(
+    ("wanted", "told"),
+    [
+        ({"name": "two\nlines", "law": "pass"}, "name"),
+        ({"name": "Mine", "law": ""}, "law"),
+        ({"name": "Mine", "law": "ä" * 40_000}, "65536 bytes"),
+    ],
+)
+def test_what_is_no_submission_is_refused(lab, wanted, told):
+    refused = lab.post(f"{BOARD}/submissions", json=wanted)
+    assert refused.status_code == 422
+    assert told in refused.text
+
+
+@pytest.mark.usefixtures("short_season")
+def test_a_worker_enters_the_law_and_the_labs_and_the_same_text_has_no_second_job(
+    lab, data, tmp_path
+):
+    folder = JobFolder(tmp_path)
+    board = data / FOLDER
+    assert enter(folder, Asked(board, "Mine", GOOD, "Ada"))
+    folder.write()
+    progress = read_progress(tmp_path)
+    assert progress.done == progress.total == 3 * Board(board).season.run_count
+    state = lab.get(BOARD).json()
+    assert {one["name"] for one in state["entries"]} == {"Mine", "fl", "ndobc"}
+    assert state["missing"] == []
+    assert state["not_isolated"] is None
+    assert next(one["author"] for one in state["entries"] if one["name"] == "Mine") == "Ada"
+    again = lab.post(f"{BOARD}/submissions", json={"name": "Another", "law": GOOD.decode()})
+    assert again.json() == {"key": digest_law(GOOD), "job": None}
+
+
+@pytest.mark.usefixtures("short_season")
+def test_a_worker_that_is_to_stop_enters_nothing(tmp_path):
+    ask_to_stop(tmp_path)
+    assert not enter(JobFolder(tmp_path), Asked(tmp_path / "board", "Mine", GOOD))
+    assert Board(tmp_path / "board").list() == []
+
+
+def test_where_nothing_isolates_a_law_is_refused_and_says_why(lab, monkeypatch):
+    def refuse():
+        raise NotIsolatedError("bwrap is not installed")
+
+    monkeypatch.setattr("svsa_server.routes.leaderboard.check_isolation", refuse)
+    refused = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": "pass"})
+    assert refused.status_code == 409
+    assert refused.json()["type"] == "urn:svsa:problem:not_isolated"
+    assert "bwrap is not installed" in refused.json()["detail"]
+
+
+def test_where_nothing_isolates_the_board_says_so_before_anything_is_submitted(lab, monkeypatch):
+    def refuse():
+        raise NotIsolatedError("bwrap is not installed")
+
+    monkeypatch.setattr("svsa.isolation.probe.check_isolation", refuse)
+    assert "bwrap is not installed" in lab.get(BOARD).json()["not_isolated"]
+
+
+def test_an_unknown_entry_has_no_replay(lab):
+    refused = lab.get(f"{BOARD}/entries/none_such/replay")
+    assert refused.status_code == 404
+    assert "no entry none_such" in refused.json()["detail"]

@@ -1,0 +1,104 @@
+"""A tuning over REST: followed while it goes on, broken off, and put to use."""
+
+import time
+
+import pytest
+
+import svsa
+from svsa.run.configuration import parse_design
+from svsa_server.jobs.heavy_work import RETRY_AFTER_S
+from tests.lab_in_process import run_lab_in_process
+
+LONGEST_S = 240.0
+TUNINGS = "/api/v1/tunings"
+
+
+@pytest.fixture(scope="module")
+def lab():
+    with run_lab_in_process(max_tunings="2") as lab:
+        yield lab.client
+
+
+def wait_until(lab, name, is_there):
+    end = time.monotonic() + LONGEST_S
+    while time.monotonic() < end:
+        state = lab.get(f"{TUNINGS}/{name}").json()
+        if is_there(state):
+            return state
+        time.sleep(0.1)
+    raise AssertionError(f"still {state['status']} after {state['tried']}")
+
+
+def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
+    asked = {"law": "fl_integral", "budget": 2, "seed": 1}
+    begun = lab.post(TUNINGS, json=asked)
+    assert begun.status_code == 201
+    name = begun.json()["id"]
+    refused = lab.get(f"{TUNINGS}/{name}/file")
+    assert (refused.status_code, begun.json()["status"]) == (409, "waiting")
+    done = wait_until(lab, name, lambda state: state["status"] not in ("waiting", "running"))
+    assert (done["status"], done["tried"], done["problem"]) == ("done", 3, None)
+    assert [trial["stage"] for trial in done["trials"]] == ["present", "sobol", "local"]
+    assert done["present"]["values"] == [54.6, 32.9]
+    assert done["best"] == min(done["trials"], key=lambda trial: trial["cost"])
+    assert len(done["best"]["runs"]) == len(done["runs"]) == 5
+    assert lab.get(f"{TUNINGS}/{name}", params={"first": 2}).json()["trials"] == done["trials"][2:]
+
+    here = svsa.tune("fl_integral", budget=2, seed=1)
+    assert [trial["cost"] for trial in done["trials"]] == [one.cost for one in here.trials]
+    file = lab.get(f"{TUNINGS}/{name}/file")
+    assert 'filename="fl_integral.toml"' in file.headers["Content-Disposition"]
+    assert parse_design(file.text) == here.design
+
+    setting = done["best_setting"]
+    put = lab.put("/api/v1/sessions/lab/parameters", json={setting["law"]: setting["parameters"]})
+    assert put.json()["configuration"]["parameters"]["fl_integral"] == setting["parameters"]
+    found = dict(zip((axis["name"] for axis in done["axes"]), done["best"]["values"], strict=True))
+    assert setting["parameters"] == found
+    assert [one["id"] for one in lab.get(TUNINGS).json()] == [name]
+
+
+def test_a_tuning_is_broken_off_and_keeps_its_best(lab):
+    """It begins from the session's own design where that is asked for."""
+    beta = {"bandwidth_rad_per_s": [44.0, 44.0, 44.0]}
+    lab.put("/api/v1/sessions/lab/observer", json=beta)
+    asked = {"law": "ndobc", "budget": 2000, "session": "lab"}
+    name = lab.post(TUNINGS, json=asked).json()["id"]
+    wait_until(lab, name, lambda state: state["tried"] >= 2)
+    lab.delete(f"{TUNINGS}/{name}")
+    state = wait_until(lab, name, lambda state: state["status"] == "cancelled")
+    assert 2 <= state["tried"] < 2000
+    assert state["present"]["values"] == pytest.approx([60.0, 40.0, 44.0])
+    setting = state["best_setting"]
+    assert setting["parameters"] is None
+    assert setting["observer"]["bandwidth_rad_per_s"] == [state["best"]["values"][2]] * 3
+    text = lab.get(f"{TUNINGS}/{name}/file").text
+    assert f"{state['tried'] - 1} of 2000 candidates" in text
+
+
+def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
+    for asked, told in (
+        ({"law": "no_law"}, "installed here"),
+        ({"law": "esp", "held": {"no_name": 1.0}}, "no_name"),
+        ({"law": "esp", "budget": 0}, "budget is 0"),
+    ):
+        refused = lab.post(TUNINGS, json=asked)
+        assert refused.status_code == 422
+        assert told in refused.json()["detail"]
+    missing = lab.post(TUNINGS, json={"law": "esp", "session": "nowhere"})
+    assert missing.status_code == lab.get(f"{TUNINGS}/nothing").status_code == 404
+    names = [lab.post(TUNINGS, json={"law": "pd"}).json()["id"] for _ in range(2)]
+    full = lab.post(TUNINGS, json={"law": "pd"})
+    assert full.status_code == 503
+    assert "2 tunings are worked at or wait" in full.json()["detail"]
+    assert full.headers["Retry-After"] == str(RETRY_AFTER_S)
+    jobs = lab.get("/api/v1/jobs").json()
+    assert {job["id"]: job["kind"] for job in jobs[:2]} == dict.fromkeys(names, "tuning")
+    begun, queued = names
+    assert lab.delete(f"/api/v1/jobs/{queued}").json()["status"] == "cancelled"
+    assert lab.get(f"{TUNINGS}/{queued}/file").status_code == 409, "nothing was tried"
+    assert lab.get("/api/v1/jobs/nothing").status_code == 404
+    wait_until(lab, begun, lambda state: state["status"] == "running")
+    lab.delete(f"{TUNINGS}/{begun}")
+    state = wait_until(lab, begun, lambda state: state["status"] == "cancelled")
+    assert f"{state['tried'] - 1} of 124 candidates" in lab.get(f"{TUNINGS}/{begun}/file").text

@@ -1,0 +1,68 @@
+"""One recorded run judged against another over REST."""
+
+from pathlib import Path
+
+import httpx
+import numpy as np
+import pytest
+
+from svsa.paper import get_figure
+from svsa.plant.disturbances import MassLoad
+from svsa.records.catalogue.runs import Catalogue
+from svsa.records.writer import write_record
+from svsa.run.configuration import Lane
+from tests.records.records import build_header, build_samples
+from tests.server.routes.runs.conftest import FIRST_TICK, POSITION, TICKS
+
+
+def test_a_run_is_judged_against_another_with_the_band_to_draw(client: httpx.Client) -> None:
+    """Of all runs of this lab the same samples, of which one stands out of its neighbours."""
+    wanted = {"other": "run-1", "rest": None, "points": 500}
+    wanted["tolerances"] = {"position_rad": {"absolute": 0.5, "time_s": 0.01}}
+    told = client.post("runs/run-0/verdict", json=wanted).raise_for_status().json()
+    assert (told["held"], told["ticks"]) == (True, TICKS)
+    assert [one["lane"] for one in told["channels"]] == ["ndobc", "fl"]
+    band = told["bands"]["position_rad"]["fl"]
+    assert len(band["time_s"]) == len(band["low"]) == len(band["high"]) <= 500
+    assert max(band["high"]) == 1e6 + 0.5
+    assert None not in band["low"]
+    given = {"other": "none"}
+    assert client.post("runs/run-0/verdict", json=given).status_code == 404
+    wrong = wanted | {"tolerances": {"speed": {}}}
+    refused = client.post("runs/run-0/verdict", json=wrong)
+    assert refused.status_code == 422
+    assert "a channel of both runs" in refused.json()["detail"]
+    negative = wanted | {"tolerances": {"position_rad": {"absolute": -1}}}
+    assert "absolute" in client.post("runs/run-0/verdict", json=negative).json()["detail"]
+
+
+def test_runs_are_judged_from_where_the_windows_of_their_numbers_begin(
+    client: httpx.Client, catalogue: Catalogue, data: Path
+) -> None:
+    """A load 150 ticks later, and a step of the position as much later."""
+    for run_id, tick in (("early", 1200), ("late", 1350)):
+        samples = build_samples(TICKS, first_tick=FIRST_TICK)
+        samples[:, :, POSITION] = (np.arange(TICKS) >= tick - FIRST_TICK)[:, None]
+        settings = (
+            get_figure("4a").build_configuration(load=False).changed(rivals=(Lane(law="fl"),))
+        )
+        header = build_header(run_id, configuration=settings.model_dump(mode="json"))
+        mass = MassLoad(mass_kg=3.0).model_dump(mode="json")
+        commands = [(tick, {"tick": tick, "kind": "load", "argument": mass})]
+        write_record(data / "runs" / run_id, header, commands, FIRST_TICK, samples)
+        catalogue.register(header)
+        catalogue.finish(run_id)
+    wanted = {"other": "early", "rest": None, "tolerances": {"position_rad": {}}}
+    told = {
+        align: client.post("runs/late/verdict", json=wanted | {"align": align}).json()
+        for align in ("start", "window")
+    }
+    first, _ = told["start"]["channels"]
+    period = build_header("x").period_s
+    assert first["outside_s"] == pytest.approx(150 * period)
+    assert first["outside"] == [[pytest.approx(1200 * period), pytest.approx(1349 * period)]]
+    assert [one["held"] for one in told["window"]["channels"]] == [True, True]
+    assert told["window"]["begin_s"] - told["window"]["other_begin_s"] == pytest.approx(
+        150 * period
+    )
+    assert not told["window"]["held"]  # not as long from there on

@@ -1,0 +1,97 @@
+"""A law for an exercise over REST: tried at once, kept, handed in, and graded as it was."""
+
+import shutil
+
+import pytest
+
+from svsa.course.kept_law import MAX_LAW_BYTES
+from svsa.grading import law_runs
+from svsa.grading.book import Book
+from svsa.grading.queue import grade_file
+from svsa.grading.submission import Submission
+from tests.course.runs import find_exercise
+from tests.course.student import Student, find_law
+from tests.grading.handins import LAZY
+from tests.isolation.test_attacks import isolation  # noqa: F401
+from tests.lab_in_process import run_lab_in_process
+
+OWN_LAW = find_exercise("own-law")
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def lab(data):
+    with run_lab_in_process(data=str(data)) as lab:
+        yield lab
+
+
+@pytest.fixture
+def student(lab, data):
+    shutil.rmtree(data / "course", ignore_errors=True)
+    return Student(lab, OWN_LAW)
+
+
+def test_a_law_is_tried_and_kept_for_another_browser(student, lab):
+    law = student.try_law(LAZY.decode()).raise_for_status().json()["law"]
+    again = Student(lab, OWN_LAW).read()
+
+    assert law["verdict"] in ("ran", "ended")
+    assert again["law"] == law
+    assert again["law"]["text"] == LAZY.decode()
+    assert again["law_points"] == 10
+
+
+def test_a_law_that_fails_is_told_why_and_the_next_one_takes_its_place(student):
+    law = student.try_law("def law(*given): return 1 / 0").json()["law"]
+    assert law["verdict"] == "failed"
+    assert "ZeroDivisionError" in law["output"]
+
+    assert student.try_law(LAZY.decode()).json()["law"]["verdict"] != "failed"
+
+
+def test_what_is_no_law_s_text_and_where_none_is_asked_for_is_refused(student, lab):
+    assert student.try_law("#" * (MAX_LAW_BYTES + 1)).status_code == 422
+    long = student.try_law("#" + "é" * (MAX_LAW_BYTES // 2))
+    assert long.status_code == 422
+    assert f"at most {MAX_LAW_BYTES} bytes" in long.json()["detail"]
+    assert student.try_law("").status_code == 422
+    assert student.read()["law"] is None
+
+    other = Student(lab, find_exercise("mechanism")).try_law(LAZY.decode())
+    assert other.status_code == 409
+    assert "asks for no law" in other.json()["detail"]
+
+
+def test_a_law_is_handed_in_and_the_same_submission_has_the_same_grade(
+    student, data, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(law_runs, "DRAWS", 2)
+    text = find_law(OWN_LAW)
+    student.answer("predict-peak", 2.8).raise_for_status()
+    student.answer("why", "tuned").raise_for_status()
+    student.set_up("integral").raise_for_status()
+    student.check("integral", student.run("integral", 8.0)).raise_for_status()
+    assert student.read()["missing"] == ["hand-in"]
+    assert student.hand_in().status_code == 409
+
+    student.try_law(text).raise_for_status()
+    judged = student.hand_in().raise_for_status().json()
+    assert judged["points"] == judged["max_points"] == 5
+    assert student.try_law(LAZY.decode()).status_code == 409
+
+    path = data / "course" / "handed-in" / "own-law" / "home.json"
+    assert Submission.read(path).law == text.encode()
+    books = [Book(tmp_path / "first"), Book(tmp_path / "second")]
+    books[1].secret = books[0].secret
+    first, again = (grade_file(path, {"own-law": OWN_LAW}, data, book) for book in books)
+    assert first == again
+    assert first.max_points == 15
+    law = [one for one in first.criteria if one.step == law_runs.LAW_STEP]
+    assert sum(one.max_points for one in law) == 10
+    given = sum(one.points for one in law)
+    assert first.points == pytest.approx(judged["points"] + given), "as many as its draws allow"
+    assert first.is_isolated

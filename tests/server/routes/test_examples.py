@@ -1,0 +1,112 @@
+"""What the schema shows as a body is taken by the server, or refused for no value in it."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.lab_in_process import run_lab_in_process
+from tests.server.access.classroom import wait_for_run
+from tests.server.routes.writing import list_examples
+from tests.server.schema import SCHEMA
+
+WORKERS = {
+    "POST /api/v1/tunings",
+    "POST /api/v1/studies",
+    "POST /api/v1/falsifications",
+    "POST /api/v1/leaderboard/submissions",
+    "POST /api/v1/sessions/{session}/design/stability",
+    "POST /api/v1/sessions/{session}/design/region",
+    "POST /api/v1/scenarios/runs",
+    "POST /api/v1/grades",
+}
+"""Minutes of a worker; the tests of these routes send what their examples are."""
+
+PATHS = SCHEMA["paths"]
+COURSE = "/api/v1/course/{exercise}"
+NOT_HERE = {
+    "POST /api/v1/join": "no class",
+    "POST /api/v1/return": "no class",
+    "POST /api/v1/tokens": "no class",
+    "POST /api/v1/sessions/{session}/control/handover": "nobody waits",
+    "PUT /api/v1/sessions/{session}/control/lock": "no class",
+    "POST /api/v1/sessions/{session}/bench/home": "no bench",
+    "POST /api/v1/sessions/{session}/bench/endurance": "no bench",
+    "POST /api/v1/sessions/{session}/exercise": "a prediction is asked for first",
+    f"POST {COURSE}/steps/{{step}}/check": "the run is of another lab",
+    f"PUT {COURSE}/law": "the exercise asks for no law",
+    f"POST {COURSE}/hand-in": "the exercise is not done",
+    "POST /api/v1/runs/{run_id}/verdict": "the run to judge by is of another lab",
+}
+"""What is asked for is not there, or not yet: 404 or 409, after the body was read."""
+
+STEP_THAT_ASKS = "predict-error"
+
+
+def list_shown() -> Iterator[Any]:
+    for path, item in PATHS.items():
+        for method, operation in item.items():
+            label = f"{method.upper()} {path}"
+            if "requestBody" in operation and label not in WORKERS:
+                for number, example in enumerate(list_examples(operation), 1):
+                    yield pytest.param(label, example, id=f"{label} {number}")
+
+
+def test_every_body_has_an_example() -> None:
+    for path, item in PATHS.items():
+        for method, operation in item.items():
+            if "requestBody" in operation:
+                assert list_examples(operation), f"{method} {path}"
+
+
+@pytest.fixture(scope="module")
+def lab() -> Iterator[httpx.Client]:
+    with run_lab_in_process() as lab:
+        lab.client.headers["SVSA-Client"] = "reader"
+        yield lab.client
+
+
+@pytest.fixture(scope="module")
+def run(lab: httpx.Client) -> str:
+    """A recorded run of a second."""
+    name = lab.post("/api/v1/sessions", json={"load": False}).json()["session"]
+    path = f"/api/v1/sessions/{name}"
+    lab.post(path + "/pause").raise_for_status()
+    run = lab.post(path + "/recording", json={}).json()["recording"]["run_id"]
+    lab.post(path + "/step", json={"ticks": 1000}).raise_for_status()
+    lab.delete(path + "/recording").raise_for_status()
+    wait_for_run(lab, f"/api/v1/runs/{run}")
+    lab.delete(path).raise_for_status()
+    return run
+
+
+@pytest.fixture
+def session(lab: httpx.Client) -> Iterator[str]:
+    """A private session, paused, with a lane beside its first and no load."""
+    asked = {"rivals": [{"law": "pd"}], "load": False}
+    name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
+    lab.post(f"/api/v1/sessions/{name}/pause").raise_for_status()
+    yield name
+    lab.delete(f"/api/v1/sessions/{name}")
+
+
+@pytest.mark.parametrize(("label", "example"), list(list_shown()))
+def test_an_example_is_taken(
+    lab: httpx.Client, session: str, run: str, label: str, example: Any
+) -> None:
+    method, path = label.split()
+    for one in PATHS[path][method.lower()].get("parameters", ()):
+        if one["in"] == "path":
+            shown = {"session": session, "run_id": run, "step": STEP_THAT_ASKS}.get(one["name"])
+            value = shown or (one.get("examples") or one["schema"]["examples"])[0]
+            path = path.replace(f"{{{one['name']}}}", str(value))
+    if isinstance(example, str):
+        body: dict[str, Any] = {"content": example, "headers": {"Content-Type": "text/csv"}}
+    else:
+        body = {"json": example}
+    answer = lab.request(method, path, **body)
+    if label in NOT_HERE:
+        assert answer.status_code in (404, 409), answer.text
+    else:
+        assert answer.is_success, answer.text

@@ -1,0 +1,98 @@
+"""Grades over REST: a class's for its instructor, everybody's own for themselves."""
+
+import time
+
+import pytest
+
+from svsa.course.progress import ProgressStore
+from svsa.isolation.refusal import NotIsolatedError
+from svsa_server.jobs.gradings import Asked, grade_all
+from svsa_server.jobs.progress import JobFolder, ask_to_stop
+from tests.grading.test_class_grades import EXERCISES, FL, hand_in
+from tests.server.access.classroom import run_class
+
+GRADES = "/api/v1/grades"
+LONGEST_S = 240.0
+
+
+@pytest.fixture(scope="module")
+def classroom(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("class")
+    with run_class(folder) as room:
+        yield room, ProgressStore(folder)
+
+
+def find_id(browser):
+    return browser.get("/api/v1/access").json()["id"]
+
+
+def wait_for_end(browser, job):
+    end = time.monotonic() + LONGEST_S
+    while (state := browser.get(f"/api/v1/jobs/{job}").json())["status"] in ("waiting", "running"):
+        assert time.monotonic() < end, state
+        time.sleep(0.1)
+    return state
+
+
+def test_the_instructor_grades_and_each_student_sees_the_own_grade_alone(classroom):
+    room, store = classroom
+    ada, bob, instructor = room.join("Ada"), room.join("Bob"), room.log_in()
+    assert instructor.post(GRADES, json={}).status_code == 409
+    assert instructor.get(GRADES).json()["students"] == []
+    hand_in(store, find_id(ada), "Ada", answers={"predict-error": 12.0})
+    hand_in(store, find_id(bob), "Bob")
+    assert ada.get(f"{GRADES}/mine").json() == [{"exercise": FL, "grade": None, "problem": ""}]
+
+    begun = instructor.post(GRADES, json={"again": False})
+    assert begun.status_code == 201
+    state = wait_for_end(instructor, begun.json()["id"])
+    assert (state["kind"], state["status"], state["done"]) == ("grading", "done", 2)
+
+    table = instructor.get(GRADES).json()
+    assert [one["name"] for one in table["students"]] == ["Ada", "Bob"]
+    (handed,) = table["students"][0]["handed"]
+    (own,) = ada.get(f"{GRADES}/mine").json()
+    assert own == handed
+    assert own["grade"]["criteria"][0]["feedback"] != ""
+    assert [one["grade"]["student"] for one in bob.get(f"{GRADES}/mine").json()] == ["Bob"]
+
+    lines = instructor.get(f"{GRADES}/class.csv").text.splitlines()
+    assert [line.split(",")[0] for line in lines] == ["student", "Ada", "Bob"]
+    page = instructor.get(f"{GRADES}/class.html").text
+    assert "Ada" in page
+    assert "Bob" in page
+    of_bob = instructor.get(f"{GRADES}/class.html", params={"person": find_id(bob)}).text
+    assert "Bob" in of_bob
+    assert "Ada" not in of_bob
+    own_page = ada.get(f"{GRADES}/mine.html")
+    assert "default-src 'none'" in own_page.headers["Content-Security-Policy"]
+    assert "Ada" in own_page.text
+    assert "Bob" not in own_page.text
+
+
+@pytest.mark.parametrize(
+    ("method", "path"),
+    [("GET", ""), ("POST", ""), ("GET", "/class.csv"), ("GET", "/class.html")],
+)
+def test_a_students_browser_gets_nothing_of_the_class(classroom, method, path):
+    room, _ = classroom
+    assert room.join("Eve").request(method, GRADES + path).status_code == 403
+    assert room.open_browser().request(method, GRADES + path).status_code == 401
+
+
+def test_where_nothing_isolates_the_table_says_so(classroom, monkeypatch):
+    def refuse():
+        raise NotIsolatedError("bwrap is not installed")
+
+    monkeypatch.setattr("svsa.isolation.probe.check_isolation", refuse)
+    told = classroom[0].log_in().get(GRADES).json()["not_isolated"]
+    assert "bwrap is not installed" in told
+
+
+def test_a_worker_that_is_to_stop_keeps_what_is_done(tmp_path):
+    store = ProgressStore(tmp_path / "data")
+    files = (hand_in(store, "p-1", "Ada"),)
+    ask_to_stop(tmp_path)
+    asked = Asked(files, EXERCISES, tmp_path, tmp_path / "book", False)
+    assert not grade_all(JobFolder(tmp_path), asked)
+    assert not list((tmp_path / "book" / "grades").iterdir())

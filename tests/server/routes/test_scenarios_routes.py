@@ -1,0 +1,92 @@
+"""Scenarios over REST: laws are put through one, it is kept by a name, and seen in a session."""
+
+import tomllib
+
+import pytest
+
+from svsa.falsify.measure import run_scenario
+from svsa.falsify.scenario import LoadScenario
+from svsa.falsify.trace import trace_scenario
+from tests.lab_in_process import run_lab_in_process
+
+SCENARIOS = "/api/v1/scenarios"
+BLOW = {
+    "title": "A blow that ends NDOBC on the rig, and not FL",
+    "base": {"figure": "4a", "effects": "rig", "loads": []},
+    "duration_s": 4.5,
+    "loads": [
+        {
+            "kind": "pulse",
+            "torque_nm": [-1.42642, 0.0, 0.0],
+            "start_s": 3.264,
+            "duration_s": 0.022,
+        }
+    ],
+}
+LAWS = ["ndobc", "fl"]
+
+
+@pytest.fixture(scope="module")
+def lab():
+    with run_lab_in_process() as lab:
+        yield lab.client
+
+
+def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
+    answer = lab.post(f"{SCENARIOS}/runs", json={"scenario": BLOW, "laws": LAWS})
+    told = answer.raise_for_status().json()
+    scenario = LoadScenario(**BLOW)
+    trace = trace_scenario(scenario, LAWS)
+    assert told["told"] == ["pulse of −1.42642 N·m on the link, from 3.264 s, 0.022 s long"]
+    assert min(torque[0] for torque in told["torque_nm"]) == -1.42642
+    assert len(told["time_s"]) == len(told["torque_nm"]) < len(trace.time_s)
+    for law, one, outcome, here in zip(
+        LAWS, told["laws"], run_scenario(scenario, LAWS), trace.laws, strict=True
+    ):
+        assert (one["law"], one["fault"], one["fault_s"]) == (law, outcome.fault, outcome.fault_s)
+        errors = [abs(error) for error in one["position_error_rad"] if error is not None]
+        assert max(errors) == pytest.approx(abs(here.errors[:, 0]).max(), abs=1e-7)
+    ended, held = told["laws"]
+    assert (ended["fault"], held["fault"]) == ("deflection_limit", None)
+    assert None not in held["position_error_rad"]
+    assert ended["position_error_rad"][-1] is None, "nothing is drawn after the fault"
+
+
+def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
+    assert lab.get(SCENARIOS).json() == []
+    kept = lab.put(f"{SCENARIOS}/blow", json=BLOW).raise_for_status().json()
+    assert kept == lab.get(f"{SCENARIOS}/blow").json() == lab.get(SCENARIOS).json()[0]
+    assert LoadScenario(**kept["scenario"]) == LoadScenario(**BLOW)
+    file = lab.get(f"{SCENARIOS}/blow/file").raise_for_status()
+    assert tomllib.loads(file.text) == kept["scenario"]
+    other = lab.put(f"{SCENARIOS}/blow", json=BLOW | {"duration_s": 3.0})
+    assert other.status_code == 422
+    assert "another scenario is kept by it" in other.json()["detail"]
+    assert lab.delete(f"{SCENARIOS}/blow").status_code == 204
+    for call in (lab.get, lab.delete):
+        assert call(f"{SCENARIOS}/blow").status_code == 404
+
+
+def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
+    seen = lab.post(f"{SCENARIOS}/sessions", json={"scenario": BLOW, "laws": LAWS})
+    assert seen.status_code == 201
+    state = seen.json()
+    assert [lane["law"] for lane in state["lanes"]] == LAWS
+    assert [one["load"]["kind"] for one in state["loads"]] == ["pulse"]
+    lab.delete(f"/api/v1/sessions/{state['session']}").raise_for_status()
+
+
+@pytest.mark.parametrize(
+    ("path", "wrong", "told"),
+    [
+        ("runs", {"laws": ["nobody"]}, "laws[0] is 'nobody'"),
+        ("runs", {"laws": []}, "laws"),
+        ("runs", {"scenario": BLOW | {"duration_s": 61.0}}, "scenario.duration_s is 61"),
+        ("runs", {"scenario": BLOW | {"settings": {"nothing": 1.0}}}, "nothing"),
+        ("sessions", {"scenario": BLOW | {"base": {"figure": "9"}}}, "base.figure is '9'"),
+    ],
+)
+def test_a_wrong_one_is_refused_with_name_and_bound(lab, path, wrong, told):
+    refused = lab.post(f"{SCENARIOS}/{path}", json={"scenario": BLOW, "laws": LAWS} | wrong)
+    assert refused.status_code == 422
+    assert told in refused.json()["detail"]

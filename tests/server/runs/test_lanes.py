@@ -1,0 +1,109 @@
+"""The lanes of a recorded run: their names, and who controlled them when."""
+
+from typing import Any
+
+import pytest
+
+from svsa.observer.disturbance import ObserverBandwidth
+from svsa.paper import get_figure
+from svsa.plant.disturbances import PaperLoad
+from svsa.records.measured_window import trace_record
+from svsa.records.reader import Record, build_record
+from svsa.run.command import ApplyLoad, SetLaws, SetObserver, build_command
+from svsa.run.configuration import Lane
+from svsa.session.simulated import SimulatedSession
+from svsa_server.runs.lanes import list_record_stretches, name_lanes
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.state import build_state
+from tests.records.records import build_header, build_samples
+
+FIRST_TICK = 200
+FL, NDOBC = {"law": "fl"}, {"law": "ndobc"}
+FASTER = {"bandwidth_rad_per_s": (120.0, 120.0, 120.0)}
+
+
+def record_lanes(
+    lanes: int, rivals: list[Any], commands: list[tuple[int, str, Any]], plant: str = "simulated"
+) -> Record:
+    names = tuple(f"lane{number + 1}" for number in range(lanes))
+    configuration = get_figure("4a").build_configuration().model_dump(mode="json")
+    configuration["rivals"] = rivals
+    header = build_header(lanes=names, configuration=configuration, plant=plant)
+    given = [(tick, {"tick": tick, "kind": k, "argument": a}) for tick, k, a in commands]
+    return build_record(header, given, FIRST_TICK, build_samples(10, lanes, FIRST_TICK))
+
+
+def list_stretches(record: Record) -> list[list[tuple[str, int, int, int | None]]]:
+    stretches = list_record_stretches(record, trace_record(record))
+    return [[(s.name, s.ink, s.start_tick, s.end_tick) for s in lane] for lane in stretches]
+
+
+@pytest.mark.parametrize(
+    ("lanes", "rivals", "commands", "names"),
+    [
+        (1, [], [], ["NDOBC"]),
+        (2, [], [(100, "rivals", [FL])], ["NDOBC", "FL"]),
+        (1, [], [(100, "law", "fl")], ["FL"]),
+        (2, [FL], [(205, "law", "fl")], ["NDOBC → FL (2)", "FL"]),
+        (2, [FL], [(205, "laws", ["fl", "ndobc"])], ["NDOBC → FL", "FL → NDOBC"]),
+        (1, [], [(205, "observer", FASTER)], ["NDOBC β 60 → NDOBC β 120"]),
+        (3, [FL, FL], [], ["NDOBC", "FL", "FL (2)"]),
+        (2, [], [], ["lane1", "lane2"]),
+        (2, [None], [(0, "rivals", [7])], ["lane1", "lane2"]),
+    ],
+)
+def test_lanes_are_called_by_the_laws_while_the_recording_went_on(
+    lanes: int, rivals: list[Any], commands: list[tuple[int, str, Any]], names: list[str]
+) -> None:
+    record = record_lanes(lanes, rivals, commands)
+    assert name_lanes(list_record_stretches(record, trace_record(record))) == names
+
+
+def test_a_bench_and_its_twin_are_told_apart() -> None:
+    record = record_lanes(3, [NDOBC, FL], [(205, "law", "fl")], plant="emulated")
+    assert list_stretches(record) == [
+        [("Bench NDOBC", 0, 0, 205), ("Bench FL", 3, 205, None)],
+        [("Twin NDOBC", 2, 0, 205), ("Twin FL", 4, 205, None)],
+        [("FL", 1, 0, None)],
+    ]
+
+
+def test_what_was_tried_before_the_recording_takes_no_ink_from_what_is_in_it() -> None:
+    record = record_lanes(1, [], [(100, "observer", FASTER), (150, "law", "fl")])
+    assert list_stretches(record) == [[("FL", 1, 150, None)]]
+    again = record_lanes(1, [], [(100, "observer", FASTER), (205, "law", "fl")])
+    assert list_stretches(again) == [[("NDOBC", 0, 100, 205), ("FL", 1, 205, None)]]
+
+
+def test_a_stretch_over_several_windows_says_so() -> None:
+    timeline = trace_record(record_lanes(1, [], [(205, "law", "fl")]))
+    assert timeline is not None
+    stretches = ((200, 210), (205, 210), (200, 205))
+    told = [[one.label for one in timeline.list_windows(*ticks)] for ticks in stretches]
+    assert told == [["", "NDOBC → FL"], ["NDOBC → FL"], [""]]
+
+
+def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lanes() -> None:
+    assert build_command(0, "unload", 7).kind == "unload"
+    assert trace_record(record_lanes(1, [], [(205, "unload", 7)])) is None
+
+
+def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
+    """NDOBC recovered, FL did not; that they change places afterwards makes neither the other."""
+    fl_beside = (Lane(law="fl"),)
+    figure = get_figure("4a").build_configuration(load=False).changed(rivals=fl_beside)
+    session = SimulatedSession("test", figure)
+    session.step(100)
+    session.change(ApplyLoad(argument=PaperLoad()))
+    session.step(1500)
+    before = {lane.name: lane.since_load for lane in build_state(HostedSession(session)).lanes}
+    session.change(SetLaws(argument=("fl", "ndobc")))
+    session.step(1500)
+    after = build_state(HostedSession(session))
+    assert [lane.name for lane in after.lanes] == ["FL", "NDOBC"]
+    assert {lane.name: lane.since_load for lane in after.lanes} == before
+    assert before["NDOBC"].recovery_time_s < 0.5
+    assert before["FL"].recovery_time_s is None
+    session.change(SetObserver(argument=ObserverBandwidth(**FASTER)))
+    faster = build_state(HostedSession(session)).lanes[1]
+    assert (faster.name, faster.since_load) == ("NDOBC β 120", None), "it was not there then"

@@ -1,0 +1,11 @@
+"""The schema as it is kept, which `test_docs` holds the server to.
+
+To build it takes 2 s in each process that reads the tests.
+"""
+
+import json
+from pathlib import Path
+
+SCHEMA = json.loads(
+    (Path(__file__).parents[2] / "docs" / "openapi.json").read_text(encoding="utf-8")
+)

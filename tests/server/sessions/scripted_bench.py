@@ -1,0 +1,69 @@
+"""A bench session in this process, whose loop is a script: no process, no bus, no waiting."""
+
+import types
+from typing import Any
+
+import pytest
+
+from svsa.bench.realtime.launch import BenchError
+from svsa.bench.realtime.memory import LoopMemory
+from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.paper import get_figure
+from svsa.session import supervised_loop
+from svsa.session.bench import BenchSession
+from svsa_server.sessions.turn import let_pass
+from tests.hardware.wired_bench import RIG_BENCH
+
+ANSWER_S = 0.01
+STEP = "compiling the loop, once: 3 functions, observe the last"
+
+
+class Processes:
+    """Loop and supervisor: `script` says how they start, and every command takes a while.
+
+    script: `ready`, so long until `wait_until_ready` returns, s; `refusal`, why it does not.
+    """
+
+    script = types.SimpleNamespace(ready_s=0.0, refusal=None)
+
+    def __init__(self, *_: Any) -> None:
+        self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
+        self.step, self.age_s, self.failure = STEP, 12.3, None
+        self.silence_s, self.notes, self.supervisor_alive = 0.0, [], True
+        self.listens = self.alive = False
+        self.told: list[Any] = []
+        self.third_line = types.SimpleNamespace(intervention=None)
+
+    def wait_until_ready(self, silence_s: float, tell: Any) -> None:
+        tell(self.step, self.age_s)
+        let_pass(self.script.ready_s)
+        if self.script.refusal is not None:
+            self.failure = f"The bench cannot be opened: {self.script.refusal}"
+            raise BenchError(self.failure)
+        self.listens = self.alive = True
+
+    def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
+        let_pass(ANSWER_S)
+        self.told.append(argument)
+        return {"tick": 0}
+
+    def take_events(self) -> list[dict[str, Any]]:
+        return []
+
+    def end(self) -> None:
+        self.listens = self.alive = self.supervisor_alive = False
+
+    def free(self) -> None:
+        self.memory.close()
+        self.beats.close()
+
+
+def build_bench_session(
+    monkeypatch: pytest.MonkeyPatch, ready_s: float = 0.0, refusal: str | None = None
+) -> BenchSession:
+    """A session of the rig's bench file that has still to be opened."""
+    script = types.SimpleNamespace(ready_s=ready_s, refusal=refusal)
+    monkeypatch.setattr(Processes, "script", script)
+    monkeypatch.setattr(supervised_loop, "BenchProcesses", Processes)
+    figure = get_figure("4a").build_configuration(load=False)
+    return BenchSession("lab", RIG_BENCH, figure, rest=let_pass)

@@ -1,0 +1,203 @@
+"""Two clients change parts of one thing at a bench, whose loop takes a while to answer."""
+
+import asyncio
+from collections.abc import Iterator
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from svsa.bench.realtime.loss import Loss
+from svsa.bench.safety.machine import BenchStatus
+from svsa.control.gains import Gains
+from svsa.errors import Fault, StateError
+from svsa.loop.lane import AT_REST
+from svsa.run.command import SetLane, SetLaw, SetPosition, SetRivals, Stop
+from svsa.run.configuration import Lane
+from svsa.run.run import Start
+from svsa.session.bench import BenchSession
+from svsa.session.bench_run import BenchRun
+from svsa.signals import CHANNELS
+from svsa_server.routes import settings
+from svsa_server.schemas.gain import GainsRequest
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.state import build_progress
+from svsa_server.sessions.turn import take_turn
+from tests.server.sessions.scripted_bench import Processes, build_bench_session
+from tests.session.test_bench_run import write
+
+
+@pytest.fixture
+def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
+    monkeypatch.setattr(settings, "build_state", lambda _: None)
+    made = build_bench_session(monkeypatch)
+    made.open()
+    yield made
+    made.close()
+
+
+def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> None:
+    before, hosted = session.run.configuration.gains, HostedSession(session)
+    requests = (
+        GainsRequest(stiffness_coefficients=(900.0, 60.0)),
+        GainsRequest(position_poles_rad_per_s=(-30.0, -30.0, -30.0, -30.0)),
+        GainsRequest(stiffness_coefficients=(1600.0, 80.0)),
+    )
+
+    async def ask() -> None:
+        await asyncio.gather(
+            *(take_turn(settings.set_gains, hosted=hosted, request=each) for each in requests)
+        )
+
+    asyncio.run(ask())
+    gains = session.run.configuration.gains
+    assert gains == requests[2].apply_to(requests[1].apply_to(before))
+    assert isinstance(session.loop.processes, Processes)
+    assert Gains(**session.loop.processes.told[-1]["argument"]) == gains, "the loop has the same"
+
+
+def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
+    async def ask() -> None:
+        await asyncio.gather(
+            take_turn(session.change, SetLaw(argument="fl")),
+            take_turn(session.change, SetRivals(argument=(Lane(law="ndobc"),))),
+        )
+
+    asyncio.run(ask())
+    configuration = session.run.configuration
+    assert [lane.law for lane in configuration.lanes] == ["fl", "fl", "ndobc"]
+
+
+def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession) -> None:
+    settings = [
+        SetLaw(argument="fl"),
+        SetRivals(argument=(Lane(law="ndobc"),)),
+        SetPosition(argument=session.run.configuration.position.changed(transition_s=0.5)),
+    ]
+
+    async def ask() -> None:
+        await asyncio.gather(*(take_turn(session.set, each) for each in settings * 2))
+
+    asyncio.run(ask())
+    processes, journal = session.loop.processes, session.journal
+    assert isinstance(processes, Processes)
+    told = [one["kind"] for one in processes.told if isinstance(one, dict) and "kind" in one]
+    assert sorted(told) == ["law", "position", "rivals"]
+    assert sorted(command.kind for command in journal.commands) == sorted(told)
+    before = len(journal.events)
+    session.change(settings[-1])
+    assert len(journal.events) == before + 1, "begun again where that is asked for"
+
+
+def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
+    """Refused before the loop hears of it: it would control its own twin otherwise."""
+    told = len(session.loop.processes.told)  # pyright: ignore[reportAttributeAccessIssue]
+    setting = {"lane": 2, "setting": {"law": "ndobc", "observer": None}}
+    with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
+        session.change(SetLane(argument=setting))
+    assert len(session.loop.processes.told) == told  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
+    session: BenchSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """That nobody has stopped the drives yet is not the last word on it."""
+    written: list[Fault] = []
+    recorder = SimpleNamespace(write_fault=written.append, fault=None)
+    words = ["Nobody has stopped the drives yet.", "The supervisor has.", "The supervisor has."]
+    losses = [Loss("loop_lost", message, None, None) for message in words]
+    monkeypatch.setattr(session.loop, "find_settled_loss", lambda: losses.pop(0))
+    monkeypatch.setattr(session, "_told_status", BenchStatus.RUN)
+    monkeypatch.setattr(session.journal, "recorder", recorder)
+    session.wake(0.0)
+    recorder.fault = written[-1]
+    session.wake(0.0)
+    session.wake(0.0)
+    assert [fault.message for fault in written] == words[:2]
+    monkeypatch.undo()
+
+
+def test_what_a_stop_does_on_its_ramp_is_not_in_the_numbers_of_the_run(
+    session: BenchSession,
+) -> None:
+    """The twin goes on without a ramp: in one window they would not be of the same."""
+    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
+    memory.begin_run(1)
+    session._begin(BenchRun(session.run.configuration, start, memory))
+    tell(session, BenchStatus.RUN)
+    write(memory, 0, 100)
+    session.wake(0.0)
+    write(memory, 100, 50)
+    tell(session, BenchStatus.RAMP)
+    session.wake(0.0)
+    journal = session.journal
+    assert (journal.timeline.window.kind, journal.timeline.window.first_tick) == ("stop", 100)
+    (before,) = journal.metrics.ended
+    assert [one and one.duration_s for one in before.lanes] == pytest.approx([0.1, 0.1])
+    since = [one and one.summarize() for one in journal.metrics.in_window]
+    assert [one and one.duration_s for one in since] == pytest.approx([0.05, 0.05])
+    assert [event.label for event in journal.events] == ["Stop"]
+    assert journal.commands == [Stop(tick=100)], "a record has it, too"
+
+
+def test_a_twin_that_ended_has_no_numbers(session: BenchSession) -> None:
+    """What it did until then is not how it does; the bench goes on."""
+    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
+    memory.begin_run(1)
+    session._begin(BenchRun(session.run.configuration, start, memory))
+    tell(session, BenchStatus.RUN)
+    write(memory, 0, 100)
+    session.wake(0.0)
+    hosted = HostedSession(session)
+    assert all(lane.in_window is not None for lane in build_progress(hosted).lanes)
+    (_, twin) = session.journal.metrics.in_window
+    assert twin is not None
+    twin.update(np.full((501, len(CHANNELS)), np.nan))
+    bench, ended = build_progress(hosted).lanes
+    assert bench.in_window is not None
+    assert ended.in_window is None
+    assert ended.model_dump(mode="json")["in_window"] is None
+
+
+def run_and_stop(session: BenchSession) -> None:
+    """A run of 100 ticks, after which the bench stands."""
+    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
+    memory.begin_run(1)
+    session._begin(BenchRun(session.run.configuration, start, memory))
+    tell(session, BenchStatus.RUN)
+    write(memory, 0, 50)
+    session.wake(0.0)
+    write(memory, 50, 50)
+    for status in (BenchStatus.RAMP, BenchStatus.READY):
+        tell(session, status)
+        session.wake(0.0)
+    assert session.run.tick == 100
+
+
+def test_a_run_that_is_reset_is_not_read_again(session: BenchSession) -> None:
+    run_and_stop(session)
+    session.reset()
+    session.wake(0.0)
+    assert (session.run.tick, session.journal.history.end_tick) == (0, 0)
+
+
+def test_what_is_recorded_of_a_bench_that_stands_has_nothing_of_the_run_before(
+    session: BenchSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its stop and its loads would be commands of the new one, and the loop's ticks its own."""
+    monkeypatch.setattr(type(session.loop), "emulated", True)
+    run_and_stop(session)
+    told = session.loop.processes.told = []
+    session.prepare_recording()
+    assert len(told) == 1, "the loop begins at tick 0, too: a change is waited for until its tick"
+    session.wake(0.0)
+    assert (session.run.tick, session.journal.commands) == (0, [])
+
+
+def tell(session: BenchSession, status: BenchStatus) -> None:
+    """What the loop says of itself with the next wake."""
+    event = {"event": "state", "status": status, "problems": [], "homing_step": None}
+    told = [event | {"held_back": [], "fault": None}]
+    session.loop.processes.take_events = lambda: [told.pop()] if told else []  # pyright: ignore
+    if status is BenchStatus.RUN:
+        session.wake(0.0)

@@ -1,0 +1,98 @@
+"""What a lab tells of the heat of a bench's motors: state, events, and before a load is hung."""
+
+import asyncio
+from collections.abc import Iterator
+
+import pytest
+
+from svsa.bench.safety.machine import BenchStatus
+from svsa.errors import StateError
+from svsa.plant.disturbances import MassLoad, PaperLoad
+from svsa.session.bench import BenchSession
+from svsa_server.routes.bench import foretell_heat
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.state import build_state
+from tests.session.sessions import build_session
+
+from .scripted_bench import build_bench_session
+
+
+@pytest.fixture
+def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
+    made = build_bench_session(monkeypatch)
+    made.open()
+    yield made
+    made.close()
+
+
+def tell(session: BenchSession, status: BenchStatus, *held_back: str) -> None:
+    """What the loop says of itself, as it comes with the next wake."""
+    event = {"event": "state", "status": status, "problems": [], "homing_step": None}
+    told = event | {"held_back": list(held_back), "fault": None}
+    session.loop.processes.take_events = lambda: [told]  # pyright: ignore
+    session._take_states(session.loop.take_states())
+
+
+def list_events(session: BenchSession) -> list[tuple[str, str]]:
+    return [(event.kind, event.label) for event in session.journal.events]
+
+
+def test_that_heat_begins_and_ends_to_hold_a_motor_back_are_events(session: BenchSession) -> None:
+    tell(session, BenchStatus.RUN)
+    tell(session, BenchStatus.RUN, "motor2")
+    tell(session, BenchStatus.RUN, "motor2")
+    tell(session, BenchStatus.RUN, "motor1", "motor2")
+    tell(session, BenchStatus.RUN, "motor2")
+    assert list_events(session) == [
+        ("held_back", "Motor 2 held back by heat"),
+        ("held_back", "Motor 1 held back by heat"),
+        ("held_back_no_more", "Motor 1 held back by heat: no more"),
+    ]
+
+
+def test_a_bench_that_stands_asks_nothing_of_a_warm_motor(session: BenchSession) -> None:
+    tell(session, BenchStatus.RUN, "motor2")
+    tell(session, BenchStatus.READY)
+    tell(session, BenchStatus.RUN, "motor2")
+    assert [kind for kind, _ in list_events(session)] == ["held_back", "held_back"]
+
+
+def test_the_state_has_the_heat_of_both_motors_while_the_loop_ticks(session: BenchSession) -> None:
+    fields = session.loop.memory.fields
+    fields["heat"], fields["allowed_nm"], fields["is_held_back"] = (0.1, 0.99), (15.0, 1.6), (0, 1)
+    fields["skipped"], fields["skipped_in_run"] = 64, 3
+    bench = build_state(HostedSession(session)).bench
+    assert bench is not None
+    assert bench.motors is not None
+    one, two = bench.motors
+    assert (one.heat, one.allowed_torque_nm, one.held_back) == (0.1, 15.0, False)
+    assert (two.heat, two.allowed_torque_nm, two.held_back) == (0.99, 1.6, True)
+    assert two.lasting_torque_nm == pytest.approx(1.2215, abs=1e-4)
+    assert (bench.loop.skipped_ticks, bench.loop.skipped_in_run) == (64, 3)
+
+
+def test_nobody_knows_the_heat_while_no_loop_ticks(monkeypatch: pytest.MonkeyPatch) -> None:
+    starting = build_bench_session(monkeypatch)
+    bench = build_state(HostedSession(starting)).bench
+    starting.close()
+    assert bench is not None
+    assert bench.motors is None
+
+
+def test_before_a_load_hangs_it_is_told_which_motor_bears_it_for_how_long(
+    session: BenchSession,
+) -> None:
+    hosted = HostedSession(session)
+    found = asyncio.run(foretell_heat(hosted, PaperLoad()))
+    assert found is not None
+    assert found.motor == "motor2"
+    assert 2.0 < found.seconds < 6.0
+    assert found.lasting_torque_nm == pytest.approx(1.2215, abs=1e-4)
+    assert found.torque_nm > found.lasting_torque_nm
+    assert asyncio.run(foretell_heat(hosted, MassLoad())) is None
+    assert session.journal.commands == []
+
+
+def test_a_simulation_has_no_motors_that_get_warm() -> None:
+    with pytest.raises(StateError, match="is simulated"):
+        asyncio.run(foretell_heat(HostedSession(build_session()), PaperLoad()))

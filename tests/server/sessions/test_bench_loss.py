@@ -1,0 +1,112 @@
+"""The lab with a bench whose processes are killed or stand still while it holds a load.
+
+That it comes to run again is seen where the next holds a load. Nothing here asks how soon
+anything was: `tests.hardware.safety.test_survivors` measures that, and what a killed server leaves.
+"""
+
+import contextlib
+import os
+import signal
+from collections.abc import Iterator
+
+import pytest
+
+from tests.hardware.safety.survivors import LOAD, LOOP, SUPERVISOR, wait_until_held
+from tests.server.sessions.bench_lab import BenchLab, run_bench_lab, wait_until
+
+pytestmark = pytest.mark.wall_clock
+
+ZERO_S = 5.0
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
+    with run_bench_lab(tmp_path_factory.mktemp("bench"), lockstep=False) as running:
+        yield running
+
+
+@contextlib.contextmanager
+def holding(bench: BenchLab) -> Iterator[None]:
+    """It runs, whatever was before, and holds a load still: a rig that is not let run for a
+    moment finds it as it left it.
+    """
+    with bench.running():
+        state = bench.wait_for_ticks(100)
+        assert state["fault"] is None
+        assert state["bench"]["supervised"] is True
+        bench.ask("/position", {"kind": "constant", "position_rad": 0.2}, "PUT")
+        bench.rig.control.load(LOAD)
+        try:
+            assert wait_until_held(bench.rig), bench.describe()
+            yield
+        finally:
+            bench.rig.control.set_loads(())
+
+
+def test_a_killed_loop_leaves_zero_current_and_is_started_anew(bench: BenchLab) -> None:
+    with holding(bench):
+        os.kill(bench.find_process(LOOP), signal.SIGKILL)
+        wait_until(bench.is_at_zero, longest_s=ZERO_S)
+        wait_until(lambda: bench.read()["fault"] is not None)
+        fault = bench.read()["fault"]
+        assert fault["code"] == "loop_lost"
+        assert "supervisor" in fault["message"]
+    bench.ask("/bench/clear")
+
+
+@pytest.mark.exhaustive
+def test_a_killed_supervisor_ends_the_run_and_is_started_anew(bench: BenchLab) -> None:
+    with holding(bench):
+        os.kill(bench.find_process(SUPERVISOR), signal.SIGKILL)
+        wait_until(lambda: bench.read()["fault"] is not None)
+        wait_until(bench.is_at_zero, longest_s=ZERO_S)
+        state = bench.read()
+        assert state["fault"]["code"] == "supervisor_lost"
+        assert state["bench"]["supervised"] is False
+    bench.ask("/bench/clear")
+
+
+def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_nobody_else(bench: BenchLab) -> None:
+    """Nobody watches any more, so that the server has a reason to ask it at every wake."""
+    client = bench.lab.client
+    private = client.post("/api/v1/sessions", json={"figure": "4a"}).raise_for_status().json()
+    path = f"/api/v1/sessions/{private['session']}"
+    with holding(bench):
+        os.kill(bench.find_process(LOOP), signal.SIGSTOP)
+    wait_until(bench.is_at_zero, longest_s=ZERO_S)
+    wait_until(lambda: bench.read()["fault"] is not None)
+    state = bench.read()
+    loop = state["bench"]["loop"]
+    assert state["fault"]["code"] == "loop_silent"
+    assert "Start the loop anew" in state["fault"]["message"]
+    assert (state["status"], state["bench"]["status"]) == ("fault", "fault")
+    assert (loop["alive"], loop["state"], loop["stopped_by"]) == (False, "silent", "supervisor")
+    assert loop["silent_s"] > 0.5
+    assert state["bench"]["current_a"] is None, "nobody hears what they make"
+    assert min(state["bench"]["ages_s"]) > 0.5, "what was heard is as old as the last tick"
+    before = client.get(path).json()["tick"]
+    assert "silent" in bench.refuse("/bench/arm")
+    wait_until(lambda: client.get(path).json()["tick"] > before + 1000)
+    client.delete(path).raise_for_status()
+    state = bench.ask("/bench/restart")
+    assert (state["fault"], state["bench"]["loop"]["state"]) == (None, "ticking")
+
+
+def test_without_loop_and_supervisor_the_server_stops_the_drives(bench: BenchLab) -> None:
+    with holding(bench):
+        warmed = [motor["heat"] for motor in bench.read()["bench"]["motors"]]
+        for module in (LOOP, SUPERVISOR):
+            os.kill(bench.find_process(module), signal.SIGKILL)
+        wait_until(bench.is_at_zero, longest_s=ZERO_S)
+        done = "The server has opened the bus"
+        wait_until(lambda: done in (bench.read()["fault"] or {"message": ""})["message"])
+        state = bench.read()
+        assert state["fault"]["code"] == "loop_and_supervisor_lost"
+        assert state["bench"]["loop"]["stopped_by"] == "server"
+        assert state["bench"]["loop"]["state"] == "gone"
+        assert state["bench"]["loop"]["unreachable"] is None
+    state = bench.ask("/bench/restart")
+    for motor, warm in zip(state["bench"]["motors"], warmed, strict=True):
+        assert motor["heat"] > 0.1 * warm > 0.0, "a motor is as warm as before the restart"
+    with holding(bench):
+        pass

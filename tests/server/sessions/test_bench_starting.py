@@ -1,0 +1,159 @@
+"""A bench that starts slowly, or not at all: the lab is there before it, and says how far it is."""
+
+import asyncio
+import io
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from rich.console import Console
+
+from svsa.errors import StateError
+from svsa.run.command import SetLaw
+from svsa.session.bench import BenchSession
+from svsa_server.sessions.bench_start import open_bench
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.state import build_state
+from tests.hardware.live_bench import start_live_rig, write_bench
+from tests.lab import run_lab
+from tests.server.sessions.bench_lab import wait_until
+from tests.server.sessions.scripted_bench import STEP, Processes, build_bench_session
+
+COMMANDS: dict[str, Callable[[BenchSession], Any]] = {
+    "arm": lambda session: session.arm(),
+    "home": lambda session: session.confirm_home("link", "Ada"),
+    "run": lambda session: session.start(),
+    "change": lambda session: session.change(SetLaw(argument="fl")),
+    "load": lambda session: session.load(session.run.configuration),
+    "reset": lambda session: session.reset(),
+    "record": lambda session: session.prepare_recording(),
+}
+
+
+@pytest.fixture
+def starting(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
+    made = build_bench_session(monkeypatch)
+    made.watched = True
+    yield made
+    made.close()
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_until_it_is_ready_it_takes_no_command_and_says_why(
+    starting: BenchSession, name: str
+) -> None:
+    with pytest.raises(StateError, match=r"being started \(compiling .*, 12 s\): ask again when"):
+        COMMANDS[name](starting)
+    starting.open()
+    assert isinstance(starting.loop.processes, Processes)
+    assert starting.loop.processes.told == [], "nothing of it comes later"
+
+
+def test_what_is_told_of_a_bench_that_starts_is_known(starting: BenchSession) -> None:
+    """No mark is confirmed, nothing is heard, and its twin stands at rest."""
+    starting.wake(0.0)
+    state = build_state(HostedSession(starting))
+    assert state.bench is not None
+    assert (state.status, state.bench.status, state.fault) == ("paused", "off", None)
+    loop = state.bench.loop
+    assert (loop.state, loop.alive, loop.step, loop.starting_s) == ("starting", False, STEP, 12.3)
+    assert state.bench.homing.next_step == "link"
+    assert state.bench.current_a is None
+    assert min(state.bench.ages_s) == 1000.0
+    assert state.bench.emulated is None
+    starting.open()
+    state = build_state(HostedSession(starting))
+    assert state.bench is not None
+    assert (state.bench.loop.state, state.bench.loop.step) == ("ticking", None)
+
+
+def test_while_it_starts_the_lab_goes_on_and_the_console_says_how_it_goes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    session = build_bench_session(monkeypatch, ready_s=0.05)
+    console = Console(file=io.StringIO(), width=200)
+    seen = []
+
+    async def serve() -> None:
+        opening = asyncio.create_task(open_bench(session, console))
+        while not opening.done():
+            seen.append(session.loop.starting)
+            await asyncio.sleep(0.005)
+
+    asyncio.run(serve())
+    assert seen.count(True) > 2
+    assert not session.loop.starting
+    assert console.file.getvalue().splitlines() == [
+        f"The bench is {STEP} (12 s) …",
+        "The bench is there: it may be armed.",
+    ]
+    session.close()
+
+
+def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    session = build_bench_session(monkeypatch, refusal="No adapter is plugged in.")
+    console = Console(file=io.StringIO(), width=200)
+    asyncio.run(open_bench(session, console))
+    said = console.file.getvalue()
+    assert "The bench cannot be opened: No adapter is plugged in." in said
+    assert "POST /api/v1/sessions/lab/bench/restart" in said
+    session.wake(0.0)
+    state = build_state(HostedSession(session))
+    assert state.fault is not None and state.bench is not None
+    assert "No adapter is plugged in. Start the loop anew." in state.fault.message
+    assert state.fault.code == "bench_not_opened", "nothing was lost that never was there"
+    assert [event.label for event in state.events] == ["Bench not opened"]
+    assert state.bench.loop.state == "not_opened"
+    assert state.bench.emulated is None, "nobody knows what is behind a bus that was not heard"
+    with pytest.raises(StateError, match="No adapter"):
+        session.restart()
+    Processes.script.refusal = None
+    session.restart()
+    state = build_state(HostedSession(session))
+    assert state.bench is not None
+    assert (state.fault, state.bench.status, state.bench.loop.state) == (None, "off", "ticking")
+    session.close()
+
+
+@pytest.mark.parametrize(
+    ("said", "ticks", "known"), [(1, 1, True), (0, 300, None), (0, 301, False)]
+)
+def test_whether_it_is_emulated_is_known_once_the_bus_was_listened_to(
+    starting: BenchSession, said: int, ticks: int, known: bool | None
+) -> None:
+    starting.open()
+    starting.loop.memory.fields["emulated"], starting.loop.memory.fields["ticks"] = said, ticks
+    state = build_state(HostedSession(starting))
+    assert state.bench is not None
+    assert state.bench.emulated is known
+    if known is None:
+        with pytest.raises(StateError, match="not known yet"):
+            COMMANDS["record"](starting)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.wall_clock
+def test_a_lab_whose_bench_is_not_there_is_served_and_finds_it_again(tmp_path: Path) -> None:
+    """Nobody listens at the port in the bench file, until it is corrected."""
+    with start_live_rig(lockstep=True) as rig:
+        path = write_bench(tmp_path, rig, lockstep=True)
+        right = path.read_text(encoding="utf-8")
+        path.write_text(right.replace(f"port = {rig.port}\n", "port = 1\n"), encoding="utf-8")
+        with run_lab("--bench", str(path)) as lab:
+            assert lab.client.get("/").is_success
+            state = lab.read()
+            if state["bench"]["loop"]["state"] == "starting":
+                answer = lab.client.post(lab.session + "/bench/arm")
+                assert answer.status_code == 409
+            wait_until(lambda: lab.read()["fault"] is not None)
+            message = lab.read()["fault"]["message"]
+            assert "cannot be opened" in message and "Start the loop anew" in message
+            path.write_text(right, encoding="utf-8")
+            restart: httpx.Response = lab.client.post(lab.session + "/bench/restart")
+            assert restart.is_success, restart.text
+            assert lab.client.post(lab.session + "/bench/arm").is_success
+            wait_until(lambda: lab.read()["bench"]["status"] == "ready")

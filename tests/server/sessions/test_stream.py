@@ -1,0 +1,193 @@
+"""The stream of samples: greeting, batches, bandwidth, slow clients, new runs."""
+
+import json
+import math
+import socket
+import struct
+import time
+
+import numpy as np
+import pytest
+from websockets.sync.client import ClientConnection, connect
+
+from svsa.paper import get_figure
+from svsa.session.simulated import SimulatedSession
+from svsa_server.schemas.stream import StreamRequest
+from svsa_server.sessions.cursor import SampleCursor
+from tests.lab import Lab
+
+HEADER = struct.Struct("<4sIQIIII")
+
+
+class Batch:
+    """One binary message, decoded as the documentation says."""
+
+    def __init__(self, message: bytes, channels: int) -> None:
+        magic, *numbers = HEADER.unpack(message[:32])
+        assert magic == b"SVSA"
+        self.run, self.first, self.stride, count, self.missed, lanes = numbers
+        self.lanes = np.frombuffer(message[32 : 32 + 4 * lanes], "<u4").tolist()
+        samples = np.frombuffer(message[32 + 4 * lanes :], "<f4").reshape(count, lanes, channels)
+        self.rows = samples[:, 0]
+        self.ticks = self.first + self.stride * np.arange(count)
+        self.size = len(message)
+
+
+def test_a_run_many_times_faster_than_time_has_gaps_and_no_wide_steps() -> None:
+    """Samples seconds apart would be joined to curves that never were."""
+    session = SimulatedSession("lab", get_figure("4a").build_configuration())
+    session.set_speed(math.inf)
+    session.start()
+    cursor = SampleCursor(session, StreamRequest(rate_hz=200.0, history_s=20.0), ("position_rad",))
+    ends, batches = [], []
+    for burst in range(90):
+        session.burst(1e-3 * burst)
+        if burst % 30 == 29:
+            message = cursor.take_batch(slow=False)
+            assert message is not None
+            batches.append(Batch(message, 1))
+            ends.append(session.run.tick)
+    assert session.pace.real_time_factor > 1000
+    for batch, end in zip(batches, ends, strict=True):
+        assert batch.stride * session.run.period_s <= 0.025
+        assert batch.ticks[-1] >= end - batch.stride
+        assert batch.missed == 0, "no client was slow"
+        assert batch.size < 2000
+    assert batches[1].first > batches[0].ticks[-1] + batches[0].stride
+
+
+def open_stream(lab: Lab, query: str = "", **options: object) -> tuple[ClientConnection, dict]:
+    stream = connect(lab.stream_url + query, proxy=None, max_size=None, **options)
+    return stream, json.loads(stream.recv(timeout=10))
+
+
+def read_batches(stream: ClientConnection, hello: dict, count: int) -> list[Batch]:
+    batches: list[Batch] = []
+    while len(batches) < count:
+        message = stream.recv(timeout=10)
+        if isinstance(message, bytes):
+            batches.append(Batch(message, len(hello["channels"])))
+    return batches
+
+
+def test_the_greeting_names_channels_and_units(lab: Lab) -> None:
+    stream, hello = open_stream(lab)
+    with stream:
+        assert hello["type"] == "hello"
+        assert hello["rate_hz"] == 200
+        assert len(hello["channels"]) == 13
+        fields = {field["name"]: field["byte"] for field in hello["batch"]["header"]}
+        assert list(fields.values()) == [0, 4, 8, 16, 20, 24, 28]
+        assert fields["first_tick"] == 8
+        assert hello["batch"]["header_bytes"] == HEADER.size
+        assert {"name": "position_rad", "unit": "rad", "label": "Position q"} in hello["channels"]
+        assert hello["state"]["session"] == "lab"
+
+
+def test_batches_follow_without_a_gap_and_hold_the_session_values(lab: Lab) -> None:
+    stream, hello = open_stream(lab, "?rate_hz=1000&channels=time_s,position_reference_rad")
+    with stream:
+        batches = read_batches(stream, hello, 10)
+    ticks = np.concatenate([batch.ticks for batch in batches])
+    rows = np.concatenate([batch.rows for batch in batches])
+    assert np.all(np.diff(ticks) == 1)
+    np.testing.assert_allclose(rows[:, 0], ticks * 0.001, rtol=1e-6)
+    np.testing.assert_allclose(
+        rows[:, 1], np.pi / 3 * np.sin(0.4 * np.pi * ticks * 0.001), atol=1e-6
+    )
+
+
+def test_the_default_stream_costs_at_most_15_kb_a_second(lab: Lab) -> None:
+    """Once the first seconds of a window are over."""
+    lab.load_figure()
+    lab.jump(4)
+    lab.client.post(lab.session + "/start").raise_for_status()
+    stream, hello = open_stream(lab)
+    size, samples, ticks = 0, 0, []
+    with stream:
+        first = read_batches(stream, hello, 1)[0].ticks[-1]
+        while not ticks or ticks[-1] < first + 3000:
+            message = stream.recv(timeout=10)
+            size += len(message)
+            if isinstance(message, bytes):
+                batch = Batch(message, len(hello["channels"]))
+                samples += len(batch.rows)
+                ticks.append(batch.ticks[-1])
+    seconds = (ticks[-1] - first) * hello["period_s"]
+    assert samples / seconds == pytest.approx(200, rel=0.02)
+    assert size / seconds < 15_000
+
+
+def test_a_client_that_comes_late_gets_the_past_it_asks_for(lab: Lab) -> None:
+    lab.jump(3)
+    stream, hello = open_stream(lab, "?rate_hz=100&history_s=2")
+    with stream:
+        batch = read_batches(stream, hello, 1)[0]
+    assert len(batch.rows) == 200
+    assert batch.stride == 10
+
+
+def test_a_new_run_begins_at_tick_zero_with_a_new_number(lab: Lab) -> None:
+    stream, hello = open_stream(lab)
+    with stream:
+        old = read_batches(stream, hello, 2)[-1]
+        lab.client.post(lab.session + "/reset")
+        batches = read_batches(stream, hello, 10)
+    fresh = [batch for batch in batches if batch.run == old.run + 1]
+    assert fresh[0].first == 0
+    assert fresh[0].missed == 0
+
+
+def test_changes_are_told_to_every_client(lab: Lab) -> None:
+    first, _ = open_stream(lab)
+    second, _ = open_stream(lab)
+    with first, second:
+        lab.client.put(lab.session + "/law", json={"law": "fl"})
+        for stream in (first, second):
+            law = None
+            while law != "fl":
+                message = stream.recv(timeout=10)
+                if isinstance(message, str):
+                    law = json.loads(message)["state"].get("configuration", {}).get("law")
+
+
+def test_a_client_that_does_not_read_is_held_by_its_socket_and_told_what_it_missed(
+    lab: Lab,
+) -> None:
+    """While it has not read three seconds of the session, of which its buffers hold a fraction."""
+    rivals = [{"law": law} for law in ("fl", "ndobc", "fl")]
+    lab.client.put(lab.session + "/lanes", json={"rivals": rivals}).raise_for_status()
+    everything = "?rate_hz=1000&lanes=all&channels=" + ",".join(lab.read()["sample"])
+    with socket.create_connection((lab.client.base_url.host, lab.client.base_url.port)) as narrow:
+        narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        slow, hello = open_stream(lab, everything, max_queue=1, sock=narrow)
+        with slow:
+            unread = lab.read()["tick"] + 3000
+            while lab.read()["tick"] < unread:
+                time.sleep(0.05)
+            batches = read_batches(slow, hello, 1)
+            while batches[-1].ticks[-1] < unread:
+                batches += read_batches(slow, hello, 1)
+    missed = sum(batch.missed for batch in batches)
+    assert missed > 1000
+    assert batches[-1].ticks[-1] + 1 == batches[0].first + missed + sum(
+        len(batch.rows) for batch in batches
+    )
+
+
+@pytest.mark.parametrize(
+    ("query", "word"),
+    [
+        ("?rate_hz=-5", "at least 1 Hz"),
+        ("?rate_hz=nan", "finite"),
+        ("?rate_hz=fast", "a number"),
+        ("?channels=secrets", "one of time_s"),
+        ("?history_s=1e9", "at most 20 s"),
+        ("?colour=1", "no such field"),
+    ],
+)
+def test_a_wrong_question_is_answered_clearly(lab: Lab, query: str, word: str) -> None:
+    stream, answer = open_stream(lab, query)
+    with stream:
+        assert answer["type"] == "error"
+        assert word in answer["message"]

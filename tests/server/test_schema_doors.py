@@ -1,0 +1,86 @@
+"""The schema with a secret and in a class: every check, as each of those who may come."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import httpx
+import pytest
+import schemathesis
+from hypothesis import settings
+from schemathesis import GenerationMode
+
+from svsa_server.access.class_keys import ClassKeys
+from svsa_server.access.memberships import FILE, Membership, Memberships
+from svsa_server.access.permissions import find_permission
+from svsa_server.access.roles import INSTRUCTOR, Person, Role
+from tests.exhaustive import exhaust
+from tests.lab import Lab, run_lab
+from tests.server.test_schema_fuzz import SETTINGS, probe
+
+SECRET = "correct horse battery"
+ONE_EACH = settings(SETTINGS, max_examples=1)
+"""Of each operation: how wide a request may be is tried where nobody is asked who comes."""
+ENDLESS = dict.fromkeys(("joins", "commands", "sessions", "runs"), "1000000/second")
+"""Of a class: that somebody does too much at once has tests of its own."""
+PEOPLE = {
+    Role.OBSERVER: Person("p-1", "Ola", Role.OBSERVER),
+    Role.OPERATOR: Person("p-2", "Ada", Role.OPERATOR),
+    Role.INSTRUCTOR: INSTRUCTOR,
+}
+
+
+class Class(NamedTuple):
+    """A class as a process, and the tokens of those in it."""
+
+    lab: Lab
+    tokens: dict[Role, str]
+
+    def come_as(self, role: Role | None) -> Lab:
+        """The lab, whose client is of this role, or a stranger."""
+        headers = {} if role is None else {"Authorization": f"Bearer {self.tokens[role]}"}
+        client = httpx.Client(base_url=self.lab.url, headers=headers, timeout=60, trust_env=False)
+        return self.lab._replace(client=client)
+
+
+@pytest.fixture(scope="module")
+def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Class]:
+    folder: Path = tmp_path_factory.mktemp("class")
+    keys, _ = ClassKeys.open(folder)
+    for person in PEOPLE.values():
+        Memberships(folder / FILE).keep(Membership(person))
+    tokens = {role: keys.sign(person) for role, person in PEOPLE.items()}
+    with run_lab("--class", data=str(folder), **ENDLESS) as lab:
+        yield Class(lab, tokens)
+
+
+def read_operations(lab: Lab) -> list[schemathesis.APIOperation]:
+    schema = lab.client.get("/openapi.json").raise_for_status().json()
+    found = schemathesis.openapi.from_dict(schema).get_all_operations()
+    return [one.ok() for one in found]
+
+
+@pytest.mark.exhaustive
+def test_a_lab_with_a_secret_keeps_to_its_schema_and_lets_nobody_in_without() -> None:
+    with run_lab(secret=SECRET) as lab:
+        operations = read_operations(lab)
+        tried = sum(probe(lab, one, GenerationMode.POSITIVE, ONE_EACH) for one in operations)
+    assert tried >= len(operations) > 100
+
+
+@pytest.mark.parametrize(
+    "role",
+    exhaust([None, *PEOPLE], [None, Role.OPERATOR]),
+    ids=lambda role: role.word if role else "stranger",
+)
+def test_a_class_keeps_to_its_schema_whoever_comes(classroom: Class, role: Role | None) -> None:
+    lab = classroom.come_as(role)
+    tried = 0
+    for one in read_operations(classroom.come_as(Role.INSTRUCTOR)):
+        needed = find_permission(one.method.upper(), one.path).permission.role
+        is_let_in = needed is None or (role is not None and role >= needed)
+        if is_let_in and needed is None and role is not None:
+            continue  # as for strangers
+        tried += probe(lab, one, GenerationMode.POSITIVE, ONE_EACH, is_let_in)
+    lab.client.close()
+    assert tried > 100
