@@ -18,6 +18,7 @@ pytestmark = pytest.mark.browser
 SIZES = ((390, 844), (820, 1180), (1280, 720), (1440, 900))
 LEAST_PLOT_PX = {"simulation": 72, "running bench": 90, "bench to be homed": 90}
 LEAST_MEASURED_PX = 60
+LOOKS, BETWEEN_LOOKS_MS = 5, 300
 PLANTS: dict[str, dict[str, Any] | None] = {
     "simulation": None,
     "running bench": {"status": "run", "homing": HOMED},
@@ -50,6 +51,15 @@ def least_plot_px(visited: Page, request: pytest.FixtureRequest) -> int:
     return LEAST_PLOT_PX[request.node.callspec.params["visited"]]
 
 
+# The list finds how high its plots are after each change of its own height.
+WHOLE_PLOTS = """() => {
+    const foot = document.querySelector(".plots-foot").getBoundingClientRect().top;
+    return [...document.querySelectorAll(".plots-stage > .plot")]
+        .map((one) => one.getBoundingClientRect())
+        .every(({ top, bottom }) => top >= foot - 1 || bottom <= foot + 2);
+}"""
+
+
 def get_box(one: Locator) -> FloatRect:
     box = one.bounding_box()
     assert box is not None
@@ -71,11 +81,18 @@ def measure(
     least_plot_px: int | None = None,
     sizes: tuple[tuple[int, int], ...] = SIZES,
 ) -> list[str]:
-    """Every problem at every size, as a line."""
+    """Every problem at every size that is one for good, as a line.
+
+    The page finds its place anew at each size: what is looked at before that is looked at again.
+    """
     lines = []
     for width, height in sizes:
         page.set_viewport_size({"width": width, "height": height})
-        found = page.evaluate(find_problems, least_plot_px)
+        for _ in range(LOOKS):
+            found = page.evaluate(find_problems, least_plot_px)
+            if not found:
+                break
+            page.wait_for_timeout(BETWEEN_LOOKS_MS)
         lines += [f"{width}×{height}: {problem}" for problem in found]
     return lines
 
@@ -168,6 +185,8 @@ def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visite
     visited.set_viewport_size({"width": 1280, "height": 720})
     visited.locator(".plots-scroll").evaluate("list => list.scrollTo(0, 0)")
     visited.get_by_role("button", name="Cursors").click()
+    expect(visited.get_by_role("button", name="Cursors")).to_have_attribute("aria-pressed", "true")
+    visited.wait_for_function(WHOLE_PLOTS)
     heights = [
         box["height"] for box in map(get_box, visited.locator(".plots-stage .plot-canvas").all())
     ]
@@ -175,7 +194,6 @@ def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visite
     seen = [
         one for one in visited.locator(".plots-stage > .plot").all() if get_box(one)["y"] < foot - 1
     ]
-    cut = [one for one in seen if get_box(one)["y"] + get_box(one)["height"] > foot + 2]
     many = len(heights) - len(seen)
     below = visited.get_by_role("button", name=re.compile(f"^{many} more plots? below"))
     expect(below).to_be_visible()
@@ -186,7 +204,6 @@ def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visite
     )
     visited.get_by_role("button", name="Cursors").click()
     assert min(heights) >= LEAST_MEASURED_PX
-    assert not cut
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
@@ -205,12 +222,12 @@ def test_a_list_of_plots_shows_whole_ones_where_legends_have_two_rows(
     entries = visited.locator(".plot").first.locator(".legend-entry")
     expect(entries).to_have_count(6)
     visited.locator(".plots-scroll").evaluate("part => part.scrollTo({ top: 0 })")
+    visited.wait_for_function(WHOLE_PLOTS)
     foot = get_box(visited.locator(".plots-foot"))["y"]
     plots = [get_box(one) for one in visited.locator(".plots-stage > .plot").all()]
     seen = [one for one in plots if one["y"] < foot - 1]
     assert get_box(visited.locator(".plot-head").first)["height"] > 40
     assert len(seen) < len(plots)
-    assert max(one["y"] + one["height"] for one in seen) <= foot + 2
     expect(visited.get_by_role("button", name=re.compile("more plots? below"))).to_be_visible()
 
 
@@ -225,6 +242,7 @@ def test_opened_details_of_a_bench_leave_room_for_the_actuator_and_two_plots(
     expect(visited.locator(".bench-details")).to_be_visible()
     for saved in visited.locator(".banner.is-news button.quiet:visible").all():
         saved.click()  # what a recording of before has left says so for 20 s
+    visited.wait_for_function(WHOLE_PLOTS)
     assert get_box(visited.locator(".view"))["height"] > 160
     foot = get_box(visited.locator(".plots-foot"))["y"]
     plots = [get_box(one) for one in visited.locator(".plots-stage > .plot").all()]
@@ -257,7 +275,7 @@ def test_every_group_of_controls_is_in_sight_or_named_at_the_edge(visited: Page)
     hidden = [one.inner_text() for one in titles if get_box(one)["y"] + 10 > edge]
     links = panel.get_by_role("navigation").get_by_role("link")
     assert hidden
-    assert links.all_inner_texts() == hidden
+    expect(links).to_have_text(hidden)
     links.last.click()
     expect(titles[-1]).to_be_in_viewport()
     expect(titles[-1]).to_be_focused()
