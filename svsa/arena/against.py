@@ -18,7 +18,7 @@ from svsa.arena.scenarios import Scenario
 from svsa.result.result import Result
 
 LAST_S = 0.5
-LEAST_DEG = 1e-6
+MIN_DEG = 1e-6
 """What an error counts at least in a geometric mean."""
 
 
@@ -66,7 +66,7 @@ def _mean(read: Callable[[Passage], float]) -> Callable[[Sequence[Passage]], flo
 
 
 def _geometric(read: Callable[[Passage], float]) -> Callable[[Sequence[Passage]], float]:
-    return lambda passages: geometric_mean(max(read(one), LEAST_DEG) for one in passages)
+    return lambda passages: geometric_mean(max(read(one), MIN_DEG) for one in passages)
 
 
 def _count_fails(passages: Sequence[Passage]) -> float:

@@ -19,7 +19,7 @@ CONVERGED = 0.01
 """Of the ranges: what a generation is then no wider than."""
 PATIENCE = 15
 """Generations that a start goes on without a worse run."""
-_LEAST = 1e30
+_HARMLESS = 1e30
 """As the optimiser takes it that a run is the best of all for the law."""
 
 Judge = Callable[[np.ndarray], np.ndarray]
@@ -59,7 +59,7 @@ def _climb(size: int, seed: int, start: int, judge: Judge) -> None:
     while since < PATIENCE:
         shares = np.array([optimizer.ask() for _ in range(GENERATION)])
         severity = judge(shares)
-        cost = np.where(np.isfinite(severity), -severity, _LEAST)
+        cost = np.where(np.isfinite(severity), -severity, _HARMLESS)
         optimizer.tell(list(zip(shares, cost.tolist(), strict=True)))
         if optimizer.should_stop() or np.ptp(shares, axis=0).max() < CONVERGED:
             return

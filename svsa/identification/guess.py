@@ -13,7 +13,7 @@ from svsa.identification.record import Evidence
 
 _WINDOW_S = 0.012
 _CREEP_RAD_PER_S = 0.05
-_LEAST = 1e-5
+_MIN = 1e-5
 _SMOOTH_ROWS = 11
 _SHAPE = {"static_ratio": 1.2, "stribeck": 0.1, "creep1": 0.02, "creep2": 0.02} | {
     "delay1": 0.0,
@@ -77,7 +77,7 @@ def guess_parameters(evidence: Evidence) -> np.ndarray:
     solution = np.linalg.lstsq(matrix / scale, asked, rcond=1e-9)[0] / scale
     found = dict(zip(columns, solution.tolist(), strict=True))
     moment = found.pop("gravity_moment")
-    values = {name: max(value, _LEAST) for name, value in found.items()} | _SHAPE
+    values = {name: max(value, _MIN) for name, value in found.items()} | _SHAPE
     return np.array(Parameters(**values, gravity_moment=moment))
 
 

@@ -32,15 +32,15 @@ _WIDTHS = Parameters(
     static_ratio=0.5, stribeck=0.1, creep1=0.02, creep2=0.02, gravity_moment=5.0, delay1=0.002,
     delay2=0.002,
 )  # fmt: skip
-_LEAST = Parameters(
+_MIN = Parameters(
     M=1e-6, B1=1e-6, B2=1e-6, D=0.0, D1=0.0, D2=0.0, K=1e-3, coulomb1=0.0, coulomb2=0.0,
     static_ratio=1.0, stribeck=1e-3, creep1=1e-3, creep2=1e-3,
     gravity_moment=-_INFINITE, delay1=-0.01, delay2=-0.01,
 )  # fmt: skip
-_MOST = Parameters(
+_MAX = Parameters(
     *(_INFINITE,) * UNKNOWNS,
 )._replace(static_ratio=5.0, stribeck=10.0, creep1=1.0, creep2=1.0, delay1=0.01, delay2=0.01)
-_ALWAYS_POSITIVE = np.array([least > 0.0 for least in _LEAST])
+_ALWAYS_POSITIVE = np.array([least > 0.0 for least in _MIN])
 _MAX_FACTOR = 3.0
 _CREEP_SHARE = 0.5
 
@@ -181,7 +181,7 @@ def _bound(values: np.ndarray, step: np.ndarray, period: float) -> np.ndarray:
     """A step held within bounds; creep no less than the integration can follow."""
     moved = values + step
     within = np.clip(moved, values / _MAX_FACTOR, values * _MAX_FACTOR)
-    p = Parameters(*np.clip(np.where(_ALWAYS_POSITIVE, within, moved), _LEAST, _MOST))
+    p = Parameters(*np.clip(np.where(_ALWAYS_POSITIVE, within, moved), _MIN, _MAX))
     least1 = _CREEP_SHARE * p.coulomb1 * p.static_ratio * period / p.B1
     least2 = _CREEP_SHARE * p.coulomb2 * p.static_ratio * period / p.B2
     bounded = p._replace(creep1=max(p.creep1, least1), creep2=max(p.creep2, least2))

@@ -21,7 +21,7 @@ LOG2_E = 1.4426950408889634
 LN_2 = (0.6931471805599453, 2.3190468138462996e-17)
 """ln 2 in two parts, the second the nearest double to what the first leaves."""
 HALF_SQRT_2 = 0.7071067811865476
-LEAST, GREATEST = -745.0, 709.0
+MIN_EXPONENT, MAX_EXPONENT = -745.0, 709.0
 """Outside, eˣ is next to zero or near the end of what a double holds."""
 
 E = (
@@ -52,8 +52,8 @@ L = (
 
 @compiled
 def split_exponent(x: float) -> tuple[float, float]:
-    """(2^k, e^r − 1) with x = k ln 2 + r, |r| ≤ ½ ln 2; x held between `LEAST` and `GREATEST`."""
-    x = least(greatest(x, LEAST), GREATEST)
+    """(2^k, e^r − 1) with x = k ln 2 + r, |r| ≤ ½ ln 2; x held between `MIN_EXPONENT` and `MAX_EXPONENT`."""
+    x = least(greatest(x, MIN_EXPONENT), MAX_EXPONENT)
     k = floor(x * LOG2_E + 0.5)
     exact = fma(-k, LN_2[0], x)
     y = -k * LN_2[1]
@@ -68,7 +68,7 @@ def split_exponent(x: float) -> tuple[float, float]:
 
 @compiled
 def exp(x: float) -> float:
-    """eˣ; beyond `LEAST` and `GREATEST` that of the bound."""
+    """eˣ; beyond `MIN_EXPONENT` and `MAX_EXPONENT` that of the bound."""
     power, grown = split_exponent(x)
     return fma(power, grown, power)
 

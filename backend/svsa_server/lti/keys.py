@@ -14,7 +14,7 @@ from svsa_server.lti.refusal import LaunchError
 
 _USE: Any = {"use": "sig", "alg": "RS256"}
 _KEPT_S = 3600.0
-_LEAST_S = 30.0
+_MIN_S = 30.0
 
 
 def open_key(path: Path) -> RSAKey:
@@ -49,7 +49,7 @@ class PlatformKeys:
         asked, keys = self._known.get(address, (-_KEPT_S, None))
         has_key = keys is not None and any(key.kid == kid for key in keys.keys)
         age = now - asked
-        if keys is not None and age < (_KEPT_S if has_key else _LEAST_S):
+        if keys is not None and age < (_KEPT_S if has_key else _MIN_S):
             return keys
         try:
             answer = (await self._client.get(address)).raise_for_status()

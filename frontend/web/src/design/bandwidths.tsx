@@ -9,9 +9,9 @@ const words = text.design;
 const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
 const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
 
-const LEAST = 0.1;
-const MOST = 1000;
-const BOUNDS = text.refusal.between(String(LEAST), `${MOST} ${words.unit}`);
+const MIN = 0.1;
+const MAX = 1000;
+const BOUNDS = text.refusal.between(String(MIN), `${MAX} ${words.unit}`);
 
 interface RowProps {
   look: string;
@@ -28,7 +28,7 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
   const id = useId();
   const [typed, setTyped] = useState<string | null>(null);
   const isTaken = (written: string) =>
-    written.trim() !== "" && Number(written) >= LEAST && Number(written) <= MOST;
+    written.trim() !== "" && Number(written) >= MIN && Number(written) <= MAX;
   const take = (written: string) => {
     setTyped(written);
     if (isTaken(written)) onTry(Number(written));
@@ -55,8 +55,8 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
         id={id}
         type="number"
         step="any"
-        min={LEAST}
-        max={MOST}
+        min={MIN}
+        max={MAX}
         aria-invalid={isRefused}
         value={typed ?? formatInput(value, 4)}
         aria-describedby={`${id}-note`}

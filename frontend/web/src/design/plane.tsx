@@ -3,9 +3,9 @@ import { text } from "../text/en";
 import { type Draft, draft, type Group, inUse, tryPoles } from "./draft";
 import {
   countPlaces,
-  LEAST_RE,
   MAX_IM,
   MAX_RE,
+  MIN_RE,
   movePole,
   type Pole,
   type Poles,
@@ -15,7 +15,7 @@ import { stability } from "./stability";
 import { describePole } from "./words";
 
 const SCALE = 1.1;
-const WIDTH = (MAX_RE - LEAST_RE) * SCALE;
+const WIDTH = (MAX_RE - MIN_RE) * SCALE;
 const HEIGHT = 2 * MAX_IM * SCALE;
 const CIRCLES = [50, 100, 150, 200, 250];
 const FAR = 10;
@@ -31,7 +31,7 @@ const ARROWS: Record<string, readonly [number, number]> = {
   ArrowDown: [0, -1],
 };
 
-const xOf = (re: number) => (Math.max(LEAST_RE, Math.min(MAX_RE, re)) - LEAST_RE) * SCALE;
+const xOf = (re: number) => (Math.max(MIN_RE, Math.min(MAX_RE, re)) - MIN_RE) * SCALE;
 const yOf = (im: number) => (MAX_IM - Math.max(-MAX_IM, Math.min(MAX_IM, im))) * SCALE;
 
 /** Axes, circles of equal speed, and the half where nothing is stable. */
@@ -92,7 +92,7 @@ function ObserverMark({ bandwidth }: { bandwidth: number }) {
 /** Faster observers than this line are unstable in the sampled loop. */
 function FastestMark() {
   const fastest = stability.value?.fastest_observer_rad_per_s ?? null;
-  if (fastest === null || -fastest < LEAST_RE) return null;
+  if (fastest === null || -fastest < MIN_RE) return null;
   const x = xOf(-fastest);
   return (
     <svg class="plane-fastest" aria-hidden="true">
@@ -143,7 +143,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
       transform={`translate(${xOf(pole.re)} ${yOf(pole.im)})`}
       aria-label={text.design.pole(name, index + 1, poles.length)}
       aria-valuenow={pole.re}
-      aria-valuemin={LEAST_RE}
+      aria-valuemin={MIN_RE}
       aria-valuemax={MAX_RE}
       aria-valuetext={text.design.poleValue(describePole(pole))}
       aria-describedby="plane-hint"
@@ -204,7 +204,7 @@ export function Plane() {
   const readPlace = (event: PointerEvent): Pole => {
     const box = (picture.current as SVGSVGElement).getBoundingClientRect();
     return {
-      re: LEAST_RE + ((event.clientX - box.left) / box.width) * (MAX_RE - LEAST_RE),
+      re: MIN_RE + ((event.clientX - box.left) / box.width) * (MAX_RE - MIN_RE),
       im: MAX_IM - ((event.clientY - box.top) / box.height) * 2 * MAX_IM,
     };
   };

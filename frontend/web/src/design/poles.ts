@@ -11,7 +11,7 @@ export type Poles = readonly Pole[];
 /** Closer to the real axis than this, a pole lies on it, rad/s. */
 export const SNAP = 4;
 export const MAX_RE = 40;
-export const LEAST_RE = -300;
+export const MIN_RE = -300;
 export const MAX_IM = 120;
 
 const clamp = (value: number, least: number, most: number) =>
@@ -63,7 +63,7 @@ export function partnerOf(poles: Poles, index: number): number {
 export function movePole(start: Poles, index: number, to: Pole): Pole[] {
   const partner = partnerOf(start, index);
   const isOnAxis = Math.abs(to.im) < SNAP || partner < 0;
-  const re = rounded(clamp(to.re, LEAST_RE, MAX_RE));
+  const re = rounded(clamp(to.re, MIN_RE, MAX_RE));
   const im = isOnAxis ? 0 : rounded(clamp(to.im, -MAX_IM, MAX_IM));
   const wasPair = (start[index] as Pole).im !== 0;
   return start.map((pole, other) => {

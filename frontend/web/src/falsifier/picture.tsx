@@ -22,8 +22,8 @@ const TORQUE_INKS: readonly Ink[] = (
     ["purple", DOTTED],
   ] as const
 ).map(([colour, dash]) => ({ colour, dash, width: 2 }));
-const LEAST_SPANS = { torque: 0.1, position: 0.01, stiffness: 0.01 } as const;
-type Chart = keyof typeof LEAST_SPANS;
+const MIN_SPANS = { torque: 0.1, position: 0.01, stiffness: 0.01 } as const;
+type Chart = keyof typeof MIN_SPANS;
 
 function curvesOf(chart: Chart, trace: Trace, drawn: readonly LawTrace[]): StaticCurve[] {
   if (chart === "torque") {
@@ -79,7 +79,7 @@ function describeChart({ chart, trace, drawn, view }: ChartProps): StaticContent
   return {
     time: trace.time_s,
     curves: curvesOf(chart, trace, drawn),
-    leastSpan: LEAST_SPANS[chart],
+    minSpan: MIN_SPANS[chart],
     padding: [8, 14, hasTimes ? 0 : 8, 0],
     timeAxis: { size: hasTimes ? TIME_AXIS_PX : 0, tick: words.secondTick },
     group: "falsifier",

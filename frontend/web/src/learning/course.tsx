@@ -12,13 +12,13 @@ const END_S = 20;
 const LOAD_S = 5;
 const COLUMNS = 200;
 /** Decades of degrees, from the bottom to the top. */
-const LEAST = -4;
-const MOST = 2;
+const MIN = -4;
+const MAX = 2;
 
 const xOf = (timeS: number) => LEFT + (timeS / END_S) * (WIDTH - LEFT - RIGHT);
 const yOf = (degrees: number) => {
-  const decade = Math.log10(Math.max(degrees, 10 ** LEAST));
-  return (HEIGHT - BOTTOM - TOP) * (1 - (decade - LEAST) / (MOST - LEAST)) + TOP;
+  const decade = Math.log10(Math.max(degrees, 10 ** MIN));
+  return (HEIGHT - BOTTOM - TOP) * (1 - (decade - MIN) / (MAX - MIN)) + TOP;
 };
 
 /** The largest error of each column, so that no peak is lost. */

@@ -27,7 +27,7 @@ export class Chart {
   constructor(
     host: HTMLElement,
     traces: readonly Trace[],
-    private readonly leastSpan: number,
+    private readonly minSpan: number,
     private readonly view: ChartView,
   ) {
     this.#curves = traces.map((trace) => new Curve(trace));
@@ -102,7 +102,7 @@ export class Chart {
 
   #range(): [number, number] {
     const [low, high] = extentOf(this.#shown.map(({ points }) => points));
-    const [bottom, top] = niceRange(low, high, this.leastSpan);
+    const [bottom, top] = niceRange(low, high, this.minSpan);
     return includeBounds(
       bottom,
       top,

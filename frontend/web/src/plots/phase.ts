@@ -13,7 +13,7 @@ import { shownRing, shownSpan } from "./span";
 
 const X_AXIS_PX = 24;
 const MARGIN_PX = 6;
-const LEAST_STEP_PX = 2;
+const MIN_STEP_PX = 2;
 /** Thin, for the loops of many periods lie close together. */
 const STROKE_WIDTH = 1;
 const SIGN_PX = 4;
@@ -119,8 +119,8 @@ export class PhaseChart {
     if (across === null || up === null) return;
     makeRoom(points, across.count);
     const { width, height } = this.#plot.bbox;
-    const leastX = (LEAST_STEP_PX / width) * (limits.x[1] - limits.x[0]);
-    const leastY = (LEAST_STEP_PX / height) * (limits.y[1] - limits.y[0]);
+    const minX = (MIN_STEP_PX / width) * (limits.x[1] - limits.x[0]);
+    const minY = (MIN_STEP_PX / height) * (limits.y[1] - limits.y[0]);
     let lastX = Number.NaN;
     let lastY = Number.NaN;
     let slot = across.start;
@@ -128,7 +128,7 @@ export class PhaseChart {
       const x = (across.values[slot] as number) * this.axes.x.factor;
       const y = (up.values[slot] as number) * this.axes.y.factor;
       slot = slot + 1 === across.values.length ? 0 : slot + 1;
-      if (Math.abs(x - lastX) < leastX && Math.abs(y - lastY) < leastY) continue;
+      if (Math.abs(x - lastX) < minX && Math.abs(y - lastY) < minY) continue;
       points.x[points.count] = x;
       points.y[points.count++] = Number.isNaN(x) ? x : y;
       lastX = x;

@@ -20,7 +20,7 @@ export interface StaticContent {
   time: uPlot.AlignedData[0];
   curves: readonly StaticCurve[];
   /** The axis never shows less than this. */
-  leastSpan: number;
+  minSpan: number;
   /** Top, right, bottom, left, CSS pixels. */
   padding: uPlot.Padding;
   /** Height of the numbers below the plot, CSS pixels, and the words of each; 0: none. */
@@ -45,7 +45,7 @@ export class StaticChart {
     host: HTMLElement,
     readonly content: StaticContent,
   ) {
-    const { time, curves, leastSpan, padding, group, span, onSelect } = content;
+    const { time, curves, minSpan, padding, group, span, onSelect } = content;
     const { drawBelow, drawAbove, onCursor } = content;
     const { from, to } = span.peek();
     this.plot = new uPlot(
@@ -68,7 +68,7 @@ export class StaticChart {
         },
         scales: {
           x: { time: false, min: from, max: to },
-          y: { range: (_, low, high) => niceRange(low, high, leastSpan) },
+          y: { range: (_, low, high) => niceRange(low, high, minSpan) },
         },
         axes: [timeAxis(content.timeAxis), valueAxis()],
         series: [{}, ...curves.map(drawnCurve)],

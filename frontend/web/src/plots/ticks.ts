@@ -31,15 +31,15 @@ const LARGEST_STEP_S = 20;
 /** No digit of the font is wider. */
 const DIGIT_PX = 7;
 const BETWEEN_WORDS_PX = 16;
-const LEAST_BETWEEN_PX = 64;
-const LEAST_GAP_PX = 6;
+const MIN_BETWEEN_PX = 64;
+const MIN_GAP_PX = 6;
 
 /** The step of a time axis so wide, CSS pixels, on which its numbers have room beside each other. */
 export function timeStep({ from, to }: Span, width: number): number {
   const hasRoom = (step: number) => {
     const last = Math.floor(to / step);
     const lengths = [last, last - 1].map((index) => text.plots.timeTick(index * step).length);
-    const words = Math.max(LEAST_BETWEEN_PX, Math.max(...lengths) * DIGIT_PX + BETWEEN_WORDS_PX);
+    const words = Math.max(MIN_BETWEEN_PX, Math.max(...lengths) * DIGIT_PX + BETWEEN_WORDS_PX);
     return (step / (to - from)) * width >= words;
   };
   return TIME_STEPS_S.find(hasRoom) ?? LARGEST_STEP_S;
@@ -52,5 +52,5 @@ export function timeStep({ from, to }: Span, width: number): number {
 export function placeWords(x: number, words: number, width: number, step: number): number | null {
   const left = Math.max(0, Math.min(x - words / 2, width - words));
   const shift = Math.abs(left + words / 2 - x);
-  return shift + words + LEAST_GAP_PX > step ? null : left;
+  return shift + words + MIN_GAP_PX > step ? null : left;
 }

@@ -10,7 +10,7 @@ export interface Range {
 
 const SHORTEST_RANGE_S = 0.05;
 /** Where not every sample is drawn, a plot is at least so many points wide. */
-const LEAST_POINTS = 400;
+const MIN_POINTS = 400;
 
 export const timeS = signal(0);
 export const isPlaying = signal(false);
@@ -37,7 +37,7 @@ export function setUpClock(timing: Timing): void {
   frameS = timing.frameS;
   shortestS = timing.isEverySample
     ? SHORTEST_RANGE_S
-    : Math.max(SHORTEST_RANGE_S, LEAST_POINTS * timing.pointS);
+    : Math.max(SHORTEST_RANGE_S, MIN_POINTS * timing.pointS);
   showAll();
 }
 

@@ -30,7 +30,7 @@ function describeChart(
   return {
     time,
     curves,
-    leastSpan: plot.span,
+    minSpan: plot.span,
     padding: [isFirst ? LABELS_PX : 8, 12, isLast ? 0 : 7, 0],
     timeAxis: { size: isLast ? X_AXIS_PX : 0, tick: text.plots.timeTick },
     group: "replay",

@@ -6,7 +6,7 @@ import type { BandShown, JudgedCurve } from "./verdict";
 const BAND_ALPHA = 0.16;
 const STRIPE_ALPHA = 0.14;
 const BAR_PX = 5;
-const LEAST_WIDTH_PX = 2;
+const MIN_WIDTH_PX = 2;
 const DOT_PX = 5;
 
 function within(plot: uPlot, draw: (context: CanvasRenderingContext2D) => void): void {
@@ -64,7 +64,7 @@ export function drawOutside(plot: uPlot, judged: readonly JudgedCurve[]): void {
       for (const [from, to] of outside) {
         const left = plot.valToPos(from, "x", true);
         const width = plot.valToPos(to, "x", true) - left;
-        const drawn = Math.max(width, LEAST_WIDTH_PX * devicePixelRatio);
+        const drawn = Math.max(width, MIN_WIDTH_PX * devicePixelRatio);
         context.globalAlpha = STRIPE_ALPHA;
         context.fillRect(left, top, drawn, height);
         context.globalAlpha = 1;

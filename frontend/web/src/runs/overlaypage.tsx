@@ -24,7 +24,7 @@ import { type Judged, listBands, listJudged } from "./verdict";
 import { VerdictPanel } from "./verdictpanel";
 
 const words = text.overlay;
-const LEAST_SPANS: Record<OverlayChannel, number> = {
+const MIN_SPANS: Record<OverlayChannel, number> = {
   position_error_rad: 0.004,
   stiffness_error_nm_per_rad: 0.001,
 };
@@ -52,7 +52,7 @@ function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
   return {
     time,
     curves: curves.map(({ key, ink }, index) => ({ key, ...ink, values: values[index] ?? [] })),
-    leastSpan: LEAST_SPANS[channel],
+    minSpan: MIN_SPANS[channel],
     padding: [8, 14, 0, 0],
     timeAxis: { size: TIME_AXIS_PX, tick: words.timeTick },
     group: "overlay",

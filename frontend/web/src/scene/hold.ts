@@ -9,12 +9,12 @@ import { acceptState, session } from "../state/session";
 /** The torque that is held on the link now, N·m; null while nobody pushes. */
 export const heldTorque = signal<number | null>(null);
 
-const LEAST_NM = 0.05;
+const MIN_NM = 0.05;
 const CHANGE_NM = 0.02;
 const LOOK_MS = 60;
 const TELL_MS = 200;
 const SILENCE_S = 0.8;
-const LEAST_HOLD_S = 0.02;
+const MIN_HOLD_S = 0.02;
 const MAX_HOLD_S = 60;
 
 type Pace = Pick<SessionState, "speed" | "real_time_factor">;
@@ -22,12 +22,12 @@ type Pace = Pick<SessionState, "speed" | "real_time_factor">;
 /** Session time in which the page is heard again however fast the session goes, s. */
 export function holdOf({ speed, real_time_factor: factor }: Pace): number {
   const pace = speed === "max" ? factor : speed;
-  return Math.min(MAX_HOLD_S, Math.max(LEAST_HOLD_S, SILENCE_S * pace));
+  return Math.min(MAX_HOLD_S, Math.max(MIN_HOLD_S, SILENCE_S * pace));
 }
 
 /** Whether a torque is told: it begins a push, it differs, or it is time to be heard of. */
 export function isToTell(torque: number, told: number | null, sinceMs: number): boolean {
-  if (told === null) return Math.abs(torque) > LEAST_NM;
+  if (told === null) return Math.abs(torque) > MIN_NM;
   return Math.abs(torque - told) > CHANGE_NM || sinceMs >= TELL_MS;
 }
 

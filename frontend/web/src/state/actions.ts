@@ -14,7 +14,7 @@ import { describeChange, isSame } from "./meanwhile";
 import { explainRefusal } from "./refusal";
 import { acceptState, phase, session } from "./session";
 
-const MOST_TRIES = 5;
+const MAX_TRIES = 5;
 
 interface Refused {
   control: string;
@@ -51,7 +51,7 @@ async function sendUnlessChanged(
   seen: SessionState | null,
 ): Promise<SessionState> {
   let known = seen;
-  for (let left = MOST_TRIES; ; left--) {
+  for (let left = MAX_TRIES; ; left--) {
     expectRevision(known?.revision ?? null);
     try {
       return await request();

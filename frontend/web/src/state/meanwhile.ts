@@ -14,7 +14,7 @@ const SETS: Readonly<Record<string, readonly Section[]>> = {
   lanes: ["rivals"],
   nominal: ["nominal", "parameters"],
 };
-const MOST = 4;
+const MAX_NAMED = 4;
 
 const listSections = (path: string): readonly Section[] => {
   const [, name = ""] = path.split("/");
@@ -61,6 +61,6 @@ export function describeChange(path: string, before: Held | null, now: Held | nu
     .filter(([name, value]) => known.get(name) !== value)
     .map(describe)
     .filter((one) => one !== null);
-  const list = changed.slice(0, MOST).join(", ");
+  const list = changed.slice(0, MAX_NAMED).join(", ");
   return `${text.meanwhile.changed} ${list === "" ? text.meanwhile.shown : text.meanwhile.now(list)}`;
 }

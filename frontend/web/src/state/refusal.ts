@@ -6,11 +6,11 @@ import { formatInput } from "../units";
 import { parameterOf } from "./laws";
 
 const words = text.refusal;
-const MOST = 3;
+const MAX_TOLD = 3;
 
 export function explainRefusal({ message, violations }: RefusedError): string {
   if (violations.length === 0) return message;
-  return violations.slice(0, MOST).map(explainViolation).join(" ");
+  return violations.slice(0, MAX_TOLD).map(explainViolation).join(" ");
 }
 
 export function explainViolation(violation: Violation): string {

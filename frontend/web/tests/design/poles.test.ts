@@ -4,7 +4,7 @@ import {
   areTogether,
   bandwidthOf,
   countPlaces,
-  LEAST_RE,
+  MIN_RE,
   movePole,
   partnerOf,
   polesOf,
@@ -76,7 +76,7 @@ describe("moving a pole", () => {
   });
 
   it("keeps within the plane, and real where no partner is left", () => {
-    expect(movePole(MIXED, 0, { re: -900, im: 0 })[0]?.re).toBe(LEAST_RE);
+    expect(movePole(MIXED, 0, { re: -900, im: 0 })[0]?.re).toBe(MIN_RE);
     const lonely = [{ re: -60, im: 0 }, ...MIXED.slice(2)];
     expect(partnerOf(lonely, 0)).toBe(-1);
     expect(movePole(lonely, 0, { re: -60, im: 50 })[0]).toEqual({ re: -60, im: 0 });
