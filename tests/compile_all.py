@@ -78,7 +78,6 @@ def compile_batches(laws: Iterable[str]) -> None:
         ("ndobc", svsa.IDEAL),
         ("fl", svsa.IDEAL),
         ("fl_integral", svsa.IDEAL),
-        ("ilc", svsa.IDEAL),
         *((law, svsa.RIG) for law in laws),
     ):
         configuration = FIGURES["4a"].build_configuration(law).changed(effects=effects, seed=7)

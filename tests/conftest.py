@@ -1,5 +1,6 @@
 """Fixtures that more than one folder of tests uses."""
 
+import gc
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -49,6 +50,14 @@ ORDER = (
     "browser",
 )
 """Of the folders; what stands in none is \"\"."""
+
+gc.disable()
+"""Until all tests are read: what is read stays, and is looked through again and again otherwise."""
+
+
+def pytest_collection_finish() -> None:
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

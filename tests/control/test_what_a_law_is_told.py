@@ -116,7 +116,14 @@ def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_no
 
 
 @pytest.mark.parametrize(
-    ("law", "effects"), [("hear", "ideal"), ("hear", "every"), ("hear_branching", "every")]
+    ("law", "effects"),
+    [
+        pytest.param("hear", "ideal", marks=pytest.mark.exhaustive),
+        ("hear", "rig"),
+        ("hear_branching", "rig"),
+        pytest.param("hear", "every", marks=pytest.mark.exhaustive),
+        pytest.param("hear_branching", "every", marks=pytest.mark.exhaustive),
+    ],
 )
 def test_side_by_side_it_is_told_what_it_is_told_alone(law, effects):
     configurations = [build(law, EFFECTS[effects]).changed(seed=seed) for seed in (3, 4, 5)]

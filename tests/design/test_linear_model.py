@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.signal import StateSpace, dlsim
 
 import svsa
 from svsa.model.domain import build_domain
@@ -79,6 +78,8 @@ def test_its_decoupling_matrix_and_relative_degrees_are_those_of_the_theory(sigm
 
 def test_a_small_push_moves_it_as_it_moves_the_simulation():
     """0.01 N·m on motor 1 for 50 ms, torque through python's own controller, to 0.1 %."""
+    from scipy.signal import StateSpace, dlsim
+
     model = svsa.design.linearize(15.0)
     count, push = 200, 0.01
 

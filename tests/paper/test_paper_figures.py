@@ -9,7 +9,6 @@ import json
 import pytest
 
 import svsa
-from svsa.paper.pictures import save_figures
 
 FIGURES = ("4a", "4b", "5")
 FL_TABLE = {
@@ -126,7 +125,7 @@ def test_the_numbers_are_plain_json(runs):
 
 def test_one_picture_a_figure_laid_out_as_in_the_paper(runs, tmp_path):
     """Tracking, position error, stiffness, its error: four panels over one time axis."""
-    from svsa.paper.pictures import draw_figure
+    from svsa.paper.pictures import draw_figure, save_figures
 
     picture = draw_figure(runs[:2])
     assert [axes.get_ylabel().split(" [")[0] for axes in picture.axes][:3] == [

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import quad
 
 import svsa
 from svsa.control.call import build_call
@@ -54,6 +53,8 @@ def test_the_lagged_torque_is_the_solution_of_its_differential_equation(lag):
 @pytest.mark.parametrize("lag", [1e-5, 5e-4, 0.05])
 def test_the_mean_torque_is_the_integral_over_the_period(lag):
     """What the observer is told is the impulse that the motor really gave, over T."""
+    from scipy.integrate import quad
+
     found = compute_mean_torque(START, TARGET, lag, T)
     for index in (0, 1):
         whole, _ = quad(

@@ -155,7 +155,7 @@ wrong = result["torque_nm"]
 """
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_a_typo_is_a_type_error(tmp_path: Path) -> None:
     (tmp_path / "script.py").write_text(TYPO)
     checker = Path(sys.executable).parent / "basedpyright"

@@ -182,6 +182,7 @@ def test_a_law_that_branches_on_its_state_is_called_for_one_run_after_the_other(
     configurations = [
         build(
             "ilc",
+            effects=svsa.RIG,
             parameters={"ilc": Learning(period_s=1.0, position_lead_s=lead)},
             loads=LOADS if lead < 0.1 else (CRASH,),
         )
