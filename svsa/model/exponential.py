@@ -52,7 +52,7 @@ L = (
 
 @compiled
 def split_exponent(x: float) -> tuple[float, float]:
-    """(2^k, e^r − 1) with x = k ln 2 + r, |r| ≤ ½ ln 2; x held between `MIN_EXPONENT` and `MAX_EXPONENT`."""
+    """(2^k, e^r − 1) with x = k ln 2 + r, |r| ≤ ½ ln 2; x held between the two exponents."""
     x = least(greatest(x, MIN_EXPONENT), MAX_EXPONENT)
     k = floor(x * LOG2_E + 0.5)
     exact = fma(-k, LN_2[0], x)
