@@ -10,6 +10,7 @@ from xdist.remote import Producer
 
 from svsa.compilation import watch_compilation
 from tests.lab import Lab, run_lab
+from tests.run_anew import RunAnew
 from tests.side_by_side import SideBySide
 
 SEARCHED = settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
@@ -58,6 +59,10 @@ gc.disable()
 def pytest_collection_finish() -> None:
     gc.freeze()
     gc.enable()
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.pluginmanager.register(RunAnew())
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -23,12 +23,17 @@ class PacedClock(LockstepClock):
         self._ahead_s = -math.inf
 
     def wait_until(self, deadline: float) -> None:
-        """Let the rig go on to this time, once it is due on the wall."""
+        """Let the rig go on to this time, once it is due on the wall.
+
+        A rig that had no loop for a while has gone on by itself: it is not waited for again.
+        """
         if math.isinf(self._ahead_s):
             self._ahead_s = self._wall.now() - self.now()
         self._wall.wait_until(deadline + self._ahead_s)
-        self._ahead_s = max(self._ahead_s, self._wall.now() - deadline - CATCH_UP_S)
+        late_s = self._wall.now() - max(deadline, self.now())
+        self._ahead_s = max(self._ahead_s, late_s - CATCH_UP_S)
         super().wait_until(deadline)
+        self._ahead_s = min(self._ahead_s, self._wall.now() - self.now())
 
     def find_lateness(self, deadline: float) -> float:
         """How long ago this deadline was due on the wall, s, as far as it is made up for."""

@@ -1,5 +1,6 @@
 """`svsa rig`: the emulated rig as a command."""
 
+import math
 import signal
 from pathlib import Path
 from typing import Annotated
@@ -28,6 +29,14 @@ def rig(
     idle_s: Annotated[
         float, typer.Option(min=0, help="End after so long without a client; 0: never.")
     ] = 0.0,
+    alone_s: Annotated[
+        float,
+        typer.Option(
+            min=0,
+            help="In lockstep: time goes on by itself where nobody asks any more for so long, as"
+            " on a machine whose loop is gone; 0: never.",
+        ),
+    ] = 0.0,
 ) -> None:
     """Emulate the bench on the wire: two drives, an encoder and the actuator, on CAN.
 
@@ -46,7 +55,7 @@ def rig(
     host = "127.0.0.1"
     serial, network = SlcanServer(), SocketcandServer(host, port)
     control = ControlServer(machine, host, control_port)
-    process = RigProcess(machine, [network, serial], control, lockstep, idle_s)
+    process = RigProcess(machine, [network, serial], control, lockstep, idle_s, alone_s or math.inf)
 
     def stop(*_: object) -> None:
         process.stopped = True

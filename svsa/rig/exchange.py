@@ -13,7 +13,7 @@ class Exchange:
     """Carries frames between a rig and the clients of its servers.
 
     lockstep: time goes on only when a client asks for it with `ADVANCE_ID`. origin_s: what the
-    stamps of frames count from, s, in the rig's time.
+    stamps of frames count from, s, in the rig's time. `asked`: how often time was asked for.
     """
 
     def __init__(
@@ -21,6 +21,7 @@ class Exchange:
     ) -> None:
         self._rig, self._servers = rig, servers
         self._lockstep, self._origin_s = lockstep, origin_s
+        self.asked = 0
 
     def serve(self, server: FrameServer) -> None:
         """Do what has come; who is new is greeted before the first frame of theirs acts."""
@@ -55,6 +56,7 @@ class Exchange:
         if not (frame.extended and frame.can_id == ADVANCE_ID):
             self._rig.receive(frame, client)
             return
+        self.asked += 1
         if self._lockstep:
             self._advance_to(min(decode_time(frame.data), self._rig.now_us + LONGEST_STEP_US))
         now_us = self._rig.now_us

@@ -60,7 +60,7 @@ class BenchSession:
         self.calibration = find_calibration(self.bench)
         self.problems = list_problems(self.bench, self.calibration)
         self._unwatched_since = 0.0
-        self.loop = SupervisedLoop(path, self.bench.timing, rest)
+        self.loop = SupervisedLoop(path, self.bench, rest)
         configuration = build_bench_configuration(self.bench, wanted)
         self._launch(configuration)
         self._run = self._build_still_run(configuration)

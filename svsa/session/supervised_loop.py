@@ -6,14 +6,23 @@ from pathlib import Path
 from typing import Any
 
 from svsa.bench.emulation import EMULATED_PERIOD_S
-from svsa.bench.file import TimingSettings
-from svsa.bench.realtime.launch import COLD, BenchProcesses, Rest, Teller, keep_quiet
+from svsa.bench.file import BenchFile
+from svsa.bench.realtime.launch import (
+    COLD,
+    PATIENCE_S,
+    BenchProcesses,
+    Rest,
+    Teller,
+    keep_quiet,
+)
 from svsa.bench.realtime.loss import Loss, find_loss, is_supervised
 from svsa.errors import StateError
 from svsa.run.configuration import Configuration
 
 UNKNOWN_S = 0.25
 """So long after the last tick it may not be known yet who stops the drives."""
+SILENT = 2.0
+"""So many times `loop_s`, by which a loop may be late: the supervisor comes before the server."""
 LISTENED_S = 3.0 * EMULATED_PERIOD_S
 """Who has heard no rig on the bus for so long has none."""
 
@@ -21,18 +30,21 @@ LISTENED_S = 3.0 * EMULATED_PERIOD_S
 class SupervisedLoop:
     """Both processes, which `launch` starts anew.
 
-    path: of the bench file. timing: of that file. rest: lets time pass where a command waits.
+    path: of the bench file. bench: that file. rest: lets time pass where a command waits.
     `starting`: they refuse commands until `open` returns. `memory`: see `LoopMemory`.
     """
 
-    def __init__(self, path: Path, timing: TimingSettings, rest: Rest = time.sleep) -> None:
-        self._path, self._timing, self._rest = path, timing, rest
+    def __init__(self, path: Path, bench: BenchFile, rest: Rest = time.sleep) -> None:
+        self._path, self._timing, self._rest = path, bench.timing, rest
+        self._patience_s = max(PATIENCE_S, SILENT * bench.safety.loop_s)
         self.starting = True
         self._heat = COLD
 
     def launch(self, configuration: Configuration) -> None:
         """Start both processes; `open` waits for them."""
-        self.processes = BenchProcesses(self._path, configuration, self._rest, self._heat)
+        self.processes = BenchProcesses(
+            self._path, configuration, self._rest, self._heat, self._patience_s
+        )
         self.memory = self.processes.memory
 
     def open(self, tell: Teller = keep_quiet) -> None:

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from tests.browser.test_page import go_to_page, open_page
-from tests.hardware.live_bench import start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
 from tests.lab import Lab, run_lab
 from tests.server.sessions.bench_lab import BenchLab
 
@@ -114,10 +114,8 @@ def test_a_reload_keeps_control_and_closing_the_page_frees_it(
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
     """The emulated rig with a dead-man's switch."""
-    with start_live_rig(lockstep=True) as rig:
-        path = write_bench(
-            tmp_path_factory.mktemp("bench"), rig, lockstep=True, dead_man=True, operator_s=1.0
-        )
+    with start_live_rig() as rig:
+        path = write_bench(tmp_path_factory.mktemp("bench"), rig, dead_man=True, operator_s=1.0)
         with run_lab("--bench", str(path), control_s=CONTROL_S) as lab:
             yield BenchLab(lab, rig)
 
@@ -169,7 +167,7 @@ def find_run(page: Page) -> Locator:
     return bench.get_by_role("button", name="Run", exact=True)
 
 
-@pytest.mark.wall_clock
+@pytest.mark.wall_clock(stall_s=FAIR_S)
 def test_the_bench_runs_only_while_the_switch_is_held(
     context: BrowserContext, bench: BenchLab
 ) -> None:
@@ -197,7 +195,7 @@ def test_the_bench_runs_only_while_the_switch_is_held(
 
 
 @pytest.mark.exhaustive
-@pytest.mark.wall_clock
+@pytest.mark.wall_clock(stall_s=FAIR_S)
 def test_only_the_switch_of_who_is_in_control_counts(
     context: BrowserContext, bench: BenchLab
 ) -> None:

@@ -11,7 +11,7 @@ from svsa.rig.launch import RunningRig, start_rig
 
 from .wired_bench import RIG_BENCH
 
-PATIENT = {"loop_s": 1.0, "supervisor_s": 2.0, "server_s": 20.0}
+PATIENT = {"loop_s": 1.0, "supervisor_s": 2.0, "server_s": 60.0}
 """How long the processes of a bench wait for one another."""
 LATE = {"stale_zero_s": 0.9, "stale_fault_s": 1.0, "missed_ticks": 900}
 """Beside these, against the clock only: a rig that is not let run, or a loop. It has to stand
@@ -19,18 +19,22 @@ still meanwhile: what moves on feedback this old is soon as fast as it may be.""
 
 START_SILENCE_S, IDLE_S = 300.0, 600.0
 """A loop may take longer to start on a busy machine than on a bench, and a rig waits longer."""
+STALL_S = PATIENT["loop_s"]
+"""The machine may stand still for so long: nobody misses a loop, and the rig waits for it."""
+FAIR_S = 0.5 * STALL_S
+"""A metronome that was late by more tells of a machine on which a loop may have been, too."""
 
 
-def start_live_rig(lockstep: bool) -> contextlib.AbstractContextManager[RunningRig]:
-    """A rig beside a loop in real time, with the loop's own claim to the processor.
+def start_live_rig() -> contextlib.AbstractContextManager[RunningRig]:
+    """A rig in lockstep beside a loop in real time, with the loop's own claim to the processor.
 
-    lockstep: it waits for the loop, so that nothing of it is late on a busy machine. Against the
-    clock it goes on without a loop, which a test needs that takes the loop away.
+    It waits for the loop, so that nothing of it is late on a busy machine; without one its time
+    goes on all the same, which a test needs that takes the loop away.
     """
-    return start_rig(lockstep, IDLE_S, "--real-time")
+    return start_rig(True, IDLE_S, "--real-time", "--alone-s", str(STALL_S))
 
 
-def write_bench(folder: Path, rig: RunningRig, lockstep: bool, **safety: Any) -> Path:
+def write_bench(folder: Path, rig: RunningRig, lockstep: bool = True, **safety: Any) -> Path:
     """The rig's bench file with this rig's ports, and its calibration record beside it.
 
     lockstep: as the rig was started. safety: what differs from the patience that it needs.

@@ -13,17 +13,18 @@ from tests.hardware.wired_bench import RIG_BENCH
 
 
 class Adapter:
-    """A bus that answers as a rig in lockstep, or not at all."""
+    """A bus that answers as a rig in lockstep, or not at all. alone_us: how far it went alone."""
 
     def __init__(self, answers: bool = True) -> None:
         self.asked: list[int] = []
         self._waiting: list[can.Message] = []
         self._answers = answers
+        self.alone_us = 0
 
     def send(self, message: can.Message) -> None:
         self.asked.append(decode_time(message.data))
         if self._answers:
-            data = encode_time(max(self.asked))
+            data = encode_time(max([*self.asked, self.alone_us]))
             self._waiting += [
                 can.Message(arbitration_id=0x01B, is_extended_id=False, data=b"\x00" * 8),
                 can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=data),
@@ -150,6 +151,20 @@ def test_a_paced_rig_keeps_step_with_the_wall_and_waits_for_a_late_loop() -> Non
     assert max(tick(clock, 200)) == pytest.approx(CATCH_UP_S)
     assert clock.now() == pytest.approx(0.34)
     assert wall.time == pytest.approx(501.34 - CATCH_UP_S, abs=0.002), "the rest is lost to both"
+
+
+def test_a_rig_that_went_on_alone_is_not_waited_for() -> None:
+    """While a loop was loading: its first tick is late, and the next is due a tick later."""
+    clock, wall, rig = PacedClock(), Wall(), Adapter()
+    clock._wall = wall  # pyright: ignore[reportAttributeAccessIssue]
+    clock.bind(rig)  # pyright: ignore[reportArgumentType]
+    for alone_s in (3.0, 8.0):
+        rig.alone_us, wall.time = round(alone_s * 1e6), wall.time + 3.0
+        clock.wait_until(clock.now() + 0.001)
+        assert clock.now() == alone_s
+        begin = wall.time
+        assert tick(clock, 100) == pytest.approx([0.0] * 100, abs=1e-9)
+        assert wall.time == pytest.approx(begin + 0.1)
 
 
 def test_the_bench_file_says_whether_the_rig_waits() -> None:

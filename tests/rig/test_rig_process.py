@@ -184,6 +184,21 @@ def test_against_the_clock_time_goes_on_by_itself():
             assert time.monotonic() < deadline
 
 
+def test_in_lockstep_time_goes_on_where_its_loop_is_gone_until_there_is_another():
+    with start_rig(True, 120.0, "--alone-s", "0.2") as running:
+        loop = Wire(running.port)
+        assert read_time_us(running) == 0, "nobody has asked yet"
+        loop.advance(5_000)
+        deadline = time.monotonic() + HANG_S
+        while read_time_us(running) < 100_000:
+            assert time.monotonic() < deadline
+        loop.send((ADVANCE_ID, encode_time(5_000)))
+        while (words := loop.read())[1] != f"{ADVANCE_ID:08X}":
+            pass
+        assert int(words[3], 16) >= 100_000, "it does not go back"
+        loop.close()
+
+
 def test_it_ends_when_told_and_when_idle():
     with start_rig(lockstep=True) as running:
         process = running.process

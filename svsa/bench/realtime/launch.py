@@ -23,9 +23,8 @@ if TYPE_CHECKING:
     from svsa.bench.safety.third_line import ThirdLine
 
 LISTEN_S = 0.1
-ANSWER_S = 0.5
 END_S = 5.0
-LOOP_SILENT_S = 0.5
+PATIENCE_S = 0.5
 _REST_S = 0.001
 
 Process = subprocess.Popen[bytes]
@@ -51,7 +50,8 @@ class BenchProcesses:
     `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or end. `events`:
     what the loop has said and nobody has read yet. `notes`: what real time was granted. `step`:
     what the loop does until it is ready. `failure`: why it did not get ready, or None. heat: of
-    both motors as a loop before this one left them, see `Winding`.
+    both motors as a loop before this one left them, see `Winding`. patience_s: a loop that has not
+    ticked for longer is silent, and a command is answered within it.
     """
 
     def __init__(
@@ -60,12 +60,13 @@ class BenchProcesses:
         configuration: Configuration,
         rest: Rest = time.sleep,
         heat: tuple[float, float] = COLD,
+        patience_s: float = PATIENCE_S,
     ) -> None:
         self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
         self.memory.fields["heat"] = heat
         self.events: list[dict[str, Any]] = []
         self.notes: list[str] = []
-        self._rest = rest
+        self._rest, self.patience_s = rest, patience_s
         self._number = 0
         self._waiting: list[int] = []
         self._answers: dict[int, dict[str, Any]] = {}
@@ -77,7 +78,8 @@ class BenchProcesses:
         self._supervisor = _start("svsa.bench.safety.supervisor", supervise)
         theirs.close()
         self.third_line = _watch(bench, self.beats, self._loop, self._supervisor)
-        self._configuration = configuration
+        with contextlib.suppress(LinkClosedError):  # who waits until it is ready reads why
+            self._link.send({"configuration": configuration.model_dump(mode="json")})
         self.step, self._begun_s = "starting its process", time.monotonic()
         self.failure: str | None = None
 
@@ -100,7 +102,6 @@ class BenchProcesses:
             raise BenchError(self.failure) from None
 
     def _wait_until_ready(self, silence_s: float, tell: Teller) -> None:
-        self._link.send({"configuration": self._configuration.model_dump(mode="json")})
         heard = time.monotonic()
         while time.monotonic() - heard < silence_s:
             tell(self.step, self.age_s)
@@ -143,7 +144,7 @@ class BenchProcesses:
     @property
     def listens(self) -> bool:
         """Whether the loop can be asked for something: its process runs and ticks."""
-        return self.alive and self.silence_s <= LOOP_SILENT_S
+        return self.alive and self.silence_s <= self.patience_s
 
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
         """Have the loop do something between two ticks, and rest until it answers.
@@ -154,7 +155,7 @@ class BenchProcesses:
         """
         if not self.listens:
             raise BenchError(self._describe_silence())
-        until = time.monotonic() + ANSWER_S
+        until = time.monotonic() + self.patience_s
         try:
             number = self._send(wanted, argument, until)
             self._waiting.append(number)
@@ -168,13 +169,13 @@ class BenchProcesses:
                 self._waiting.remove(number)
         except LinkClosedError:
             raise BenchError(self._describe_silence()) from None
-        raise BenchError(f"The loop of the bench did not answer within {ANSWER_S:g} s.")
+        raise BenchError(f"The loop of the bench did not answer within {self.patience_s:g} s.")
 
     def tell(self, wanted: str, argument: Any = None) -> None:
         """As `request`, without waiting to hear what becomes of it."""
         if self.listens:
             with contextlib.suppress(LinkClosedError):
-                self._send(wanted, argument, time.monotonic() + ANSWER_S)
+                self._send(wanted, argument, time.monotonic() + self.patience_s)
 
     def _describe_silence(self) -> str:
         what = "is silent" if self.alive else "is gone"
@@ -208,7 +209,7 @@ class BenchProcesses:
         """Ramp to zero, and end both processes: the supervisor after the loop."""
         with contextlib.suppress(SvsaError):
             self.request("end")
-        if self.alive and self.silence_s > LOOP_SILENT_S:
+        if self.alive and self.silence_s > self.patience_s:
             self._loop.kill()
         self._link.close()
         self._wait(self._loop)

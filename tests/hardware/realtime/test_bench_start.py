@@ -16,10 +16,12 @@ from svsa_server.sessions.bench_start import show_steps
 
 
 class ScriptedLink:
-    """Says each message at its time."""
+    """Says each message at its time. is_gone: the loop has ended before it is told anything."""
+
+    is_gone = False
 
     def __init__(self, messages):
-        self.now, self._messages = 0.0, list(messages)
+        self.now, self._messages, self.sent = 0.0, list(messages), []
 
     def rest(self, seconds):
         self.now += seconds
@@ -32,7 +34,8 @@ class ScriptedLink:
         return due
 
     def send(self, message):
-        if message.get("do") == "end":
+        self.sent.append(message)
+        if message.get("do") == "end" or self.is_gone:
             raise LinkClosedError("gone")
 
     def close(self):
@@ -56,6 +59,7 @@ def start(monkeypatch):
         monkeypatch.setattr(launch, "time", types.SimpleNamespace(monotonic=lambda: link.now))
         configuration = get_figure("4a").build_configuration()
         processes = BenchProcesses("bench.toml", configuration, link.rest)
+        assert [*link.sent[0]] == ["configuration"], "a server that starts may be long in asking"
         try:
             processes.wait_until_ready(silence_s, lambda *what: told.append(what))
         except BenchError as error:
@@ -96,6 +100,12 @@ def test_a_loop_that_ends_is_not_waited_for(start):
 def test_a_bench_that_cannot_be_opened_says_why(start):
     with pytest.raises(BenchError, match="no adapter"):
         start([(1.0, {"event": "failed", "message": "no adapter"})], 60.0)
+
+
+def test_a_loop_that_ended_before_it_was_told_anything_has_said_why(start, monkeypatch):
+    monkeypatch.setattr(ScriptedLink, "is_gone", True)
+    with pytest.raises(BenchError, match="no adapter"):
+        start([(0.0, {"event": "failed", "message": "no adapter"})], 60.0)
 
 
 def test_every_compiled_function_is_told_once():

@@ -19,8 +19,6 @@ from tests.hardware.wired_bench import RIG_BENCH
 
 from .survivors import PATIENCE_S, measure
 
-pytestmark = pytest.mark.wall_clock
-
 KILL, STOP = signal.SIGKILL, signal.SIGSTOP
 CASES = [
     (KILL, ("loop",), ("loop_lost",)),
@@ -41,6 +39,7 @@ SHOWN = [case for case in CASES if case[:2] in ((KILL, ("server",)), (KILL, ("lo
 _SAFETY = read_bench(RIG_BENCH).safety
 WAITS = {name: getattr(_SAFETY, name) for name in ("loop_s", "supervisor_s", "server_s")}
 """The processes wait for one another as long as they do on a bench: that is what is measured."""
+pytestmark = pytest.mark.wall_clock(stall_s=_SAFETY.loop_s)
 
 
 @pytest.fixture(scope="module")

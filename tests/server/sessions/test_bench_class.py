@@ -22,12 +22,12 @@ from tests.client.copied_script import (
     write_copied_script,
 )
 from tests.exhaustive import exhaust
-from tests.hardware.live_bench import start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
 from tests.lab import run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.sessions.bench_lab import BenchLab
 
-pytestmark = pytest.mark.wall_clock
+pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
 
 ADA, BOB = Person("p-1", "Ada", Role.OPERATOR), Person("p-2", "Bob", Role.OPERATOR)
 RAMP_TICKS = 300
@@ -53,8 +53,8 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
     for person in (ADA, BOB):
         Memberships(folder / FILE).keep(Membership(person))
     ada, bob, instructor = (keys.sign(one) for one in (ADA, BOB, INSTRUCTOR))
-    with start_live_rig(lockstep=True) as rig:
-        path = write_bench(folder, rig, lockstep=True)
+    with start_live_rig() as rig:
+        path = write_bench(folder, rig)
         with run_lab("--class", "--bench", str(path), data=str(folder)) as lab:
             lab.client.headers["Authorization"] = f"Bearer {instructor}"
             yield Room(BenchLab(lab, rig), folder, (ada, bob, instructor))

@@ -11,11 +11,11 @@ from svsa.course.file import read_course
 from svsa.grading.grade import Grade, grade
 from svsa.grading.submission import Submission
 from svsa.records.bench_start import START_FILE
-from tests.hardware.live_bench import start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import BenchLab, wait_until
 
-pytestmark = pytest.mark.wall_clock
+pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
 
 COURSE = "/api/v1/course/held"
 SLOWER = [40.0, 40.0, 40.0]
@@ -119,8 +119,8 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
     course = folder / "own"
     course.mkdir()
     (course / "held.md").write_text(EXERCISE, encoding="utf-8")
-    with start_live_rig(lockstep=True) as rig:
-        path = write_bench(folder, rig, lockstep=True)
+    with start_live_rig() as rig:
+        path = write_bench(folder, rig)
         with run_lab("--bench", str(path), "--course", str(course), data=str(folder)) as lab:
             yield Room(BenchLab(lab, rig), folder)
 

@@ -4,9 +4,10 @@ from collections.abc import Iterator
 
 import pytest
 
+from tests.hardware.live_bench import FAIR_S
 from tests.server.sessions.bench_lab import BenchLab, run_bench_lab, wait_until
 
-pytestmark = pytest.mark.wall_clock
+pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
 
 ZERO_S = 5.0
 LASTING_S = 60.0
@@ -15,7 +16,7 @@ LASTING_S = 60.0
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
-    with run_bench_lab(tmp_path_factory.mktemp("bench"), lockstep=True) as running:
+    with run_bench_lab(tmp_path_factory.mktemp("bench")) as running:
         yield running
 
 

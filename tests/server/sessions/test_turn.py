@@ -9,11 +9,15 @@ from typing import Any
 
 import pytest
 
+from svsa.bench.file import read_bench
 from svsa.bench.realtime import launch
 from svsa.bench.realtime.launch import BenchError, BenchProcesses
 from svsa.bench.realtime.link import Link, build_links
 from svsa.paper import get_figure
+from svsa.session import supervised_loop
+from svsa.session.supervised_loop import SupervisedLoop
 from svsa_server.sessions.turn import let_pass, take_turn
+from tests.hardware.wired_bench import RIG_BENCH
 
 LONG_S = 60.0
 
@@ -117,6 +121,23 @@ def test_a_loop_that_does_not_answer_is_not_waited_for_by_the_event_loop(
     assert turns >= 20
 
 
+@pytest.mark.parametrize(("loop_s", "patience_s"), [(0.02, 0.5), (1.0, 2.0)])
+def test_a_loop_is_silent_later_than_its_supervisor_waits_for_it(
+    monkeypatch: pytest.MonkeyPatch, loop_s: float, patience_s: float
+) -> None:
+    """What may be late by a second, the bench file says, is not given up after half of one."""
+    asked: list[Any] = []
+    nothing = types.SimpleNamespace(memory=None)
+    monkeypatch.setattr(
+        supervised_loop, "BenchProcesses", lambda *told: asked.extend(told) or nothing
+    )
+    bench = read_bench(RIG_BENCH)
+    bench = bench.changed(safety=bench.safety.changed(loop_s=loop_s))
+    loop = SupervisedLoop(RIG_BENCH, bench)
+    loop.launch(get_figure("4a").build_configuration())
+    assert asked[-1] == patience_s
+
+
 def test_a_silent_loop_is_not_asked_at_all(
     asked: tuple[BenchProcesses, Link], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -134,10 +155,10 @@ def test_a_silent_loop_is_not_asked_at_all(
 
 
 def test_requests_that_wait_together_end_in_their_order(
-    asked: tuple[BenchProcesses, Link], monkeypatch: pytest.MonkeyPatch
+    asked: tuple[BenchProcesses, Link],
 ) -> None:
     processes, theirs = asked
-    monkeypatch.setattr(launch, "ANSWER_S", LONG_S)
+    processes.patience_s = LONG_S
     ended = []
 
     def ask(name: str) -> None:
