@@ -12,12 +12,13 @@ from xdist.workermanage import WorkerController
 
 BROWSER = "tests/browser/"
 LONGEST = (
-    *("test_cluster", "test_identification", "test_bench_check", "test_identification_on_rig"),
-    *("test_stability_command", "test_execution", "test_library_door", "test_schema_fuzz"),
-    *("test_falsifier", "test_life", "test_control", "test_view", "test_accessibility"),
-    *("test_class", "test_page", "test_bench", "test_design", "test_safety", "test_memory"),
-    *("test_layout", "test_plots", "test_learning", "test_lesson", "test_replay"),
-    *("test_replay_files", "test_crispness"),
+    *("test_schema_fuzz", "test_identification", "test_can_plant_faults", "test_closed_loop"),
+    *("test_replay_page", "test_cluster", "test_bench_check", "test_stability_command"),
+    *("test_bench_plants", "test_bench_faults", "test_schema_doors", "test_exercises"),
+    *("test_leaderboard", "test_extras", "test_execution", "test_compilation"),
+    *("test_studies", "test_design", "test_class", "test_script", "test_view", "test_life"),
+    *("test_falsifier", "test_layout", "test_bench", "test_control", "test_accessibility"),
+    *("test_plots", "test_replay", "test_lti", "test_safety", "test_grades", "test_memory"),
 )
 """They begin, so that no process is left with one of them while the others are done."""
 

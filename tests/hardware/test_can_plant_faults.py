@@ -128,7 +128,13 @@ MOVING = {
     "lever_end": [_ask(known=AT_REST._replace(theta2=2.9))],
 }
 LISTED = [
-    pytest.param(status, code, cause, id=f"{code}-{number}-in-{status}")
+    pytest.param(
+        status,
+        code,
+        cause,
+        id=f"{code}-{number}-in-{status}",
+        marks=() if status is BenchStatus.RUN or code == "bus_error" else pytest.mark.exhaustive,
+    )
     for statuses, causes in (
         ((BenchStatus.READY, BenchStatus.RUN, BenchStatus.RAMP), ALWAYS),
         ((BenchStatus.RUN, BenchStatus.RAMP), MOVING),
@@ -137,6 +143,7 @@ LISTED = [
     for code, ways in causes.items()
     for number, cause in enumerate(ways)
 ]
+"""`make test` has each while running; of the machine in every state, `safety.test_machine`."""
 ELSEWHERE = {"drive_silent", "encoder_frozen", "singular_decoupling", "loop_late"}
 PROCESSES = {"loop_silent", "loop_lost", "loop_and_supervisor_lost"}
 """What the server finds, with real processes: `test_survivors`."""

@@ -12,7 +12,9 @@ from svsa.result.bench_run import LockstepBench, connect_bench
 from svsa.rig.launch import start_rig
 from svsa.run.command import SetPosition, SetStiffness
 from svsa.signals import CHANNEL_INDEX
+from tests.exhaustive import exhaust
 from tests.rig.in_process_rig import start_in_process
+from tests.session.sessions import SHOWN_IN_BATCHES
 
 TICKS = 3000
 LOADED_S = 1.0
@@ -74,13 +76,12 @@ def test_without_compensation_the_same_load_moves_the_link(compensated):
     )
 
 
-def test_a_law_integrates_every_tick_of_the_bench_and_the_same_run_is_the_same():
+def test_a_law_integrates_every_tick_of_the_bench():
     """FL + I, no motor at its limit: ∫e dt is T times the sum over all recorded ticks of q_d less q
     as the law knew it, as in the simulated loop; it takes the load away without an observer.
     """
     load = ConstantLoad(torque_nm=(0.5, 0.0, 0.0))
-    (samples, memory), (again, _) = (run_and_remember("fl_integral", load=load) for _ in range(2))
-    assert np.array_equal(samples, again, equal_nan=True)
+    samples, memory = run_and_remember("fl_integral", load=load)
     limits = {"torque1_nm": 14.0, "torque2_nm": 4.5}
     assert all(np.max(np.abs(samples[:, CHANNEL_INDEX[n]])) < most for n, most in limits.items())
     reference, known = (
@@ -92,7 +93,7 @@ def test_a_law_integrates_every_tick_of_the_bench_and_the_same_run_is_the_same()
     assert read_worst(samples, "position_error_rad") < np.radians(0.2)
 
 
-@pytest.mark.parametrize("law", list_law_names())
+@pytest.mark.parametrize("law", exhaust(list_law_names(), SHOWN_IN_BATCHES))
 def test_every_law_does_the_same_twice_on_the_bench_s_own_loop(law: str) -> None:
     """A quarter of a second of Figure 4A in lockstep, without a load."""
     first, again = (play_in_lockstep(law) for _ in range(2))
@@ -114,6 +115,7 @@ def play_in_lockstep(law: str) -> np.ndarray:
         return bench.sink.samples
 
 
+@pytest.mark.exhaustive
 def test_through_sockets_the_same_run_gives_the_same_samples_to_the_bit(compensated):
     """With the rig in a process of its own: what holds in this process holds over the wire."""
     assert np.array_equal(run("ndobc", start_rig), compensated, equal_nan=True)

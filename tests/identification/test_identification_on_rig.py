@@ -13,7 +13,7 @@ from tests.records.records import build_header
 from tests.rig.in_process_rig import start_in_process
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_table_1_is_found_within_5_percent():
     """A bench does not know its disturbance, and its torques are as sent, not as made."""
     ticks = round(EXCITATION_DURATION_S / 0.001)

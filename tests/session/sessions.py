@@ -11,8 +11,8 @@ PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)
 ALL = list(range(len(CHANNELS)))
 EVERY_EFFECT = EVERY
 SHOWN_IN_BATCHES = ("ndobc", "fl", "ndobc_w", "ilc")
-"""The laws whose batches on a rig's effects `make test` runs: without a memory, with one of numbers
-and of records, and one that is called for a run after the other."""
+"""The laws that `make test` runs in batches on a rig's effects and on the bench's own loop:
+without a memory, with one of numbers and of records, and one called for a run after the other."""
 
 
 def build_configuration(*loads, **changes):

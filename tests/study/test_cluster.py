@@ -130,6 +130,7 @@ def test_what_a_lost_worker_had_is_run_by_another_once(cluster, whole, tmp_path)
     assert read_table(stored) == whole
 
 
+@pytest.mark.exhaustive
 def test_a_study_outlives_its_scheduler(whole, tmp_path):
     stored = keep_study("one", build_study(runs=DRAWS), tmp_path)
     with run_scheduler(tmp_path) as (address, process):
