@@ -16,7 +16,7 @@ LONGEST = (
     *("test_replay_page", "test_cluster", "test_bench_check", "test_stability_command"),
     *("test_bench_plants", "test_bench_faults", "test_schema_doors", "test_exercises"),
     *("test_leaderboard", "test_extras", "test_execution", "test_compilation"),
-    *("test_studies", "test_design", "test_class", "test_script", "test_view", "test_life"),
+    *("test_studies", "test_design", "test_class", "test_script", "test_life", "test_view"),
     *("test_falsifier", "test_layout", "test_bench", "test_control", "test_accessibility"),
     *("test_plots", "test_replay", "test_lti", "test_safety", "test_grades", "test_memory"),
 )
