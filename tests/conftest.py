@@ -123,8 +123,6 @@ def shared_lab() -> Iterator[Lab]:
 
 @pytest.fixture
 def lab(shared_lab: Lab) -> Lab:
-    """The shared lab, begun anew on Figure 4A: one lane, no load, no recording."""
-    shared_lab.client.delete(shared_lab.session + "/recording")
-    shared_lab.client.put(shared_lab.session + "/lanes", json={"rivals": []}).raise_for_status()
-    shared_lab.load_figure()
+    """The shared lab, begun anew."""
+    shared_lab.begin_anew()
     return shared_lab

@@ -45,6 +45,12 @@ class Lab(NamedTuple):
         answer = self.client.post(self.session + "/experiment", json=request)
         return answer.raise_for_status().json()
 
+    def begin_anew(self) -> None:
+        """On Figure 4A: one lane, no load, no recording."""
+        self.client.delete(self.session + "/recording")
+        self.client.put(self.session + "/lanes", json={"rivals": []}).raise_for_status()
+        self.load_figure()
+
     def jump(self, seconds: float) -> dict:
         """Pause and run so many seconds of session time at once, or until a fault."""
         state = self.client.post(self.session + "/pause").raise_for_status().json()

@@ -177,6 +177,12 @@ def lab_without_runs(shared_lab: Lab) -> Lab:
 
 
 @pytest.fixture
+def still(lab: Lab) -> None:
+    """The shared session stands at 1 s: a page at rest draws nothing."""
+    lab.jump(1)
+
+
+@pytest.fixture
 def without_3d(request: pytest.FixtureRequest) -> None:
     """The frame of the 3D view stays empty, for tests that do not look at it.
 
@@ -188,4 +194,9 @@ def without_3d(request: pytest.FixtureRequest) -> None:
     if not kept or {"context", "own_page"} & names:
         shown.append(request.getfixturevalue("context"))
     for one in shown:
-        one.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
+        leave_3d_empty(one)
+
+
+def leave_3d_empty(one: Page | BrowserContext) -> None:
+    """As `without_3d`, of a page that a module opens once."""
+    one.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))

@@ -29,6 +29,8 @@ class Hand:
 
     def go_on(self, name: str) -> None:
         """Tab to what is called so, which must not be far, and press it."""
+        named = self.page.locator("a, button").filter(has_text=re.compile(f"^{name}"), visible=True)
+        expect(named.first).to_be_enabled()
         for _ in range(MAX_TABS):
             self.page.keyboard.press("Tab")
             if str(self.page.evaluate(FOCUSED)).startswith(name):

@@ -17,10 +17,11 @@ FOOT_IS_AT = """height => {
     const { bottom } = document.querySelector(".statusbar").getBoundingClientRect();
     return Math.round(bottom) === height;
 }"""
-OLDEST_TIME = "() => window.svsa.series('position_error_rad').time[0]"
+BEGINS_BEFORE = "time => window.svsa.series('position_error_rad').time[0] < time"
+IS_WIDE = "width => document.documentElement.scrollWidth === width"
 
 
-@pytest.mark.usefixtures("without_3d")
+@pytest.mark.usefixtures("without_3d", "still")
 def test_two_pages_show_one_session_and_keep_their_own_look(
     context: BrowserContext, lab: Lab
 ) -> None:
@@ -34,6 +35,7 @@ def test_two_pages_show_one_session_and_keep_their_own_look(
     expect(second.get_by_role("table", name=re.compile("controller does better"))).to_be_visible()
     choose(second.get_by_role("radio", name="5 s"))
     expect(first.get_by_role("radio", name="20 s")).to_be_checked()
+    first.get_by_role("button", name="Run", exact=True).click()
     second.get_by_role("button", name="Pause", exact=True).click()
     expect(first.get_by_role("button", name="Run", exact=True)).to_be_visible()
     end = lab.read()["time_s"]
@@ -44,26 +46,29 @@ def test_two_pages_show_one_session_and_keep_their_own_look(
     wait_for_samples(second, end)
 
 
-@pytest.mark.usefixtures("kept_page", "without_3d")
+@pytest.mark.usefixtures("kept_page", "without_3d", "still")
 def test_a_reload_in_the_middle_of_a_run_loses_nothing(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     lab.jump(6)
-    lab.client.post(lab.session + "/start").raise_for_status()
     choose(page.get_by_role("radio", name="60 s"))
     page.get_by_role("button", name="Record", exact=True).click()
     expect(page.get_by_role("button", name=re.compile("^Recording"))).to_be_visible()
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
     expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
-    before = page.evaluate(LAST_TIME)
+    lab.jump(1)
+    wait_for_samples(page, 7.9)
     page.reload()
     expect(page.get_by_role("button", name=re.compile("^Recording"))).to_be_visible()
     expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
     expect(page.get_by_role("radio", name="60 s")).to_be_checked()
-    wait_for_samples(page, before)
-    assert page.evaluate(OLDEST_TIME) < before - 5.0
+    wait_for_samples(page, 7.9)
+    page.wait_for_function(BEGINS_BEFORE, arg=2.0)
+    lab.jump(1)
+    wait_for_samples(page, 8.9)
     expect(page.get_by_role("button", name=re.compile("3 kg load on")).first).to_be_visible()
 
 
+@pytest.mark.usefixtures("kept_page", "without_3d")
 def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
     page: Page, tmp_path: Path
 ) -> None:
@@ -85,21 +90,26 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         expect(bar.get_by_text("Unknown")).to_be_visible()
         for claim in ("Running", "Paused", "real time", "watching"):
             expect(bar.get_by_text(claim)).to_have_count(0)
-    with run_lab(port=port, data=str(tmp_path)) as lab:
+    with (
+        page.expect_request("**/viser/lab/**") as view,
+        run_lab(port=port, data=str(tmp_path)) as lab,
+    ):
+        lab.client.post(lab.session + "/reset").raise_for_status()
+        lab.jump(1)
         wait_for_samples(page, before_s=end)
-        wait_for_samples(page, page.evaluate(LAST_TIME) + 0.5)
+        lab.jump(1)
+        wait_for_samples(page, 1.9)
         expect(lost).to_be_hidden()
         another = page.get_by_role("status").filter(has_text="This is a new session")
         expect(another).to_be_visible()
         another.get_by_role("button", name="Dismiss").click()
         expect(another).to_be_hidden()
-        view = page.frame_locator("iframe").locator("canvas").first
-        expect(view).to_be_visible(timeout=PATIENCE_MS)
         go_to_page(page, "Runs")
         row = page.get_by_role("table", name="Recorded runs").get_by_role("row").last
         expect(row.get_by_role("link", name="Cut")).to_be_visible()
         expect(row).to_contain_text("cut off")
         assert lab.client.get("/api/v1/runs").json()["runs"][0]["duration_s"] > 7
+    assert view.value.is_navigation_request(), "the 3D view is fetched anew"
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d")
@@ -113,7 +123,7 @@ def test_an_ended_private_session_says_so_and_leads_back(page: Page, lab: Lab) -
     expect(banner).to_contain_text("has ended")
     expect(bar.get_by_text("Running")).to_have_count(0)
     page.set_viewport_size({"width": 390, "height": 844})
-    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    page.wait_for_function(IS_WIDE, arg=390)
     page.set_viewport_size({"width": 1280, "height": 720})
     page.reload()
     expect(banner, "a link to it says so too").to_contain_text("has ended")

@@ -43,6 +43,7 @@ def test_a_link_of_the_platform_leads_to_the_exercise_signed_in(
     assert (cookie["sameSite"], cookie["httpOnly"]) == ("Strict", True)
 
 
+@pytest.mark.exhaustive
 def test_in_a_frame_of_the_platform_the_lab_offers_a_window_of_its_own(
     page: Page, platform: LearningPlatform
 ) -> None:

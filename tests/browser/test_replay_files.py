@@ -31,6 +31,10 @@ CURVE = """plot => {
 }"""
 
 
+IS_DRAWN = f"""() => ({CURVE})(document.querySelector('[data-plot="position"]'))
+    .every(Number.isFinite)"""
+
+
 @pytest.mark.exhaustive
 def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
     """A rise of 40 pixels over some hundreds, drawn between whole pixels: to a fifth of one."""
@@ -39,7 +43,9 @@ def test_a_slow_curve_is_no_stairs(page: Page, tmp_path: Path) -> None:
     samples[:, :, CHANNELS.index("position_reference_rad")] = np.nan
     path = write_page(tmp_path, ("FL",), samples=samples, load_mass_kg=mass)
     open_file(page, path)
-    middles = page.locator('[data-plot="position"]').evaluate(CURVE)
+    plot = page.locator('[data-plot="position"]')
+    page.wait_for_function(IS_DRAWN)
+    middles = plot.evaluate(CURVE)
     across = np.arange(len(middles))
     assert np.ptp(middles) > 15
     line = np.polyval(np.polyfit(across, middles, 1), across)
