@@ -11,11 +11,10 @@ from tests.lab import Lab
 pytestmark = pytest.mark.browser
 
 
-@pytest.mark.usefixtures("kept_page", "without_3d")
+@pytest.mark.usefixtures("kept_page", "without_3d", "still")
 def test_what_a_script_sets_while_somebody_types_is_told_and_not_undone(
     page: Page, lab: Lab
 ) -> None:
-    lab.load_figure()
     open_page(page, lab)
     motion = page.get_by_role("region", name="Motion", exact=True)
     field = motion.get_by_role("spinbutton", name=re.compile("Frequency"))
@@ -28,7 +27,8 @@ def test_what_a_script_sets_while_somebody_types_is_told_and_not_undone(
     expect(told).to_contain_text("It is now: Frequency 0.25 Hz.")
     expect(field).to_have_value("0.25")
     assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.25
-    told.get_by_role("button", name="Set mine all the same").click()
+    with page.expect_response("**/position"):
+        told.get_by_role("button", name="Set mine all the same").click()
     expect(told).to_be_hidden()
     expect(field).to_have_value("0.3")
     assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.3

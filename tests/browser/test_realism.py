@@ -10,7 +10,7 @@ from svsa.plant.effects import RIG, Effects
 from tests.browser.test_page import choose, open_page, unfold
 from tests.lab import Lab
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d", "still")]
 
 
 @pytest.fixture
@@ -37,12 +37,14 @@ def test_the_rig_is_one_choice_and_a_figure_keeps_it(
     with page.expect_response("**/experiment"):
         page.get_by_role("button", name="Fig. 4B").click()
     assert Effects.model_validate(read(lab)["effects"]) == RIG
+    expect(realism.get_by_role("radio", name="Rig")).to_be_checked()
     assert [rival["law"] for rival in read(lab)["rivals"]] == ["fl"]
     assert lab.read()["loads"][0]["start_s"] == 5.0
-    expect(realism.get_by_role("radio", name="Rig")).to_be_checked()
 
 
-def test_an_effect_by_itself_with_its_value(page: Page, lab: Lab, realism: Locator) -> None:
+def test_an_effect_by_itself_and_the_model_made_wrong_and_exact(
+    page: Page, lab: Lab, realism: Locator
+) -> None:
     noise = realism.get_by_role("checkbox", name="Sensor noise")
     choose(noise)
     deviation = realism.get_by_label("Deflection, std. dev.")
@@ -59,19 +61,19 @@ def test_an_effect_by_itself_with_its_value(page: Page, lab: Lab, realism: Locat
         "at most 100 mrad"
     )
     expect(deviation).to_have_value("0.5")
-    noise.press("Space")
+    with page.expect_response("**/effects"):
+        noise.press("Space")
     expect(deviation).to_have_count(0)
     assert read(lab)["effects"]["noise"] is None
     choose(noise)
     expect(deviation).to_have_value("0.5")
 
-
-def test_the_model_is_made_wrong_and_exact(page: Page, lab: Lab, realism: Locator) -> None:
     row = realism.get_by_role("row", name=re.compile("link inertia"))
     expect(row.get_by_role("cell").last).to_have_text("+49 %")
     model = row.get_by_role("spinbutton", name=re.compile("Model$"))
     model.fill("0.0206")
-    model.press("Enter")
+    with page.expect_response("**/nominal"):
+        model.press("Enter")
     expect(row.get_by_role("cell").last).to_have_text("+100 %")
     assert read(lab)["nominal"]["link_inertia_kg_m2"] == 0.0206
     model.fill("-1")

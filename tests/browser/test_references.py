@@ -10,9 +10,8 @@ pytestmark = pytest.mark.browser
 GOOD = "time_s,stiffness_nm_per_rad\n0,15\n1,25\n2,15\n"
 
 
-@pytest.mark.usefixtures("kept_page", "without_3d")
+@pytest.mark.usefixtures("kept_page", "without_3d", "still")
 def test_a_csv_of_stiffness_is_seen_then_applied(page: Page, lab: Lab) -> None:
-    lab.load_figure()
     open_page(page, lab)
     stiffness = page.get_by_role("region", name="Stiffness", exact=True)
     choose(stiffness.get_by_role("radio", name="Other"))

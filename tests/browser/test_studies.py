@@ -10,10 +10,13 @@ from svsa.study.execution import run_study
 from svsa.study.store import keep_study
 from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
 from tests.browser.test_page import WORKER_MS
+from tests.exhaustive import exhaust
 from tests.lab import Lab, run_lab
 from tests.study.studies import build_study
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
+
+SIZES = ((WIDE,), (WIDE, TABLET, PHONE))
 
 
 @pytest.fixture(scope="module")
@@ -25,18 +28,21 @@ def studied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
         yield lab
 
 
-def test_a_study_is_brushed_picked_from_and_left_for_a_run(page: Page, studied: Lab) -> None:
+@pytest.mark.parametrize("sizes", exhaust(SIZES, SIZES[:1]))
+def test_a_study_is_brushed_picked_from_and_left_for_a_run(
+    page: Page, studied: Lab, sizes: tuple[tuple[int, int], ...]
+) -> None:
     page.goto(studied.url + "/?studies=all")
     page.get_by_role("link", name=re.compile("^short")).press("Enter")
     law = page.get_by_role("row", name=re.compile("^NDOBC"))
     expect(law).to_contain_text(re.compile(r"40.*%"), timeout=WORKER_MS)
-    expect_no_violation(page, WIDE, TABLET, PHONE)
+    expect_no_violation(page, *sizes)
 
     plane = page.get_by_role("region", name="First plane")
     plane.get_by_label("Across from").fill("1")
     plane.get_by_label("Across from").press("Enter")
     expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible()
-    assert "brush=s" in page.url
+    page.wait_for_url(re.compile("brush=s"))
     address = page.url
     plane.get_by_role("application").press("ArrowRight")
     expect(page.get_by_role("columnheader", name=re.compile("^Run "))).to_have_count(1)
