@@ -1,10 +1,11 @@
 """The panel *Tune*: a search is begun, followed to its end and put to use, by keyboard alone."""
 
 import re
+from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Response, expect
 
 from svsa.run.configuration import parse_design
 from tests.browser.test_page import go_to_page, open_page
@@ -23,26 +24,39 @@ def open_tuning(page: Page) -> Locator:
     return panel
 
 
-def tune(panel: Locator) -> None:
-    """Search FL + I from what it is set to, to the end; what was found before may stand there."""
+def begins_tuning(response: Response) -> bool:
+    return response.request.method == "POST" and response.url.endswith("/tunings")
+
+
+def tune(panel: Locator) -> dict[str, Any]:
+    """Search FL + I from what it is set to, to the end, and read what was found.
+
+    What was found before may stand there meanwhile, in the same words.
+    """
     panel.get_by_label("Law").select_option("fl_integral")
     panel.get_by_label("Candidates", exact=True).fill(str(CANDIDATES))
-    panel.get_by_role("button", name="Start").press("Enter")
-    expect(panel.get_by_role("button", name="Stop")).to_be_visible()
+    with panel.page.expect_response(begins_tuning) as begun:
+        panel.get_by_role("button", name="Start").press("Enter")
+    address = f"{begun.value.url}/{begun.value.json()['id']}"
+    for _ in range(PATIENCE_MS // 200):
+        found = httpx.get(address, trust_env=False).raise_for_status().json()
+        if found["status"] == "done":
+            break
+        panel.page.wait_for_timeout(200)
     end = panel.get_by_text(f"FL + I: {CANDIDATES} of {CANDIDATES} candidates. Done.")
     expect(end).to_be_visible(timeout=PATIENCE_MS)
+    return found
 
 
 def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: Lab) -> None:
     lab.load_figure(law="fl_integral")
+    lab.jump(1)
     open_page(page, lab)
     panel = open_tuning(page)
     panel.get_by_label("Candidates", exact=True).fill("0")
     expect(panel.get_by_role("alert")).to_have_text(re.compile("^1 to 2000"))
     expect(panel.get_by_role("button", name="Start")).to_be_disabled()
-    tune(panel)
-
-    found = lab.client.get("/api/v1/tunings").json()[0]
+    found = tune(panel)
     present, best = found["present"], found["best"]
     assert best["cost"] < present["cost"]
     curve = panel.get_by_role("img", name=re.compile(f"^Best cost over {CANDIDATES} candidates"))
