@@ -56,7 +56,9 @@ gc.disable()
 """Until all tests are read: what is read stays, and is looked through again and again otherwise."""
 
 
-def pytest_collection_finish() -> None:
+@pytest.hookimpl(hookwrapper=True)
+def pytest_collection() -> Iterator[None]:
+    yield
     gc.freeze()
     gc.enable()
 
