@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.toml_file import read_toml
+from svsa.toml_file import read_toml, tell_place
 
 if TYPE_CHECKING:
     from svsa.records.verdict import Tolerance, Verdict
@@ -54,18 +54,23 @@ def compare(
 
 
 def read_tolerances(path: Path) -> "dict[str, Tolerance]":
-    """Tolerances by channel from a TOML file; raises `ParameterError` with its name."""
+    """Tolerances by channel from a TOML file; raises `ParameterError` with its name and lines."""
     from svsa.records.verdict import Tolerance
 
     read: dict[str, Tolerance] = {}
+    violations: list[Violation] = []
     for name, table in read_toml(path, "tolerance file").items():
         if not isinstance(table, dict):
-            violation = Violation(name, table, "", "a table: absolute, relative, time_s")
-            raise ParameterError(violation, file=str(path))
+            violations.append(Violation(name, table, "", "a table: absolute, relative, time_s"))
+            continue
         try:
             read[name] = Tolerance(**table)
         except ParameterError as error:
-            raise ParameterError(*error.within(name).violations, file=str(path)) from None
+            violations += error.within(name).violations
+    if violations:
+        names = [violation.name for violation in violations]
+        place = tell_place(str(path), path.read_text(encoding="utf-8"), names)
+        raise ParameterError(*violations, file=place)
     return read
 
 
@@ -79,10 +84,11 @@ def build_verdict_table(verdict: "Verdict") -> list[Table | str]:
         table.add_row(one.lane, one.channel, one.unit, held, *cells)
     failed = sum(not one.held for one in verdict.channels)
     told = f"{failed} of {len(verdict.channels)} channels not held" if failed else "All held"
-    lengths = ""
+    told += f" over {verdict.ticks} ticks"
     if verdict.own_ticks != verdict.other_ticks:
-        lengths = f"; not as long: {verdict.own_ticks} and {verdict.other_ticks} ticks"
-    return [table, f"{told} over {verdict.ticks} ticks{lengths}."]
+        lengths = f"not as long: {verdict.own_ticks} and {verdict.other_ticks} ticks"
+        told = f"Not held: {lengths}. {told}"
+    return [table, f"{told}."]
 
 
 def _plain(value: Any) -> Any:

@@ -172,8 +172,19 @@ def test_the_command_says_held_or_not_by_its_exit_code(tmp_path):
     file = tmp_path / "tolerances.toml"
     file.write_text(f"[{ERROR}]\nabsolute = 0.6\n")
     assert run(b, a, "--tolerances", file).exit_code == 0
-    file.write_text(f"[{ERROR}]\nabsolute = -1\n")
+    file.write_text(f"{TORQUE} = 3\n[{ERROR}]\nabsolute = -1\n")
     refused = run(b, a, "--tolerances", file)
     assert refused.exit_code == 2
-    assert "position_error_rad.absolute is -1" in " ".join(refused.stderr.split())
+    told = " ".join(refused.stderr.split())
+    assert "tolerances.toml, lines 1 and 3: torque1_nm is 3" in told
+    assert "position_error_rad.absolute is -1" in told
     assert run(b, tmp_path / "nothing").exit_code == 2
+
+
+def test_the_command_says_first_that_a_run_is_not_as_long(tmp_path):
+    for run_id, ticks in (("a", TICKS), ("b", TICKS - 50)):
+        write_record(tmp_path / run_id, build_header(run_id), [], 0, build_samples(ticks))
+    outcome = run(tmp_path / "b", tmp_path / "a")
+    assert outcome.exit_code == 1
+    told = " ".join(outcome.stdout.split())
+    assert told.endswith("Not held: not as long: 150 and 200 ticks. All held over 150 ticks.")
