@@ -1,5 +1,6 @@
 """`svsa falsify`: find the load that hurts a law most, keep it, put other laws through it."""
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -7,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -18,6 +20,7 @@ from rich.progress import (
 from rich.table import Table
 
 from svsa.control.installed import BASELINE, PAPERS_LAW, get_title, list_law_names
+from svsa.errors import ParameterError, Violation
 from svsa.extras import require_extra
 
 if TYPE_CHECKING:
@@ -61,6 +64,9 @@ def search_command(
         require_extra("plot")
     adversary = read_adversary(source, **({} if law is None else {"law": law}))
     path = output or Path(f"{Path(source).stem}-{adversary.law}.toml")
+    _check_writable("output", path)
+    if picture is not None:
+        _check_writable("picture", picture)
     known = read_search(path, adversary, seed, "cma")
     with _show_progress(adversary, runs, len(known)) as tell:
         found = find(adversary, runs=runs, seed=seed, known=known, on_generation=tell)
@@ -171,6 +177,13 @@ def _list_beside(law: str) -> tuple[str, ...]:
     return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
 
 
+def _check_writable(name: str, path: Path) -> None:
+    """Raise `ParameterError` where no file can be written, before a long search and not after."""
+    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+        bound = "a file that can be written, in a folder that is there"
+        raise ParameterError(Violation(f"--{name}", path, "", bound))
+
+
 def _describe(found: "Falsified", path: Path) -> dict[str, object]:
     simple = found.shrunk
     return {
@@ -216,7 +229,8 @@ def _build_table(compared: "list[LawOutcome]") -> Table:
     }
     table = Table("law", "ends", title="Position error and stiffness error", title_justify="left")
     for name, told in names.items():
-        table.add_column(f"{told}\n[{tell_unit(name)}]", justify="right", no_wrap=True)
+        heading = escape(f"{told}\n[{tell_unit(name)}]")
+        table.add_column(heading, justify="right", no_wrap=True)
     for one in compared:
         end = "whole" if one.fault is None else f"{label_fault(one.fault)}, {one.fault_s:.3f} s"
         cells = [tell_value(name, one.metrics[name]) for name in names]

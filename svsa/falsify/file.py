@@ -71,4 +71,5 @@ def _build(
         return kind(**sections | changes)
     except ParameterError as error:
         names = [violation.name for violation in error.violations if violation.name not in changes]
-        raise ParameterError(*error.violations, file=tell_place(place, text, names)) from None
+        there = tell_place(place, text, names) if names else ""
+        raise ParameterError(*error.violations, file=there) from None

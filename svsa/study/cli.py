@@ -40,15 +40,16 @@ def show_command(
     name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     outcome: Annotated[
-        str, typer.Option(help="What Sobol indices are of: succeeded, or a metric.")
-    ] = "succeeded",
+        str | None,
+        typer.Option(help="What Sobol indices are of: succeeded, or a metric; else succeeded."),
+    ] = None,
     pictures: Annotated[
         Path | None, typer.Option(help="Folder for pictures; none are drawn if left out.")
     ] = None,
 ) -> None:
     """What came of a study: success, faults and quantiles of each law, and what decided them."""
     from svsa.study.store import open_study, read_rows
-    from svsa.study.summary import estimate_sensitivity, summarize_laws
+    from svsa.study.summary import SUCCEEDED, estimate_sensitivity, summarize_laws
     from svsa.study.tables import build_sensitivity_table, build_summary_tables, write_json
 
     if pictures is not None:
@@ -56,10 +57,10 @@ def show_command(
     stored = open_study(name)
     rows = read_rows(stored)
     laws = summarize_laws(stored.study, rows)
-    is_set = stored.study.sampling == "sensitivity"
+    is_asked = outcome is not None or stored.study.sampling == "sensitivity"
     indices = [
-        estimate_sensitivity(stored.study, rows, law, outcome)
-        for law in (stored.study.laws if is_set else ())
+        estimate_sensitivity(stored.study, rows, law, outcome or SUCCEEDED)
+        for law in (stored.study.laws if is_asked else ())
     ]
     if as_json:
         write_json({"study": name, "laws": laws, "sensitivity": indices})
@@ -115,7 +116,7 @@ def replay_command(
     from svsa.study.metrics import METRICS
     from svsa.study.replay import record_replay, replay_row
     from svsa.study.store import open_study
-    from svsa.study.tables import write_json
+    from svsa.study.tables import tell_metric, write_json
 
     stored = open_study(name)
     replay = replay_row(stored, row)
@@ -128,7 +129,7 @@ def replay_command(
         table.title = f"Row {row} of study {name}: {replay.kept['law']}"
         for metric in stored.study.metrics:
             values = f"{replay.kept[metric]!r}", f"{replay.metrics[metric]!r}"
-            table.add_row(metric, METRICS[metric], *values)
+            table.add_row(tell_metric(metric), METRICS[metric], *values)
         Console().print(table)
         ended = replay.result.fault
         _messages.print(ended.message if ended else "It went to its end.")

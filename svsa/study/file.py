@@ -63,7 +63,8 @@ def _build(sections: dict[str, Any], text: str, place: str, changes: dict[str, A
         return Study(**sections | changes)
     except ParameterError as error:
         names = [violation.name for violation in error.violations if violation.name not in changes]
-        raise ParameterError(*error.violations, file=tell_place(place, text, names)) from None
+        there = tell_place(place, text, names) if names else ""
+        raise ParameterError(*error.violations, file=there) from None
 
 
 def _run_python(path: Path) -> Study:
@@ -71,7 +72,7 @@ def _run_python(path: Path) -> Study:
         study = runpy.run_path(str(path)).get(OBJECT)
     except ParameterError as error:
         raise ParameterError(*error.violations, file=_find_place(path, error)) from None
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         place = _find_place(path, error)
         bound = f"a Python file that runs ({type(error).__name__}: {error})"
         raise ParameterError(Violation(STUDY_FILE, path, "", bound), file=place) from None
@@ -81,7 +82,7 @@ def _run_python(path: Path) -> Study:
     return study
 
 
-def _find_place(path: Path, error: Exception) -> str:
+def _find_place(path: Path, error: BaseException) -> str:
     """The file, and the last line of it that was at work."""
     frames = traceback.extract_tb(error.__traceback__)
     lines = [frame.lineno for frame in frames if Path(frame.filename) == path]

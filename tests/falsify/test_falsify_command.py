@@ -94,6 +94,7 @@ def test_what_is_found_is_kept_and_comes_back_from_its_file(tmp_path):
     shown = run("run", "pulse-weak.toml", "--laws", "fl, weak").stdout
     assert "whole" in shown
     assert "Weak" in shown
+    assert all(f"[{unit}]" in shown for unit in ("°", "s", "N·m/rad"))
 
 
 def test_ctrl_c_keeps_the_worst_so_far_and_the_same_command_goes_on(tmp_path, monkeypatch):
@@ -117,6 +118,21 @@ def test_ctrl_c_keeps_the_worst_so_far_and_the_same_command_goes_on(tmp_path, mo
     search("--law", "fl", "--output", "part.toml")
     assert (tmp_path / "part.toml").read_bytes() == (tmp_path / "whole.toml").read_bytes()
     assert not (tmp_path / "part.toml.search").exists()
+
+
+@pytest.mark.parametrize("option", ["output", "picture"])
+def test_where_no_file_can_be_written_nothing_is_searched(tmp_path, monkeypatch, option):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    monkeypatch.setattr(finding, "measure_attacks", None)
+    for place in ("nowhere/found.toml", "."):
+        with pytest.raises(ParameterError, match=f"--{option} is .*in a folder that is there"):
+            search(f"--{option}", place)
+
+
+def test_a_law_that_was_asked_for_is_not_said_to_stand_in_the_file(tmp_path):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    with pytest.raises(ParameterError, match=r"^law is 'nobody': it must be a law"):
+        search("--law", "nobody")
 
 
 def test_what_was_kept_of_another_search_is_left_alone(tmp_path):

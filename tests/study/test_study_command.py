@@ -74,7 +74,8 @@ def test_a_study_of_some_metrics_keeps_shows_replays_and_draws_those(data, tmp_p
     shown = json.loads(run("show", "few", "--json"))
     assert all(tuple(law["quantiles"]) == kept for law in shown["laws"])
     assert replay_row(open_study("few"), 3).differing == []
-    run("replay", "few", "3", "--no-keep")
+    shown = run("replay", "few", "3", "--no-keep")
+    assert all(name in shown for name in ("limit share", "peak torque2", "effort"))
     run("show", "few", "--pictures", str(tmp_path))
     assert (tmp_path / "few_distributions.png").exists()
 
@@ -167,6 +168,12 @@ def test_a_row_that_is_not_there_is_refused(data):
         run("replay", "one", "80")
     with pytest.raises(StudyError, match="There is no study nix"):
         run("show", "nix")
+
+
+def test_an_outcome_is_asked_of_a_study_for_sensitivity_only(data):
+    for outcome in ("succeeded", "nothing"):
+        with pytest.raises(StudyError, match="sampling is sensitivity"):
+            run("show", "one", "--outcome", outcome)
 
 
 def test_pictures_are_drawn_of_what_there_is(data, tmp_path):

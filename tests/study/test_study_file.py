@@ -94,6 +94,19 @@ def test_a_study_in_python_is_the_same_as_in_toml(tmp_path):
     (tmp_path / "b.py").write_text("1 / 0\n")
     with pytest.raises(ParameterError, match=r"b\.py, line 1: .*ZeroDivisionError"):
         read_study(tmp_path / "b.py")
+    (tmp_path / "b.py").write_text("import sys\nsys.exit(3)\n")
+    with pytest.raises(ParameterError, match=r"b\.py, line 2: .*SystemExit: 3"):
+        read_study(tmp_path / "b.py")
+
+
+def test_a_value_that_was_given_beside_the_file_is_not_said_to_stand_in_it(tmp_path):
+    path = tmp_path / "good.toml"
+    path.write_text(GOOD)
+    with pytest.raises(ParameterError, match=r"^runs is 0: it must be at least 1"):
+        read_study(path, runs=0)
+    path.write_text(GOOD.replace('"ndobc"', '"nobody"'))
+    with pytest.raises(ParameterError, match=r"good\.toml, line 3: laws\[0\] .*runs is 0"):
+        read_study(path, runs=0)
 
 
 def test_those_of_the_package_can_be_read_and_found_by_name():
