@@ -80,6 +80,7 @@ class Opened(NamedTuple):
 @pytest.fixture(scope="module")
 def opened_once(browser: Browser, exported: Path) -> Iterator[Opened]:
     context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme="dark")
+    context.set_default_timeout(PATIENCE_MS)
     page = context.new_page()
     yield Opened(page, open_file(page, exported))
     context.close()
