@@ -124,7 +124,8 @@ def shared_lab() -> Iterator[Lab]:
 
 
 @pytest.fixture
-def lab(shared_lab: Lab) -> Lab:
-    """The shared lab, begun anew."""
+def lab(shared_lab: Lab) -> Iterator[Lab]:
+    """The shared lab, begun anew; it stands still after the test."""
     shared_lab.begin_anew()
-    return shared_lab
+    yield shared_lab
+    shared_lab.client.post(shared_lab.session + "/pause")

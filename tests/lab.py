@@ -8,6 +8,7 @@ import sys
 import tempfile
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import NamedTuple
 
 import httpx
@@ -18,11 +19,12 @@ PATIENCE_S = 120.0
 
 
 class Lab(NamedTuple):
-    """A running lab: its address and a client for it; `process` is None inside this one."""
+    """A running lab: its address, a client for it and its folder; inside this process, no other."""
 
     url: str
     client: httpx.Client
     process: subprocess.Popen[str] | None
+    data: Path
 
     @property
     def session(self) -> str:
@@ -101,7 +103,7 @@ def run_lab(
         with httpx.Client(
             base_url=url, headers=headers, timeout=PATIENCE_S, trust_env=False
         ) as client:
-            yield Lab(url, client, process)
+            yield Lab(url, client, process, Path(settings["data"]))
     finally:
         guard.cancel()
         process.terminate()

@@ -9,6 +9,7 @@ import os
 import tempfile
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from unittest.mock import patch
 
 import httpx
@@ -70,7 +71,7 @@ def run_lab_in_process(**settings: str) -> Iterator[Lab]:
         try:
             transport = LoopTransport(httpx.ASGITransport(app, raise_app_exceptions=False), loop)
             with httpx.Client(transport=transport, base_url=ADDRESS, trust_env=False) as client:
-                yield Lab(ADDRESS, client, None)
+                yield Lab(ADDRESS, client, None, Path(settings["data"]))
         finally:
             ending = life.__aexit__(None, None, None)
             asyncio.run_coroutine_threadsafe(ending, loop).result(LONGEST_S)

@@ -183,6 +183,15 @@ def still(lab: Lab) -> None:
 
 
 @pytest.fixture
+def still_lab(lab: Lab, still: None) -> Iterator[Lab]:
+    """The shared lab, standing still; the private sessions of a test end with it."""
+    yield lab
+    for one in lab.client.get("/api/v1/sessions").raise_for_status().json():
+        if one["session"] != "lab":
+            lab.client.delete(f"/api/v1/sessions/{one['session']}")
+
+
+@pytest.fixture
 def without_3d(request: pytest.FixtureRequest) -> None:
     """The frame of the 3D view stays empty, for tests that do not look at it.
 

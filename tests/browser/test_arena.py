@@ -13,8 +13,8 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
-def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, lab: Lab) -> None:
-    open_page(page, lab)
+def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_lab: Lab) -> None:
+    open_page(page, still_lab)
     go_to_page(page, "Arena")
     table = page.get_by_role("region", name="Errors, faults and score, a law a row")
     first = table.get_by_role("rowheader").first

@@ -12,6 +12,7 @@ from tests.server.test_behind_proxy import ROOT, find_caddy, find_free_port, run
 
 pytestmark = [
     pytest.mark.browser,
+    pytest.mark.exhaustive,
     pytest.mark.skipif(find_caddy() is None, reason="Caddy is not on this machine"),
 ]
 LONGEST_MS = 90_000

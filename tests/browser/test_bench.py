@@ -2,11 +2,13 @@
 
 import re
 from collections.abc import Iterator
+from functools import partial
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
+from tests.browser.settled import find_lasting, get_box, until
 from tests.browser.test_page import open_page
 from tests.exhaustive import exhaust
 from tests.lab import Lab
@@ -20,6 +22,7 @@ BUTTONS = ("Arm", "Run", "Stop", "Clear fault")
 def opened_once(
     browser: Browser, browser_context_args: dict, shared_lab: Lab
 ) -> Iterator[PatchedBench]:
+    shared_lab.load_figure()
     context = browser.new_context(**browser_context_args)
     context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
     patched = PatchedBench(context.new_page())
@@ -29,7 +32,7 @@ def opened_once(
 
 
 @pytest.fixture
-def patched(opened_once: PatchedBench, browser_context_args: dict, lab: Lab) -> PatchedBench:
+def patched(opened_once: PatchedBench, browser_context_args: dict, still_lab: Lab) -> PatchedBench:
     """A bench that is off, in the one page of these tests."""
     patched, page = opened_once, opened_once.page
     page.set_viewport_size(browser_context_args["viewport"])
@@ -69,19 +72,21 @@ def expect_stage(page: Page, stage: str) -> None:
 
 
 @pytest.mark.usefixtures("without_3d")
-def test_a_simulation_shows_no_bench_and_no_mark(own_page: Page, lab: Lab) -> None:
-    open_page(own_page, lab)
-    expect(find_bench(own_page)).to_have_count(0)
-    expect(own_page.get_by_text(re.compile("EMULATED|REAL BENCH"))).to_have_count(0)
-    expect(own_page).to_have_title("SVSA Lab")
+def test_a_simulation_shows_no_bench_and_no_mark(kept_page: Page, still_lab: Lab) -> None:
+    open_page(kept_page, still_lab)
+    expect(find_bench(kept_page)).to_have_count(0)
+    expect(kept_page.get_by_text(re.compile("EMULATED|REAL BENCH"))).to_have_count(0)
+    expect(kept_page).to_have_title("SVSA Lab")
 
 
-@pytest.mark.parametrize(
-    ("emulated", "name"), [(True, "EMULATED"), (False, "REAL BENCH"), (None, "BENCH")]
-)
+MARKS = {True: "EMULATED", False: "REAL BENCH", None: "BENCH"}
+
+
+@pytest.mark.parametrize("emulated", exhaust(MARKS, [False]))
 def test_the_mark_is_in_band_view_status_bar_and_tab(
-    page: Page, patched: PatchedBench, emulated: bool | None, name: str
+    page: Page, patched: PatchedBench, emulated: bool | None
 ) -> None:
+    name = MARKS[emulated]
     patched.become(emulated=emulated)
     expect(page).to_have_title(re.compile(f"^{name}"))
     expect(page.get_by_text(name, exact=True)).to_have_count(3)
@@ -178,12 +183,12 @@ def test_the_status_bar_tells_the_lateness_of_a_bench(page: Page, patched: Patch
 
 
 def test_on_a_real_bench_the_load_button_only_marks(
-    page: Page, patched: PatchedBench, lab: Lab
+    page: Page, patched: PatchedBench, still_lab: Lab
 ) -> None:
     patched.become(emulated=False, status="run", homing=HOMED)
     page.get_by_role("button", name=re.compile("I hung 3 kg")).click()
     expect(page.get_by_role("button", name=re.compile("I took 3 kg off"))).to_be_visible()
-    assert lab.read()["loads"][0]["load"]["kind"] == "mass"
+    assert still_lab.read()["loads"][0]["load"]["kind"] == "mass"
 
 
 def test_the_work_is_seen_without_scrolling_on_a_running_bench(
@@ -241,6 +246,10 @@ def test_of_a_bench_that_was_never_opened_nobody_asks_who_stopped_it(
     expect(page.get_by_text("The bench is not open.")).to_be_visible()
 
 
+FIND_CUT = """cards => cards.filter(one => one.scrollWidth > one.clientWidth + 1)
+    .map(one => `${one.ariaLabel}: ${one.scrollWidth} px in ${one.clientWidth}`)"""
+
+
 @pytest.mark.parametrize("size", exhaust([(390, 844), (820, 1180), (1280, 720)], [(390, 844)]))
 def test_nothing_of_a_bench_is_covered_or_cut(
     page: Page, patched: PatchedBench, size: tuple[int, int]
@@ -249,24 +258,27 @@ def test_nothing_of_a_bench_is_covered_or_cut(
     patched.become(status="ramp", emulated=False, homing=HOMED, ages_s=[1000, 1000, 0.001])
     expect(find_bench(page).get_by_text("Ramping down")).to_be_visible()
     bar = page.get_by_role("region", name="Status", exact=True)
-    control = bar.get_by_role("button", name="Take control").bounding_box()
-    stop = bar.get_by_role("button", name="Quick stop").bounding_box()
-    assert control is not None and stop is not None
-    assert control["x"] + control["width"] < stop["x"]
+    control = bar.get_by_role("button", name="Take control")
+    stop = bar.get_by_role("button", name="Quick stop")
+
+    def is_before_the_stop() -> bool:
+        box = get_box(control)
+        return box["x"] + box["width"] < get_box(stop)["x"]
+
+    until(page, is_before_the_stop)
     find_details(page).click()
-    expect(page.locator(".bench-card").first).to_be_visible()
-    cut = page.locator(".bench-card").evaluate_all(
-        """cards => cards.filter(one => one.scrollWidth > one.clientWidth + 1)
-            .map(one => `${one.ariaLabel}: ${one.scrollWidth} px in ${one.clientWidth}`)"""
-    )
-    assert cut == []
+    cards = page.locator(".bench-card")
+    expect(cards.first).to_be_visible()
+    assert find_lasting(page, partial(cards.evaluate_all, FIND_CUT)) == []
 
 
 @pytest.mark.usefixtures("without_3d")
-def test_without_a_connection_a_fault_is_the_last_that_is_known(own_page: Page, lab: Lab) -> None:
-    page = own_page
+def test_without_a_connection_a_fault_is_the_last_that_is_known(
+    bench_page: Page, still_lab: Lab
+) -> None:
+    page = bench_page
     patched = PatchedBench(page, status="run", homing=HOMED)
-    open_page(page, lab)
+    open_page(page, still_lab)
     page.keyboard.press("Shift+Escape")
     banner = page.get_by_role("alert").filter(has_text="Quick stop.")
     expect(banner).to_contain_text("Both drives are without current")
@@ -276,8 +288,9 @@ def test_without_a_connection_a_fault_is_the_last_that_is_known(own_page: Page, 
 
 
 def test_a_fault_is_cleared_by_who_is_in_control(
-    page: Page, patched: PatchedBench, lab: Lab
+    page: Page, patched: PatchedBench, still_lab: Lab
 ) -> None:
+    lab = still_lab
     patched.become(status="fault", homing=HOMED)
     clears = page.get_by_role("button", name="Clear fault", exact=True)
     expect(clears).to_have_count(2)

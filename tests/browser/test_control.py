@@ -19,12 +19,12 @@ ATTEMPTS = 3
 
 
 @pytest.fixture
-def two_pages(context: BrowserContext, lab: Lab) -> tuple[Page, Page]:
+def two_pages(context: BrowserContext, still_lab: Lab) -> tuple[Page, Page]:
     """Two tabs of one browser, with nobody in control."""
-    wait_for_holder(lab, None)
+    wait_for_holder(still_lab, None)
     pages = context.new_page(), context.new_page()
     for page in pages:
-        open_page(page, lab)
+        open_page(page, still_lab)
     return pages
 
 
@@ -50,7 +50,7 @@ def take(page: Page, name: str) -> None:
 
 
 def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
-    two_pages: tuple[Page, Page], lab: Lab
+    two_pages: tuple[Page, Page], still_lab: Lab
 ) -> None:
     ada, other = two_pages
     for page in two_pages:
@@ -66,12 +66,12 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
 
     other.keyboard.press("l")
     expect(other.get_by_text("Ada is in control of session lab: ask Ada")).to_be_visible()
-    assert lab.read()["loads"] == []
+    assert still_lab.read()["loads"] == []
+    expect(other.get_by_role("button", name="Run", exact=True)).to_be_disabled()
+    ada.get_by_role("button", name="Run", exact=True).click()
     other.get_by_role("button", name="Pause", exact=True).click()
     expect(ada.get_by_role("button", name="Run", exact=True)).to_be_enabled()
     expect(other.get_by_role("button", name="Run", exact=True)).to_be_disabled()
-    ada.get_by_role("button", name="Run", exact=True).click()
-    expect(other.get_by_role("button", name="Pause", exact=True)).to_be_enabled()
 
     banner.get_by_role("button", name="Take over").click()
     question = other.get_by_role("form", name="Control")
@@ -97,8 +97,9 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
     expect(find_control(other)).to_contain_text("Everyone")
 
 
+@pytest.mark.exhaustive
 def test_a_reload_keeps_control_and_closing_the_page_frees_it(
-    two_pages: tuple[Page, Page], lab: Lab
+    two_pages: tuple[Page, Page], still_lab: Lab
 ) -> None:
     ada, other = two_pages
     take(ada, "Ada")
@@ -108,7 +109,7 @@ def test_a_reload_keeps_control_and_closing_the_page_frees_it(
     ada.close()
     expect(find_control(other)).to_contain_text("1 watching")
     expect(find_control(other)).to_contain_text("Everyone")
-    wait_for_holder(lab, None)
+    wait_for_holder(still_lab, None)
 
 
 @pytest.fixture(scope="module")

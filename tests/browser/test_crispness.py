@@ -10,10 +10,9 @@ from PIL import Image
 from playwright.sync_api import Browser, Page, Playwright, WebSocketRoute, expect
 
 from tests.browser.test_page import open_page
-from tests.exhaustive import exhaust
 from tests.lab import Lab
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.exhaustive]
 
 HIDE_BANNERS = """() => {
   const sheet = new CSSStyleSheet();
@@ -86,7 +85,7 @@ def read_plot(page: Page) -> np.ndarray:
     return pixels[:, width // 4 : -width // 20]
 
 
-@pytest.mark.parametrize("ratio", exhaust([1.0, 1.25, 1.5, 2.0], [1.25]))
+@pytest.mark.parametrize("ratio", [1.0, 1.25, 1.5, 2.0])
 def test_what_has_scrolled_is_as_if_drawn_just_now(
     accelerated: Browser, lab: Lab, ratio: float
 ) -> None:

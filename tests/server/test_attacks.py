@@ -127,7 +127,7 @@ def test_who_vanishes_while_in_control_loses_it(attacked: Lab) -> None:
     name = {"Authorization": f"Bearer {token['token']}"}
     with httpx.Client(base_url=attacked.url, headers=name, trust_env=False) as ada:
         taken = ada.put(attacked.session + "/control", json={"by": "x"}).raise_for_status().json()
-        stream = open_stream(Lab(attacked.url, ada, None), "rate_hz=1")
+        stream = open_stream(attacked._replace(client=ada), "rate_hz=1")
     assert taken["control"]["mine"]
     time.sleep(1.5)
     assert attacked.read()["control"]["holder"] == token["name"], "who watches is here"
