@@ -23,7 +23,7 @@ COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all $(COMPILED) & \
   $(WEB) test && $(MAKE) --no-print-directory .venv/tests; \
   page=$$?; wait $$! && exit $$page
 
-.PHONY: help run dev bench-demo test test-all quick check hooks format page schema lock screenshots arena bench clean
+.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page schema lock screenshots arena bench clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -56,7 +56,12 @@ quick: .venv/installed  ## the tests that are soon done and need no server, benc
 check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated files
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
-	$(BIN)/basedpyright
+	@echo $(BIN)/basedpyright; $(BIN)/basedpyright > .venv/types 2>&1 & \
+	  $(MAKE) --no-print-directory check-beside-types; beside=$$?; \
+	  wait $$!; types=$$?; cat .venv/types; exit $$((types | beside))
+
+# The types take longest; what they say is shown after what the others have said.
+check-beside-types:
 	$(BIN)/lint-imports
 	@$(BIN)/svsa openapi | diff -q docs/openapi.json - || (echo "Run: make schema"; exit 1)
 	@$(WEB) run --silent schema -- "$(CURDIR)/docs/openapi.json" --check

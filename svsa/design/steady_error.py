@@ -104,11 +104,12 @@ def compute_fl_steady_error(
         missing = sigma - linearization.sigma + stiffness / gains.s0
         return nominal.M * linearization.ddq + w.w2, missing, position
 
-    from scipy.optimize import root  # late: it takes a while
+    from scipy.optimize import fsolve  # late: it takes a while
 
-    found = root(lambda point: find_demands(point)[:2], [w.w2 / sigma, 0.0])
-    phi, theta2 = (float(value) for value in found.x)
-    torque, missing, position = find_demands(found.x)
+    unloaded = [w.w2 / sigma, 0.0]
+    rest, *_ = fsolve(lambda point: find_demands(point)[:2], unloaded, full_output=True)
+    phi, theta2 = (float(value) for value in rest)
+    torque, missing, position = find_demands(rest)
     domain = build_domain(configuration.actuator, configuration.limits)
     mu = compute_lever_ratio(theta2, mu0, nominal.gamma)
     is_rest = math.hypot(torque, missing) < _CLOSE * max(1.0, sigma)
