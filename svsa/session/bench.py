@@ -6,27 +6,24 @@ from pathlib import Path
 from typing import Any
 
 from svsa.bench.calibration import find_calibration, list_problems
-from svsa.bench.drives.conversion import build_motor_scale
 from svsa.bench.file import read_bench
-from svsa.bench.homing import STEPS, Axis
 from svsa.bench.realtime.configuration import build_bench_configuration
 from svsa.bench.realtime.launch import Rest, Teller, keep_quiet
 from svsa.bench.safety.machine import MOVING, BenchStatus
 from svsa.errors import Fault, StateError
 from svsa.extras import require_extra
 from svsa.loop.lane import AT_REST
-from svsa.records.bench_start import BenchStart
 from svsa.records.header import PlantKind
 from svsa.records.recorder import Recorder
 from svsa.run.command import Command
 from svsa.run.configuration import Configuration
 from svsa.run.run import Start
 from svsa.session.bench_commands import BenchCommands
+from svsa.session.bench_report import BenchReport
 from svsa.session.bench_run import BenchRun
+from svsa.session.bench_start import describe_start
 from svsa.session.clock import Pace
-from svsa.session.fault_latch import FaultLatch
 from svsa.session.hands import Hands
-from svsa.session.heat_events import HeatEvents
 from svsa.session.journal import Journal
 from svsa.session.session import PROGRAM_ERROR, Status
 from svsa.session.supervised_loop import SupervisedLoop
@@ -41,8 +38,8 @@ class BenchSession:
     Every start begins a new run, from where the bench stands. hands: told of the loads that
     are on whenever they change, and of the marks. rest: lets time pass where a command waits for
     the bench; `wake` waits for nothing. `bench`: the bench file. `loop`: its processes, which are
-    being started until `open` returns. Raises `BenchError` where the loop is silent,
-    `MissingExtraError` without the extra `bench`.
+    being started until `open` returns. `report`: what they have told. Raises `BenchError` where the
+    loop is silent, `MissingExtraError` without the extra `bench`.
     """
 
     def __init__(
@@ -58,21 +55,15 @@ class BenchSession:
         self.watched = self.closed = False
         self.bench, self._hands = read_bench(path), hands or Hands()
         self.calibration = find_calibration(self.bench)
-        self.problems = list_problems(self.bench, self.calibration)
         self._unwatched_since = 0.0
         self.loop = SupervisedLoop(path, self.bench, rest)
         configuration = build_bench_configuration(self.bench, wanted)
-        self._launch(configuration)
+        self.loop.launch(configuration)
         self._run = self._build_still_run(configuration)
         self.journal = Journal(self._run, is_bench=True, hang=self._hands.hang)
+        problems = list_problems(self.bench, self.calibration)
+        self.report = BenchReport(self.loop, self.journal, problems)
         self._commands = BenchCommands(self.journal, self._ask, self._is_moving, rest)
-
-    def _launch(self, configuration: Configuration) -> None:
-        """Start the processes, of which nothing has been told yet."""
-        self.loop.launch(configuration)
-        self._told_status, self._latch = BenchStatus.OFF, FaultLatch()
-        self.homing_step: Axis | None = STEPS[0].name
-        self._heat = HeatEvents()
 
     def _build_still_run(self, configuration: Configuration) -> BenchRun:
         """A run that stands still until the processes are ready, and after."""
@@ -106,7 +97,7 @@ class BenchSession:
     @property
     def bench_status(self) -> BenchStatus:
         """As the loop says; FAULT where it cannot be believed any more."""
-        return self._told_status if self.fault is None else BenchStatus.FAULT
+        return self.report.status
 
     @property
     def status(self) -> Status:
@@ -131,7 +122,7 @@ class BenchSession:
     @property
     def fault(self) -> Fault | None:
         """The bench's latched fault."""
-        return self._latch.fault
+        return self.report.fault
 
     @property
     def pace(self) -> Pace:
@@ -167,9 +158,9 @@ class BenchSession:
         """Clear the latched fault: FAULT → OFF; loop and supervisor begin anew if one is gone."""
         if self.loop.loss is not None or not self.loop.processes.supervisor_alive:
             self.restart()
-        elif self._told_status is BenchStatus.FAULT:
+        elif self.report.told_status is BenchStatus.FAULT:
             self._ask("clear")
-        self._latch = FaultLatch()
+        self.report.clear()
         self.journal.version += 1
 
     def restart(self) -> None:
@@ -190,7 +181,8 @@ class BenchSession:
     def _begin_anew(self) -> None:
         configuration = self.run.configuration
         self.journal.stop_recording()
-        self._launch(configuration)
+        self.loop.launch(configuration)
+        self.report.begin()
         self._begin(self._build_still_run(configuration))
 
     def prepare_recording(self) -> None:
@@ -222,21 +214,9 @@ class BenchSession:
                 self.journal.stop_recording()
             else:
                 recorder.write_fault(None)
-                recorder.write_start(self._describe_start(answer))
+                mu0, motion, given = answer["mu0"], answer["motion"], len(self.journal.commands)
+                recorder.write_start(describe_start(self.bench, mu0, motion, given))
         self._begin(BenchRun(self.run.configuration, start, self.loop.memory))
-
-    def _describe_start(self, answer: dict[str, Any]) -> BenchStart:
-        """What a run begins from, as the loop has told it."""
-        timing, motors = self.bench.timing, (self.bench.motor1, self.bench.motor2)
-        step1, step2 = (abs(build_motor_scale(motor).torque_per_ma) for motor in motors)
-        return BenchStart(
-            mu0=answer["mu0"],
-            latency_s=timing.latency_s,
-            lag_s=timing.current_lag_s,
-            torque_step_nm=(step1, step2),
-            motion=answer["motion"],
-            commands=len(self.journal.commands),
-        )
 
     def pause(self) -> None:
         """Ramp to zero torque."""
@@ -250,7 +230,7 @@ class BenchSession:
     def quick_stop(self) -> None:
         """The quick stop: zero current now, latched, even where the loop does not listen."""
         self.stop_from_keyboard()
-        self._look_for_loss()
+        self.report.look_for_loss()
         if self.loop.loss is None and not self.loop.starting:
             self._ask("quick_stop", "quick stop")
 
@@ -280,53 +260,23 @@ class BenchSession:
             return
         self.loop.processes.beats.beat("server")
         told = self.loop.take_states()
-        self._look_for_stop(told)
+        self.report.look_for_stop(told)
         if not self._commands.is_pending:
             self.journal.advance(self._run.count_ready())
-        self._take_states(told)
-        self._look_for_loss()
+        self.report.take(told)
+        self.report.look_for_loss()
         if self.watched or self.bench_status is not BenchStatus.RUN:
             self._unwatched_since = now
         elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
             self._unwatched_since = now
             self.loop.processes.tell("stop", "nobody watches")
 
-    def _look_for_stop(self, states: list[dict[str, Any]]) -> None:
-        """A ramp begins a window before its first sample is taken in."""
-        ramps = any(told["status"] == BenchStatus.RAMP for told in states)
-        if ramps and self._told_status is BenchStatus.RUN:
-            self.journal.begin_stop()
-
-    def _take_states(self, states: list[dict[str, Any]]) -> None:
-        for told in states:
-            self.problems, self.homing_step = told["problems"], told["homing_step"]
-            self._heat.log(told["held_back"], BenchStatus(told["status"]) in MOVING, self.journal)
-            if self._latch.take_own(Fault(**told["fault"]) if told["fault"] else None):
-                self._log_fault()
-            self._told_status = BenchStatus(told["status"])
-            self.journal.version += 1
-
-    def _look_for_loss(self) -> None:
-        """Latch what has become of a loop that does not tick, as far as it is known."""
-        loss, run = self.loop.find_settled_loss(), self.run
-        if loss is None:
-            return
-        held = self.fault
-        if self._latch.take_loss(Fault(loss.code, 0, run.tick, run.time_s, loss.message)):
-            self._log_fault()
-        elif self.fault is not None and self.fault is not held:
-            self.journal.refine_fault(self.fault)
-
-    def _log_fault(self) -> None:
-        if self.fault is not None:
-            self.journal.log_fault(self.fault, ends_run=self._told_status in MOVING)
-
     def _ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
         """Have the loop do it; what it says of its state is known when this returns."""
         answer = self.loop.ask(wanted, argument)
         told = self.loop.take_states()
-        self._look_for_stop(told)
-        self._take_states(told)
+        self.report.look_for_stop(told)
+        self.report.take(told)
         return answer
 
     def change(self, command: Command) -> None:

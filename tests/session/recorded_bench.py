@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from svsa.bench.drives.conversion import build_motor_scale
 from svsa.bench.realtime.configuration import build_bench_configuration, read_actuation
 from svsa.bench.realtime.loop import BenchLoop
 from svsa.bench.realtime.sample_array import SampleArray
@@ -16,6 +15,7 @@ from svsa.run.command import Command
 from svsa.run.configuration import Configuration
 from svsa.run.replay import play
 from svsa.session.bench_run import BenchRun
+from svsa.session.bench_start import describe_start
 from svsa.signals import CHANNELS
 from tests.hardware.wired_bench import WiredBench
 from tests.records.records import build_header
@@ -59,11 +59,7 @@ def run_bench(
         run, samples = BenchRun(configured, begun, rows), np.empty((2, ticks, len(CHANNELS)))
         for _ in play(run, later, ticks, samples):
             pass
-        steps = [
-            abs(build_motor_scale(motor).torque_per_ma) for motor in (bench.motor1, bench.motor2)
-        ]
-        start = BenchStart(mu0, *actuation, (steps[0], steps[1]), motion, len(before))
-        return configuration, samples, start
+        return configuration, samples, describe_start(bench, mu0, motion, len(before))
 
 
 def write_bench_record(

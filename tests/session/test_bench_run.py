@@ -14,6 +14,7 @@ from svsa.run.run import Start
 from svsa.session.bench_run import TWIN, BenchRun
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 from tests.hardware.wired_bench import RIG_BENCH
+from tests.session.loop_ticks import write
 
 
 @pytest.fixture
@@ -22,12 +23,6 @@ def memory() -> Iterator[LoopMemory]:
     made.begin_run(1)
     yield made
     made.close()
-
-
-def write(memory: LoopMemory, first: int, ticks: int) -> None:
-    for tick in range(first, first + ticks):
-        memory.get_row(tick)[:] = 0.001 * tick
-        memory.commit(tick)
 
 
 def build_run(memory: LoopMemory) -> BenchRun:

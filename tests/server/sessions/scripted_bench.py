@@ -1,6 +1,8 @@
 """A bench session in this process, whose loop is a script: no process, no bus, no waiting."""
 
 import types
+from collections.abc import Iterable
+from dataclasses import asdict
 from typing import Any
 
 import pytest
@@ -8,11 +10,17 @@ import pytest
 from svsa.bench.realtime.launch import BenchError
 from svsa.bench.realtime.memory import LoopMemory
 from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.bench.safety.machine import BenchStatus
+from svsa.errors import Fault
+from svsa.loop.lane import AT_REST
 from svsa.paper import get_figure
+from svsa.run.run import Start
 from svsa.session import supervised_loop
 from svsa.session.bench import BenchSession
+from svsa.session.bench_run import BenchRun
 from svsa_server.sessions.turn import let_pass
 from tests.hardware.wired_bench import RIG_BENCH
+from tests.session.loop_ticks import write
 
 ANSWER_S = 0.01
 STEP = "compiling the loop, once: 3 functions, observe the last"
@@ -32,6 +40,7 @@ class Processes:
         self.silence_s, self.notes, self.supervisor_alive = 0.0, [], True
         self.listens = self.alive = False
         self.told: list[Any] = []
+        self.states: list[dict[str, Any]] = []
         self.third_line = types.SimpleNamespace(intervention=None)
 
     def wait_until_ready(self, silence_s: float, tell: Any) -> None:
@@ -48,7 +57,8 @@ class Processes:
         return {"tick": 0}
 
     def take_events(self) -> list[dict[str, Any]]:
-        return []
+        states, self.states = self.states, []
+        return states
 
     def end(self) -> None:
         self.listens = self.alive = self.supervisor_alive = False
@@ -67,3 +77,32 @@ def build_bench_session(
     monkeypatch.setattr(supervised_loop, "BenchProcesses", Processes)
     figure = get_figure("4a").build_configuration(load=False)
     return BenchSession("lab", RIG_BENCH, figure, rest=let_pass)
+
+
+def say(
+    session: BenchSession,
+    status: BenchStatus,
+    held_back: Iterable[str] = (),
+    fault: Fault | None = None,
+) -> None:
+    """What the loop says of its state: the session hears it at its next wake."""
+    assert isinstance(session.loop.processes, Processes)
+    event = {"event": "state", "status": status, "problems": [], "homing_step": None}
+    told = {"held_back": list(held_back), "fault": asdict(fault) if fault else None}
+    session.loop.processes.states.append(event | told)
+
+
+def hear(session: BenchSession) -> None:
+    """What the loop has said, and nothing else of a wake."""
+    session.report.take(session.loop.take_states())
+
+
+def begin_run(session: BenchSession, ticks: int) -> None:
+    """A run of so many ticks, which go on."""
+    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
+    memory.begin_run(1)
+    session._begin(BenchRun(session.run.configuration, start, memory))
+    say(session, BenchStatus.RUN)
+    session.wake(0.0)
+    write(memory, 0, ticks)
+    session.wake(0.0)

@@ -11,20 +11,17 @@ from svsa.bench.realtime.loss import Loss
 from svsa.bench.safety.machine import BenchStatus
 from svsa.control.gains import Gains
 from svsa.errors import Fault, StateError
-from svsa.loop.lane import AT_REST
 from svsa.run.command import SetLane, SetLaw, SetPosition, SetRivals, Stop
 from svsa.run.configuration import Lane
-from svsa.run.run import Start
 from svsa.session.bench import BenchSession
-from svsa.session.bench_run import BenchRun
 from svsa.signals import CHANNELS
 from svsa_server.routes import settings
 from svsa_server.schemas.gain import GainsRequest
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_progress
 from svsa_server.sessions.turn import take_turn
-from tests.server.sessions.scripted_bench import Processes, build_bench_session
-from tests.session.test_bench_run import write
+from tests.server.sessions.scripted_bench import Processes, begin_run, build_bench_session, say
+from tests.session.loop_ticks import write
 
 
 @pytest.fixture
@@ -107,7 +104,7 @@ def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
     words = ["Nobody has stopped the drives yet.", "The supervisor has.", "The supervisor has."]
     losses = [Loss("loop_lost", message, None, None) for message in words]
     monkeypatch.setattr(session.loop, "find_settled_loss", lambda: losses.pop(0))
-    monkeypatch.setattr(session, "_told_status", BenchStatus.RUN)
+    monkeypatch.setattr(session.report, "told_status", BenchStatus.RUN)
     monkeypatch.setattr(session.journal, "recorder", recorder)
     session.wake(0.0)
     recorder.fault = written[-1]
@@ -121,14 +118,9 @@ def test_what_a_stop_does_on_its_ramp_is_not_in_the_numbers_of_the_run(
     session: BenchSession,
 ) -> None:
     """The twin goes on without a ramp: in one window they would not be of the same."""
-    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
-    memory.begin_run(1)
-    session._begin(BenchRun(session.run.configuration, start, memory))
-    tell(session, BenchStatus.RUN)
-    write(memory, 0, 100)
-    session.wake(0.0)
-    write(memory, 100, 50)
-    tell(session, BenchStatus.RAMP)
+    begin_run(session, 100)
+    write(session.loop.memory, 100, 50)
+    say(session, BenchStatus.RAMP)
     session.wake(0.0)
     journal = session.journal
     assert (journal.timeline.window.kind, journal.timeline.window.first_tick) == ("stop", 100)
@@ -142,12 +134,7 @@ def test_what_a_stop_does_on_its_ramp_is_not_in_the_numbers_of_the_run(
 
 def test_a_twin_that_ended_has_no_numbers(session: BenchSession) -> None:
     """What it did until then is not how it does; the bench goes on."""
-    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
-    memory.begin_run(1)
-    session._begin(BenchRun(session.run.configuration, start, memory))
-    tell(session, BenchStatus.RUN)
-    write(memory, 0, 100)
-    session.wake(0.0)
+    begin_run(session, 100)
     hosted = HostedSession(session)
     assert all(lane.in_window is not None for lane in build_progress(hosted).lanes)
     (_, twin) = session.journal.metrics.in_window
@@ -161,15 +148,10 @@ def test_a_twin_that_ended_has_no_numbers(session: BenchSession) -> None:
 
 def run_and_stop(session: BenchSession) -> None:
     """A run of 100 ticks, after which the bench stands."""
-    memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
-    memory.begin_run(1)
-    session._begin(BenchRun(session.run.configuration, start, memory))
-    tell(session, BenchStatus.RUN)
-    write(memory, 0, 50)
-    session.wake(0.0)
-    write(memory, 50, 50)
+    begin_run(session, 50)
+    write(session.loop.memory, 50, 50)
     for status in (BenchStatus.RAMP, BenchStatus.READY):
-        tell(session, status)
+        say(session, status)
         session.wake(0.0)
     assert session.run.tick == 100
 
@@ -192,12 +174,3 @@ def test_what_is_recorded_of_a_bench_that_stands_has_nothing_of_the_run_before(
     assert len(told) == 1, "the loop begins at tick 0, too: a change is waited for until its tick"
     session.wake(0.0)
     assert (session.run.tick, session.journal.commands) == (0, [])
-
-
-def tell(session: BenchSession, status: BenchStatus) -> None:
-    """What the loop says of itself with the next wake."""
-    event = {"event": "state", "status": status, "problems": [], "homing_step": None}
-    told = [event | {"held_back": [], "fault": None}]
-    session.loop.processes.take_events = lambda: [told.pop()] if told else []  # pyright: ignore
-    if status is BenchStatus.RUN:
-        session.wake(0.0)

@@ -1,14 +1,13 @@
 """A recording at a bench is told of the fault that ended its run, and of no other."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 
 from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import Fault
 from svsa.session.bench import BenchSession
-from tests.server.sessions.scripted_bench import build_bench_session
+from tests.server.sessions.scripted_bench import build_bench_session, hear, say
 
 
 class Recording:
@@ -33,14 +32,9 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 
 
 def tell(session: BenchSession, status: BenchStatus, code: str | None = None) -> None:
-    """What the loop says of itself, as it comes with the next wake."""
-    fault: dict[str, Any] | None = None
-    if code is not None:
-        fault = {"code": code, "lane": 0, "tick": 70, "time_s": 0.07, "message": "It stopped."}
-    event = {"event": "state", "status": status, "problems": [], "homing_step": None}
-    told = event | {"held_back": [], "fault": fault}
-    session.loop.processes.take_events = lambda: [told]  # pyright: ignore
-    session._take_states(session.loop.take_states())
+    fault = None if code is None else Fault(code, 0, 70, 0.07, "It stopped.")
+    say(session, status, fault=fault)
+    hear(session)
 
 
 def test_a_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession) -> None:

@@ -14,7 +14,7 @@ from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
 from tests.session.sessions import build_session
 
-from .scripted_bench import build_bench_session
+from .scripted_bench import build_bench_session, hear, say
 
 
 @pytest.fixture
@@ -26,11 +26,8 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 
 
 def tell(session: BenchSession, status: BenchStatus, *held_back: str) -> None:
-    """What the loop says of itself, as it comes with the next wake."""
-    event = {"event": "state", "status": status, "problems": [], "homing_step": None}
-    told = event | {"held_back": list(held_back), "fault": None}
-    session.loop.processes.take_events = lambda: [told]  # pyright: ignore
-    session._take_states(session.loop.take_states())
+    say(session, status, held_back)
+    hear(session)
 
 
 def list_events(session: BenchSession) -> list[tuple[str, str]]:
