@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { stubBrowser } from "../browser";
 
 const STATE = { run: 1, tick: 7, status: "running", time_s: 0.007, lanes: [{ id: 1 }] };
 type Answer = { status: number; body: unknown } | "lost";
@@ -8,11 +9,7 @@ const asked: string[] = [];
 
 /** A browser whose server answers as told; what is lost was carried out or not, nobody hears. */
 async function load(server: Server) {
-  const storage = { getItem: () => null, setItem: () => {}, removeItem: () => {} };
-  vi.stubGlobal("sessionStorage", storage);
-  vi.stubGlobal("window", new EventTarget());
-  vi.stubGlobal("document", { baseURI: "http://lab/" });
-  vi.stubGlobal("location", { search: "" });
+  stubBrowser();
   vi.stubGlobal("fetch", async (url: URL, init: RequestInit) => {
     const path = url.pathname.replace("/api/v1/", "");
     asked.push(`${init.method} ${path}`);

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { stubBrowser } from "../browser";
 
 const SLOW_MS = 20_000;
 const waits: number[] = [];
@@ -9,11 +10,7 @@ beforeEach(() => {
     waits.push(waitMs);
     return new AbortController().signal;
   });
-  const storage = { getItem: () => null, setItem: () => {}, removeItem: () => {} };
-  vi.stubGlobal("sessionStorage", storage);
-  vi.stubGlobal("window", new EventTarget());
-  vi.stubGlobal("document", { baseURI: "http://lab/" });
-  vi.stubGlobal("location", { search: "" });
+  stubBrowser();
   vi.stubGlobal("fetch", async () => new Response("{}"));
 });
 

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { stubBrowser } from "../browser";
 
 const line = {
   time: "2026-01-02T03:04:05.678+00:00",
@@ -29,11 +30,7 @@ const answer = (body: unknown, status = 200) =>
   Promise.resolve(new Response(JSON.stringify(body), { status }));
 
 async function load() {
-  const storage = { getItem: () => null, setItem: () => {}, removeItem: () => {} };
-  vi.stubGlobal("sessionStorage", storage);
-  vi.stubGlobal("window", new EventTarget());
-  vi.stubGlobal("document", { baseURI: "http://lab/" });
-  vi.stubGlobal("location", { search: "" });
+  stubBrowser();
   vi.stubGlobal("fetch", (url: URL) => {
     asked.push(url.searchParams);
     return (answers.shift() ?? (() => answer(page(120))))();

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { stubBrowser } from "../browser";
 
 type Sine = { kind: "sine"; amplitude_rad: number; frequency_hz: number };
 const SINE: Sine = { kind: "sine", amplitude_rad: 1, frequency_hz: 0.2 };
@@ -34,11 +35,7 @@ class Server {
 }
 
 async function load(server: Server) {
-  const storage = { getItem: () => null, setItem: () => {}, removeItem: () => {} };
-  vi.stubGlobal("sessionStorage", storage);
-  vi.stubGlobal("window", new EventTarget());
-  vi.stubGlobal("document", { baseURI: "http://lab/" });
-  vi.stubGlobal("location", { search: "" });
+  stubBrowser();
   vi.stubGlobal("fetch", async (url: URL, { method, headers, body }: RequestInit) => {
     const match = (headers as Record<string, string>)["If-Match"] ?? null;
     const sent = body === undefined ? null : JSON.parse(String(body));

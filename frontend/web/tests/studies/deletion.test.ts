@@ -1,14 +1,11 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { stubBrowser } from "../browser";
 
 const asked: string[] = [];
 let refusal: string | null = null;
 
 async function load() {
-  const storage = { getItem: () => null, setItem: () => {}, removeItem: () => {} };
-  vi.stubGlobal("sessionStorage", storage);
-  vi.stubGlobal("localStorage", storage);
-  vi.stubGlobal("window", new EventTarget());
-  vi.stubGlobal("document", { baseURI: "http://lab/" });
+  stubBrowser();
   vi.stubGlobal("history", { pushState: () => {}, replaceState: () => {} });
   vi.stubGlobal("location", { search: "?studies=mine", href: "http://lab/?studies=mine" });
   vi.stubGlobal("fetch", async (url: URL, { method }: RequestInit) => {

@@ -1,14 +1,6 @@
+import "../browserless";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Trial, Tuning } from "../../src/api/tunings";
-
-vi.hoisted(() => {
-  const storage = { getItem: () => null, setItem: () => {}, removeItem: () => {} };
-  vi.stubGlobal("sessionStorage", storage);
-  vi.stubGlobal("localStorage", storage);
-  vi.stubGlobal("window", new EventTarget());
-  vi.stubGlobal("document", { baseURI: "http://lab/" });
-  vi.stubGlobal("location", { search: "" });
-});
 
 const { ticksUpTo } = await import("../../src/tuning/costcurve");
 const { applyBest, bestSoFar, isUnderWay, problem, start, trials, tuning } = await import(
