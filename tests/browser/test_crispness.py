@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Browser, Page, Playwright, WebSocketRoute, expect
 
-from tests.browser.test_page import open_page
+from tests.browser.test_page import LAST_TIME, open_page, wait_for_samples
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.exhaustive]
@@ -19,7 +19,9 @@ HIDE_BANNERS = """() => {
   sheet.replaceSync(".banners { display: none; }");
   document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
 }"""
-SCROLL_MS = 2500
+SCROLL_S = 2.5
+FRAMES = 40
+"""In so many the page has drawn all of its plots, however many it draws in each."""
 # Steep strokes, which a blur across widens.
 STEEP = {"kind": "sine", "amplitude_rad": 0.5, "frequency_hz": 0.8}
 # Of the pixels of a trace, how many may differ by more than a quarter of the scale: where strokes
@@ -27,6 +29,9 @@ STEEP = {"kind": "sine", "amplitude_rad": 0.5, "frequency_hz": 0.8}
 MAX_DIFFERENT = 0.03
 
 
+PASS_FRAMES = """async (count) => {
+    for (let passed = 0; passed < count; passed++) await new Promise(requestAnimationFrame);
+}"""
 FEATURES = """() => {
     const read = (one) => one.nodeType === Node.TEXT_NODE ? one.data :
         [...(one.shadowRoot?.childNodes ?? []), ...one.childNodes].map(read).join(" ");
@@ -103,15 +108,15 @@ def test_what_has_scrolled_is_as_if_drawn_just_now(
     open_page(page, lab)
     # What is said of the silent stream takes no room from the plots.
     page.evaluate(HIDE_BANNERS)
-    page.wait_for_timeout(SCROLL_MS)
+    wait_for_samples(page, page.evaluate(LAST_TIME) + SCROLL_S)
     stream.hold()
-    page.wait_for_timeout(400)
+    page.evaluate(PASS_FRAMES, FRAMES)
     scrolled = read_plot(page)
     entry = page.get_by_role("region", name="Torque plot").locator(".legend-entry").first
     for is_shown in ("false", "true"):
         entry.click()
         expect(entry).to_have_attribute("aria-pressed", is_shown)
-        page.wait_for_timeout(300)
+        page.evaluate(PASS_FRAMES, FRAMES)
     anew = read_plot(page)
     context.close()
     strokes = anew < 200
