@@ -1,24 +1,12 @@
-"""The bench check finds what is wrong, says what to do, and leaves zero current behind."""
+"""The bench check finds what is wrong, and says what to do."""
 
-import contextlib
 import itertools
 
-import can
 import pytest
 
 from svsa.bench.calibration import find_calibration
 from svsa.bench.check import SIGN_STEPS, check_bench
 from svsa.bench.check.step import Result
-from svsa.bench.drives.bus import BusError
-from svsa.bench.drives.robomodule import (
-    Address,
-    Command,
-    Current,
-    build_id,
-    decode,
-    encode,
-    split_id,
-)
 from svsa.bench.file import read_bench
 from svsa.bench.homing import STEPS, Homing
 from svsa.bench.zero import calibrate
@@ -33,48 +21,12 @@ from svsa.rig.faults import (
     Silence,
     Stall,
 )
-from svsa.rig.frame import Frame
 from svsa.rig.parameters import RigDeflection, RigParameters
 from svsa.rig.rig import Rig
-from tests.exhaustive import exhaust
+from tests.hardware.check.checked_bench import check, list_currents
 from tests.rig.bus_in_time import RigBus, copy_bench
 
-LONGEST_S = 20.0
 MOVING_S = 1.6
-
-
-def check(path, bus, move=False, watch=None):
-    """Every step of a check; it is over in time and the drives are at zero current."""
-    steps = list(check_bench(path, move, watch, bus.open, bus.now))
-    assert bus.now() < LONGEST_S
-    assert_left_alone(bus)
-    return {step.name: step for step in steps}
-
-
-def assert_left_alone(bus):
-    assert not bus.is_open
-    for drive in bus.rig.drives.values():
-        assert drive.current_ma == 0
-        assert drive.mode is None or not drive.powered
-
-
-def list_currents(bus):
-    found = []
-    for time_s, message in bus.sent:
-        address, command = split_id(message.arbitration_id)
-        if command is Command.CURRENT:
-            found.append((time_s, address, decode(command, message.data).current_ma))
-    return found
-
-
-@pytest.fixture
-def bus():
-    return RigBus()
-
-
-@pytest.fixture
-def path(tmp_path):
-    return copy_bench(tmp_path)
 
 
 def test_a_healthy_bench_passes_every_step_without_moving(path, bus):
@@ -193,17 +145,6 @@ def test_a_drive_that_answers_nowhere_beside_one_that_does(path, bus):
     assert "factory address" in check(path, bus)["motor1: drive 0.1"].advice
 
 
-def test_a_bench_in_use_is_left_to_its_user(path, bus):
-    """Another program sends currents: nothing but listening is done, above all no reset."""
-    frame = Frame(build_id(Address(0, 1), Command.CURRENT), encode(Current(5000, 0)))
-    for time_us in range(0, 400_000, 1000):
-        bus.rig.schedule(time_us, lambda: bus.rig.receive(frame, "the lab"))
-    steps = check(path, bus)
-    assert steps["bus"].result is Result.FAIL
-    assert "another program" in steps["bus"].advice
-    assert bus.sent == []
-
-
 def test_a_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
     rig = Rig(RigParameters(deflection=RigDeflection(sign=-1, phase_s=0.0008)))
     steps = check(copy_bench(tmp_path), RigBus(rig), move=True)
@@ -236,83 +177,3 @@ def test_a_missing_file_and_a_wrong_encoder_option_are_said(tmp_path, bus):
     path = copy_bench(tmp_path, lambda text: text.replace("width = 32", "width = 12"))
     (step,) = check_bench(path, opener=bus.open, now=bus.now)
     assert "width is 12" in step.measured
-
-
-def test_an_interrupted_pulse_leaves_zero_current(path, bus):
-    """Ctrl-C lands where it hurts most: while a motor has current."""
-
-    def interrupt(message):
-        if split_id(message.arbitration_id)[1] is Command.CURRENT and any(message.data[2:4]):
-            interrupt.count += 1
-            if interrupt.count == 20:
-                raise KeyboardInterrupt
-
-    interrupt.count = 0
-    bus.before_send = interrupt
-    with (
-        pytest.raises(KeyboardInterrupt),
-        contextlib.closing(check_bench(path, True, None, bus.open, bus.now)) as steps,
-    ):
-        for _ in steps:
-            pass
-    assert interrupt.count == 20
-    assert_left_alone(bus)
-
-
-@pytest.mark.parametrize("count", exhaust(range(1, 14), [4, 9, 13]))
-def test_a_check_that_is_left_at_any_step_leaves_zero_current(path, bus, count):
-    """Whoever reads the steps may stop reading after any of them."""
-    with contextlib.closing(check_bench(path, True, None, bus.open, bus.now)) as steps:
-        for _ in range(count):
-            next(steps)
-    assert_left_alone(bus)
-
-
-def test_a_bus_that_goes_away_is_a_step(path, bus):
-    def break_off(message):
-        if bus.now() > 1.0:
-            raise can.CanOperationError("the adapter was pulled out")
-
-    bus.before_send = break_off
-    steps = list(check_bench(path, True, None, bus.open, bus.now))
-    assert steps[-2].name == "bus"
-    assert "pulled out" in steps[-2].measured
-    assert not bus.is_open
-
-
-def test_a_reset_that_is_lost_is_repeated(path, bus):
-    """Leaving waits until the drives are silent."""
-    lost = []
-
-    def lose(message):
-        if message.arbitration_id == 0 and not lost:
-            lost.append(message)
-            raise can.CanOperationError("no buffer space")
-
-    bus.before_send = lose
-    check(path, bus)
-    assert len(lost) == 1
-
-
-def test_a_rig_in_lockstep_is_not_waited_for(path, bus):
-    """Its time stands still while the check listens: nothing is opened, and the answer says why."""
-    text = path.read_text(encoding="utf-8")
-    emulator = "\n[emulator]\ncontrol_port = 9\nlockstep = true\n"
-    path.write_text(text.partition("\n[emulator]")[0] + emulator, encoding="utf-8")
-    opened = []
-    steps = list(check_bench(path, opener=opened.append, now=bus.now))
-    assert [step.name for step in steps] == ["file", "bus"]
-    assert steps[1].result is Result.FAIL
-    assert "lockstep" in steps[1].measured
-    assert "lockstep = false" in steps[1].advice
-    assert not opened
-
-
-def test_a_bus_that_cannot_be_opened_says_what_to_look_at(path, bus):
-    def refuse(settings):
-        raise BusError("The CAN bus cannot be opened: no such device.")
-
-    steps = list(check_bench(path, opener=refuse, now=bus.now))
-    assert [step.result for step in steps[:2]] == [Result.OK, Result.FAIL]
-    assert "no such device" in steps[1].measured
-    assert "ip link set" in steps[1].advice
