@@ -122,6 +122,20 @@ CHANNELS = tuple(
 )
 CHANNEL_NAMES = tuple(channel.name for channel in CHANNELS)
 CHANNEL_INDEX = {channel.name: index for index, channel in enumerate(CHANNELS)}
+MEASURED = [
+    CHANNEL_INDEX[name]
+    for name in (
+        "motor1_position_rad",
+        "motor2_position_rad",
+        "deflection_rad",
+        "velocity_rad_per_s",
+        "motor1_velocity_rad_per_s",
+        "motor2_velocity_rad_per_s",
+    )
+]
+"""Which channels a `Measurement` is, in its order."""
+TORQUES = [CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]]
+"""Which channels a `Torque` is."""
 
 PLOTTED = (
     "position_reference_rad",

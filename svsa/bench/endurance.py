@@ -11,11 +11,10 @@ from svsa.bench.safety.heat import Winding
 from svsa.plant.disturbances import Load
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
-from svsa.signals import CHANNEL_INDEX, CHANNELS
+from svsa.signals import CHANNELS, TORQUES
 
 BEFORE_S, LONGEST_S = 2.0, 30.0
 _STEP_S, _STRETCH_S = 0.01, 1.0
-_TORQUES = [CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]]
 
 Motor = Literal["motor1", "motor2"]
 
@@ -86,4 +85,4 @@ def _warm(windings: tuple[Winding, Winding], asked: np.ndarray) -> Literal[0, 1]
 def _advance(run: Run, seconds: float) -> np.ndarray:
     """u1, u2 of so long, (ticks, 2); fewer where the run has ended."""
     samples = np.empty((1, round(seconds / run.period_s), len(CHANNELS)))
-    return samples[0, : run.advance(samples)][:, _TORQUES]
+    return samples[0, : run.advance(samples)][:, TORQUES]

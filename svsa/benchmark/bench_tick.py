@@ -19,24 +19,12 @@ from svsa.packed import pack
 from svsa.result.simulate import simulate
 from svsa.run.figure import get_figure
 from svsa.run.run import Run
-from svsa.signals import CHANNEL_INDEX, CHANNELS
+from svsa.signals import CHANNELS, MEASURED, TORQUES
 
 FIGURE = "4a"
 TICKS = 1000
 RUN_S = 6.0
 """Up to 1 s after the load."""
-MEASURED = [
-    CHANNEL_INDEX[name]
-    for name in (
-        "motor1_position_rad",
-        "motor2_position_rad",
-        "deflection_rad",
-        "velocity_rad_per_s",
-        "motor1_velocity_rad_per_s",
-        "motor2_velocity_rad_per_s",
-    )
-]
-TORQUES = [CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]]
 
 
 class TickCost(NamedTuple):

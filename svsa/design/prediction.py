@@ -19,7 +19,7 @@ from svsa.plant.effects import Effects
 from svsa.reference.sine import ConstantPosition
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
-from svsa.signals import CHANNEL_INDEX, CHANNELS, Disturbance
+from svsa.signals import CHANNELS, TORQUES, Disturbance
 
 LOAD = Disturbance(PAPER_TORQUE_NM, PAPER_TORQUE_NM, PAPER_TORQUE_NM)
 BEFORE_S = 1.5
@@ -132,9 +132,8 @@ def _simulate_load(configuration: Configuration, effects: Effects) -> tuple[np.n
     if run.fault is None:
         run.add_load(PaperLoad())
         rows.append(_advance(run, 0.5 * AROUND_S))
-    columns = [CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]]
     fault = run.fault.message if run.fault is not None else ""
-    return np.abs(np.vstack(rows)[:, columns]), fault
+    return np.abs(np.vstack(rows)[:, TORQUES]), fault
 
 
 def _advance(run: Run, seconds: float) -> np.ndarray:

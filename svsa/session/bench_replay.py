@@ -19,17 +19,8 @@ from svsa.records.resimulation import read_origin
 from svsa.run.command import Command
 from svsa.run.replay import play
 from svsa.session.bench_run import BenchRun
-from svsa.signals import CHANNEL_INDEX, Disturbance, Measurement, State, Torque
+from svsa.signals import MEASURED, TORQUES, Disturbance, Measurement, State, Torque
 
-_MEASURED = (
-    "motor1_position_rad",
-    "motor2_position_rad",
-    "deflection_rad",
-    "velocity_rad_per_s",
-    "motor1_velocity_rad_per_s",
-    "motor2_velocity_rad_per_s",
-)
-_SENT = ("torque1_nm", "torque2_nm")
 _HALF_STEP = 0.5 + 1e-6
 
 
@@ -70,8 +61,8 @@ class RecordedPlant:
     status = BenchStatus.RUN
 
     def __init__(self, samples: np.ndarray) -> None:
-        self._measured = samples[:, [CHANNEL_INDEX[name] for name in _MEASURED]].tolist()
-        self.sent = samples[:, [CHANNEL_INDEX[name] for name in _SENT]]
+        self._measured = samples[:, MEASURED].tolist()
+        self.sent = samples[:, TORQUES]
         self.asked = np.full_like(self.sent, np.nan)
         self.tick = 0
 

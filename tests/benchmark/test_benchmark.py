@@ -14,7 +14,7 @@ from svsa.benchmark import batch_rates, bench_tick, benchmark
 from svsa.benchmark.peers import comparison
 from svsa.cli import app
 from svsa.run.run import Run
-from svsa.signals import CHANNEL_INDEX
+from svsa.signals import CHANNEL_INDEX, TORQUES
 
 RUNNER = CliRunner()
 TICKS = 8000
@@ -114,9 +114,7 @@ def test_the_ticks_that_are_timed_decide_what_the_run_did(law: str) -> None:
     for tick in range(len(samples)):
         assert ticks.run_tick(tick) > 0.0
         asked[tick] = ticks.asked
-    assert_allclose(
-        np.clip(asked, np.negative(limits), limits), samples[:, bench_tick.TORQUES], atol=1e-9
-    )
+    assert_allclose(np.clip(asked, np.negative(limits), limits), samples[:, TORQUES], atol=1e-9)
 
 
 def test_the_command_tells_the_ticks_of_every_law(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from svsa.benchmark.bench_tick import TORQUES
 from svsa.borrowed import borrow
 from svsa.compilation import compiled
 from svsa.design.linear_model import STATES
@@ -19,7 +18,7 @@ from svsa.plant.integration import integrate_period
 from svsa.result.simulate import simulate
 from svsa.run.figure import LOAD_TIME_S, get_figure
 from svsa.run.run import Run
-from svsa.signals import CHANNEL_INDEX, State, Torque
+from svsa.signals import CHANNEL_INDEX, TORQUES, State, Torque
 
 FIGURE, LAW = "4a", "ndobc"
 COLUMNS = [CHANNEL_INDEX[name] for name in STATES]
