@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from logging.handlers import QueueHandler, QueueListener, RotatingFileHandler
 from pathlib import Path
 from queue import SimpleQueue
+from threading import Lock
 from typing import Any
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -38,6 +39,7 @@ class AuditLog:
         self._logger.addHandler(QueueHandler(queue))
         self._listener = QueueListener(queue, file)
         self._file = file
+        self._turn = Lock()
         self._listener.start()
 
     def write(self, **line: Any) -> None:
@@ -45,14 +47,21 @@ class AuditLog:
         now = datetime.now(UTC).isoformat(timespec="milliseconds")
         self._logger.info("%s", json.dumps({"time": now} | line, ensure_ascii=False))
 
+    def catch_up(self) -> None:
+        """Wait until all that was added before is in the file: in a thread, not the event loop."""
+        with self._turn:
+            self._listener.stop()
+            self._listener.start()
+
     def close(self) -> None:
         """Write what is left."""
-        self._listener.stop()
+        with self._turn:
+            self._listener.stop()
         self._file.close()
 
 
 class Auditor:
-    """ASGI middleware that notes what changes something, done or refused."""
+    """ASGI middleware that notes what changes something, done or refused, before it is answered."""
 
     def __init__(self, app: ASGIApp, log: AuditLog) -> None:
         self._app, self._log = app, log
@@ -62,17 +71,20 @@ class Auditor:
         if scope["type"] != "http" or scope["method"] not in CHANGING:
             await self._app(scope, receive, send)
             return
-        status = 500
+        is_noted = False
 
         async def send_noted(message: Message) -> None:
-            nonlocal status
-            status = message.get("status", status)
+            nonlocal is_noted
+            if not is_noted:
+                self._note(scope, message["status"])
+                is_noted = True
             await send(message)
 
         try:
             await self._app(scope, receive, send_noted)
         finally:
-            self._note(scope, status)
+            if not is_noted:
+                self._note(scope, 500)
 
     def _note(self, scope: Scope, status: int) -> None:
         method, path, person = scope["method"], find_path(scope), scope.get(PERSON)

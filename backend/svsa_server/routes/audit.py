@@ -35,6 +35,7 @@ async def read_audit_log(
     it while more is done.
     """
     find_class(request)
+    await asyncio.to_thread(request.app.state.audit.catch_up)
     asked = Question(person, kind, refused, until, page, page_size)
     operations = list_operations(await asyncio.to_thread(request.app.openapi))
     return AuditPage(**await work.run(read_audit, find_data_folder(), operations, asked))

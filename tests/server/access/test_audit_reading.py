@@ -1,7 +1,9 @@
 """The audit log on the instructor's page: filtered, paged, the newest first; for nobody else."""
 
 import json
+import time
 from collections.abc import Iterator
+from logging import LogRecord
 from pathlib import Path
 
 import httpx
@@ -50,6 +52,22 @@ def test_the_instructor_reads_who_did_what_at_which_tick(classroom: Classroom) -
     assert settings["kinds"] == told["kinds"] == ["access", "control", "session", "settings"]
     refused = read(instructor, refused=True)
     assert [one["name"] for one in refused["lines"]] == ["Bob"]
+
+
+def test_what_was_done_is_read_at_once_however_slow_the_disk_is(
+    classroom: Classroom, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    emit = audit.RotatingFileHandler.emit
+
+    def emit_late(file: audit.RotatingFileHandler, line: LogRecord) -> None:
+        time.sleep(0.2)
+        emit(file, line)
+
+    monkeypatch.setattr(audit.RotatingFileHandler, "emit", emit_late)
+    instructor = classroom.log_in()
+    for done in ("pause", "start"):
+        instructor.post(f"{SHARED}/{done}").raise_for_status()
+        assert read(instructor)["lines"][0]["did"] == done.capitalize()
 
 
 def write(folder: Path, name: str, lines: list[dict]) -> None:
