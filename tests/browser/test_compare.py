@@ -114,6 +114,7 @@ def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still
     expect(beside.get_by_role("button", name="Remove NDOBC ωq 40", exact=True)).to_be_visible()
     legend = page.get_by_role("region", name="Position error plot", exact=True)
     expect(legend.get_by_role("button", name=re.compile("^NDOBC ωq 40"))).to_be_visible()
+    still_lab.jump(1)  # of what it was set to then there are samples to tell apart
     ids = [lane["id"] for lane in still_lab.read()["lanes"]]
 
     field.fill("9000")
