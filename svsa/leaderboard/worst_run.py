@@ -11,6 +11,7 @@ import numpy as np
 
 from svsa.arena.find import find_scenario
 from svsa.arena.scenarios import Scenario
+from svsa.arena.seen import build_seen, explain_alone
 from svsa.control.installed import PAPERS_LAW, get_title
 from svsa.leaderboard.board import Board, Entry
 from svsa.result.result import Result
@@ -20,11 +21,15 @@ from svsa.signals import Disturbance, Reference, State
 
 
 class WorstReplay(NamedTuple):
-    """An entry's worst run. lanes: what controlled each; the first is the entry's law."""
+    """An entry's worst run. lanes: what controlled each; the first is the entry's law.
+
+    alone: why there is but that one; "" where there are two.
+    """
 
     scenario: Scenario
     lanes: tuple[str, ...]
     result: Result
+    alone: str
 
 
 class KeptTorques:
@@ -42,18 +47,22 @@ class KeptTorques:
 
 
 def replay_worst(board: Board, entry: Entry) -> WorstReplay:
-    """The worst run of an entry beside NDOBC, NDOBC's beside FL, until one of the two ends.
+    """The worst run of an entry beside NDOBC, NDOBC's beside FL, or alone where that ends first.
 
     Raises `StateError` where nothing is kept of a submitted law's.
     """
     scenario = find_scenario(entry.standing.worst.scenario)
     if entry.is_installed:
-        configuration = scenario.build_compared(entry.key)
+        configuration, alone = build_seen(scenario, entry.key)
         lanes = tuple(get_title(lane.law) for lane in configuration.lanes)
-        return WorstReplay(scenario, lanes, simulate(configuration, duration_s=scenario.duration_s))
-    configuration = scenario.build_configuration(PAPERS_LAW)
-    configuration = configuration.changed(rivals=(Lane(law=PAPERS_LAW),))
+        result = simulate(configuration, duration_s=scenario.duration_s)
+        return WorstReplay(scenario, lanes, result, alone)
+    configuration, lanes = scenario.build_configuration(PAPERS_LAW), (entry.name,)
     torque = board.read_torques(entry)
+    alone = explain_alone(scenario, entry.name, PAPERS_LAW, len(torque))
+    if not alone:
+        configuration = configuration.changed(rivals=(Lane(law=PAPERS_LAW),))
+        lanes += (get_title(PAPERS_LAW),)
     duration_s = len(torque) * configuration.sampling.period_s
     result = simulate(configuration, KeptTorques(torque), duration_s=duration_s)
-    return WorstReplay(scenario, (entry.name, get_title(PAPERS_LAW)), result)
+    return WorstReplay(scenario, lanes, result, alone)

@@ -37,3 +37,17 @@ def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_la
     page.wait_for_url(re.compile(r"\?session="))
     expect(page.get_by_text("Private session.")).to_be_visible()
     expect(page.get_by_role("button", name=f"Control law: {title}").first).to_be_visible()
+    expect(page.get_by_role("note")).to_have_count(0)
+
+
+def test_a_run_that_ndobc_would_end_is_seen_alone_with_the_reason(
+    page: Page, still_lab: Lab
+) -> None:
+    open_page(page, still_lab)
+    go_to_page(page, "Arena")
+    title = get_title("fl")
+    cell = re.compile(rf"^{re.escape(title)}, Unloading: ")
+    page.get_by_role("button", name=cell).press("Enter")
+    page.wait_for_url(re.compile(r"\?session="))
+    note = page.get_by_role("note").filter(has_text="nothing was put beside")
+    expect(note).to_contain_text("NDOBC: At 8.187 s the deflection")

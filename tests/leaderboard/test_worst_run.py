@@ -41,8 +41,9 @@ def test_a_submitted_laws_worst_run_is_the_one_that_was_measured(tmp_path, monke
         once = simulate(configuration, law, duration_s=scenario.duration_s)
 
     monkeypatch.setattr(process.subprocess, "Popen", None)
-    scenario, lanes, result = replay_worst(board, entry)
+    scenario, lanes, result, alone = replay_worst(board, entry)
     assert lanes == ("Ada's", "NDOBC")
+    assert alone == ""
     assert entry.author == "Ada"
     np.testing.assert_array_equal(result.samples, once.samples)
     beside = simulate(scenario.build_configuration("ndobc"), duration_s=scenario.duration_s)
@@ -76,6 +77,26 @@ def test_a_law_that_stops_on_the_way_is_seen_until_then(tmp_path):
 
 
 @pytest.mark.usefixtures("short_season")
+def test_a_run_that_ndobc_would_end_is_seen_alone_to_its_end(tmp_path):
+    board, scenario = Board(tmp_path), find_scenario("unloading")
+    measure_missing(board)
+    fl, worst = board.get("fl"), WorstRun(scenario="unloading", title="", rms_deg=None, problem="")
+    entry = fl.changed(standing=fl.standing.changed(worst=worst))
+    own = simulate(scenario.build_configuration("fl"), duration_s=scenario.duration_s)
+    shown = replay_worst(board, entry)
+    assert shown.lanes == (get_title("fl"),)
+    assert "At 8.187 s" in shown.alone
+    np.testing.assert_array_equal(shown.result.samples, own.samples)
+    submitted = build_entry("good", "Good", False, entry.standing)
+    run = run_law(GOOD, scenario)
+    shown = replay_worst(board, board.keep(submitted, run.torques))
+    assert (run.problem, shown.lanes) == ("", ("Good",))
+    assert len(shown.result.samples) == round(
+        scenario.duration_s / own.configuration.sampling.period_s
+    )
+
+
+@pytest.mark.usefixtures("short_season")
 def test_what_is_seen_has_nothing_of_the_seasons_chance(tmp_path):
     """Two seasons with other secrets, and the same run: one that everybody knows."""
     one, other = Board(tmp_path / "one"), Board(tmp_path / "other")
@@ -84,7 +105,7 @@ def test_what_is_seen_has_nothing_of_the_seasons_chance(tmp_path):
     for board in (one, other):
         measure_missing(board)
         entry = board.get("fl")
-        scenario, _, result = replay_worst(board, entry)
+        scenario, _, result, _ = replay_worst(board, entry)
         assert scenario in SINGLE
         shown.append(result)
     np.testing.assert_array_equal(shown[0].samples, shown[1].samples)

@@ -1,5 +1,6 @@
 """The arena: what was published of the laws, the same measured here, and any of its runs seen."""
 
+import asyncio
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Path, Request
@@ -7,6 +8,7 @@ from fastapi import APIRouter, Body, Path, Request
 from svsa.arena.find import find_scenario
 from svsa.arena.measure import Entry, measure_law
 from svsa.arena.results import Results, load_published
+from svsa.arena.seen import build_seen
 from svsa.control.installed import InstalledLaw
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
 from svsa_server.schemas.arena import MeasuredRow, ScenarioRequest
@@ -46,6 +48,10 @@ async def see_scenario(
         ScenarioRequest, Body(examples=[{"law": "ndobc_w", "scenario": "unloading"}])
     ],
 ) -> SessionState:
-    """A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL."""
-    compared = find_scenario(wanted.scenario).build_compared(wanted.law)
-    return build_state(request.app.state.laboratory.create(compared, person.id))
+    """A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL.
+
+    Alone, and `note` says why, where the other's run would end before its own.
+    """
+    scenario = find_scenario(wanted.scenario)
+    shown, alone = await asyncio.to_thread(build_seen, scenario, wanted.law)
+    return build_state(request.app.state.laboratory.create(shown, person.id, alone))

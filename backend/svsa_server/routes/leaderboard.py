@@ -46,7 +46,9 @@ async def show_worst_run(
     work: Work,
     key: Annotated[str, Path(description="Key of an entry", examples=["fl"])],
 ) -> StreamingResponse:
-    """The entry's worst run in 3D beside NDOBC, as a page of its own; `?t=5` opens it at 5 s.
+    """The entry's worst run in 3D as a page of its own; `?t=5` opens it at 5 s.
+
+    Beside NDOBC, and NDOBC beside FL, unless that one's run ends first: its notes say so then.
 
     Of a submitted law, what it answered then is played: it does not run again.
     """

@@ -16,7 +16,8 @@ def build_worst_run_page(board: Board, entry: Entry) -> str:
 
     Raises `StateError` where nothing is kept of the run, or it ended at its first tick.
     """
-    scenario, lanes, result = replay_worst(board, entry)
+    scenario, lanes, result, alone = replay_worst(board, entry)
+    notes = ("Its worst run on the leaderboard.", entry.standing.worst.problem, alone)
     samples = np.stack([result.samples, *(one.samples for one in result.rivals)], axis=1)
     period_s = result.configuration.sampling.period_s
     ticks = len(samples)
@@ -32,7 +33,7 @@ def build_worst_run_page(board: Board, entry: Entry) -> str:
         {
             "version": entry.version,
             "measured": entry.entered,
-            "notes": f"Its worst run on the leaderboard. {entry.standing.worst.problem}".strip(),
+            "notes": " ".join(filter(None, notes)),
             "plant": "simulated",
             "seed": result.configuration.seed,
             "configuration": result.configuration.model_dump(mode="json") | {"law": lanes[0]},

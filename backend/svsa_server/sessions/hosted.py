@@ -37,10 +37,11 @@ class HostedSession:
     """A session, and what is the server's own of it. Times are monotonic, s.
 
     session: what people start, pause and change. `hand`: who is in control of it. `excitation`:
-    what is being played on it, or None. `news`, `progress`, `told`, `batches`: what its streams
-    are sent in each `round`, made once for all. `last_use`: when it was last asked for; infinite
-    for one that never ends by itself. `owner`: the id of the person whose it is; empty for
-    everybody's. `instance`: no other session has it, also none of this name before or after.
+    what is being played on it, or None. `news`, `progress`, `told`, `batches`: what its streams are
+    sent in each `round`, made once for all. `last_use`: when it was last asked for; infinite for
+    one that never ends by itself. `owner`: the id of the person whose it is; empty for everybody's.
+    `note`: what whoever it was opened for is to know of it. `instance`: no other session has it,
+    also none of this name before or after.
     note_settled: told whom the hand let go without having been asked.
     """
 
@@ -52,7 +53,7 @@ class HostedSession:
         hand: ControlHand | None = None,
         note_settled: "NoteSettled" = lambda hosted, settled: None,
     ) -> None:
-        self.session, self.owner = session, owner
+        self.session, self.owner, self.note = session, owner, ""
         self.instance = secrets.token_hex(4)
         self._note_settled = note_settled
         self.hand = hand or ControlHand(session.name)

@@ -72,12 +72,16 @@ class Laboratory:
         self.sessions[name].touch()
         return self.sessions[name]
 
-    def create(self, configuration: Configuration, owner: str = "") -> HostedSession:
+    def create(
+        self, configuration: Configuration, owner: str = "", note: str = ""
+    ) -> HostedSession:
         """A new private session, running; refused as by `check_room`."""
         self.check_room(owner)
         session = SimulatedSession(build_name(), configuration)
         session.start()
-        return self._add(session, owner)
+        hosted = self._add(session, owner)
+        hosted.note = note
+        return hosted
 
     async def branch(
         self,

@@ -77,6 +77,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         instance=hosted.instance,
         revision=hosted.revision,
         branch_of=_build_branch(session.journal.branch_of),
+        note=hosted.note,
         control=build_control(hosted),
         queue=build_queue(hosted.hand),
         rate_hz=1.0 / run.period_s,

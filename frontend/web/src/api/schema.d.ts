@@ -2498,6 +2498,8 @@ export interface paths {
         /**
          * See Scenario
          * @description A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL.
+         *
+         *     Alone, and `note` says why, where the other's run would end before its own.
          */
         post: operations["see_scenario"];
         delete?: never;
@@ -2535,7 +2537,9 @@ export interface paths {
         };
         /**
          * Show Worst Run
-         * @description The entry's worst run in 3D beside NDOBC, as a page of its own; `?t=5` opens it at 5 s.
+         * @description The entry's worst run in 3D as a page of its own; `?t=5` opens it at 5 s.
+         *
+         *     Beside NDOBC, and NDOBC beside FL, unless that one's run ends first: its notes say so then.
          *
          *     Of a submitted law, what it answered then is played: it does not run again.
          */
@@ -7489,6 +7493,11 @@ export interface components {
             revision: string;
             /** @description null unless its run is a branch */
             branch_of: components["schemas"]["BranchState"] | null;
+            /**
+             * Note
+             * @description What it was opened with to be known: why a law of the arena has none beside it; empty where nothing is
+             */
+            note: string;
             control: components["schemas"]["ControlState"];
             /** @description null where nobody waits in turn: in a lab without a class, and in private sessions */
             queue: components["schemas"]["QueueState"] | null;

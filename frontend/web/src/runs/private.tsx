@@ -7,6 +7,7 @@ import { SessionOrigin } from "./sessionorigin";
 export function PrivateBanner() {
   if (!isPrivate) return null;
   const branch = session.value?.branch_of;
+  const note = session.value?.note;
   const isEnded = phase.value === "ended";
   return (
     <aside class="private-banner" aria-label={text.private.label}>
@@ -15,6 +16,7 @@ export function PrivateBanner() {
         {isEnded ? text.private.endedText : text.private.text}{" "}
         {branch && <SessionOrigin runId={branch.run_id} tick={branch.tick} />}
       </p>
+      {note && <p role="note">{note}</p>}
       <a class={`button ${isEnded ? "is-primary" : ""}`} href={location.pathname}>
         {text.private.back}
       </a>

@@ -17,7 +17,7 @@ const sweeps: Record<string, string> = {
 export const arenaText = {
   arena: {
     title: "Arena",
-    lead: "Every law on the same plant, torque limits, noise and loads. Press a number to see its run beside NDOBC in the lab; press a law to lay it into the web.",
+    lead: "Every law on the same plant, torque limits, noise and loads. Press a number to see its run in the lab, beside NDOBC unless that ends first; press a law to lay it into the web.",
     loading: "The table is on its way …",
     law: "Law",
     table: "Errors, faults and score, a law a row",
