@@ -3,12 +3,14 @@ import type uPlot from "uplot";
 import { palette } from "../plots/palette";
 import type { Overlaid } from "./overlaid";
 
-/** Where the windows of the numbers begin, and in its colour where that of a curve ends. */
+/** Time 0, and in its colour where the window of a curve's numbers begins otherwise, and ends. */
 export function drawEdges(plot: uPlot, curves: readonly Overlaid[]): void {
   drawEdge(plot, 0, palette.peek().mark);
-  curves.forEach(({ changedS, ink }, index) => {
-    const isShown = plot.series[index + 1]?.show === true;
-    if (changedS !== null && isShown) drawEdge(plot, changedS, palette.peek()[ink.colour]);
+  curves.forEach(({ startS, changedS, ink }, index) => {
+    if (plot.series[index + 1]?.show !== true) return;
+    const colour = palette.peek()[ink.colour];
+    if (startS !== 0) drawEdge(plot, startS, colour);
+    if (changedS !== null) drawEdge(plot, changedS, colour);
   });
 }
 

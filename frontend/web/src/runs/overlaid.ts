@@ -1,6 +1,13 @@
-/** Several runs on one axis of time, on which 0 is where the window of their numbers begins. */
+/** Several runs on one axis of time: 0 is where the window of their numbers begins, or each run. */
 import { readRun, readSamples } from "../api/runs";
-import type { MeasuredWindow, Metrics, RunDetails, RunSamples, StreamedName } from "../api/types";
+import type {
+  MeasuredWindow,
+  Metrics,
+  RunDetails,
+  RunSamples,
+  StreamedName,
+  VerdictRequest,
+} from "../api/types";
 import type { Ink } from "../plots/definitions";
 import { inkOf } from "../plots/inks";
 import { text } from "../text/en";
@@ -22,6 +29,9 @@ export const TITLES: Record<OverlayChannel, { title: string; unit: string }> = {
 };
 const POINTS = 4000;
 
+/** What of each run is laid over the others' first, as the API has it for a verdict. */
+export type Alignment = VerdictRequest["align"];
+
 /** One lane of one run. */
 export interface Overlaid {
   key: string;
@@ -40,12 +50,15 @@ export interface Overlaid {
   window: MeasuredWindow | null;
   /** Its loads and when they came; the same for runs that had the same. */
   loads: string;
-  /** When something was changed after that window's beginning, s after it; null: never. */
+  alignment: Alignment;
+  /** Where that window begins on the axis, s; 0 where runs are aligned at it. */
+  startS: number;
+  /** Where it ends on the axis because something was changed then, s; null: never. */
   changedS: number | null;
   /** The session's time where the axis has its 0, s. */
   zeroS: number;
   ink: Ink;
-  /** s after the window's beginning. */
+  /** On the axis, s. */
   time: Float64Array;
   values: Record<OverlayChannel, (number | null)[]>;
   /** Of that window; null where samples are no numbers. */
@@ -77,14 +90,25 @@ function keyOfLoads(run: RunDetails): string {
   return JSON.stringify([configuration.loads, given, window.first_tick]);
 }
 
-async function readLanes(id: string): Promise<Omit<Overlaid, "ink">[]> {
-  const [run, samples] = await Promise.all([readRun(id), readSamples(id, CHANNELS, POINTS)]);
-  return overlay(run, samples);
+/**
+ * At their windows; but where some had a load and others none, as a run that ended before its own,
+ * at their starts: else those would stand apart by the time until the load.
+ */
+export function chooseAlignment(runs: readonly RunDetails[]): Alignment {
+  const loaded = runs.filter(({ window }) => window?.kind === "load").length;
+  const isMixed = loaded > 0 && loaded < runs.length;
+  return isMixed && runs.every(({ first_tick: first }) => first === 0) ? "start" : "window";
 }
 
-export function overlay(run: RunDetails, samples: RunSamples): Omit<Overlaid, "ink">[] {
+export function overlay(
+  run: RunDetails,
+  samples: RunSamples,
+  alignment: Alignment = "window",
+): Omit<Overlaid, "ink">[] {
   const { id, window } = run;
-  const zero = window?.start_s ?? run.first_tick * run.period_s;
+  const first = run.first_tick * run.period_s;
+  const begin = window?.start_s ?? first;
+  const zero = alignment === "window" ? begin : first;
   const isCut = window !== null && window.end_tick < run.first_tick + run.ticks;
   const time = Float64Array.from(samples.time_s, (seconds) => seconds - zero);
   return run.lanes.map((lane, index) => ({
@@ -99,6 +123,8 @@ export function overlay(run: RunDetails, samples: RunSamples): Omit<Overlaid, "i
     hasOnset: window?.kind === "load",
     window: window && shiftToRecord(window, run),
     loads: keyOfLoads(run),
+    alignment,
+    startS: begin - zero,
     changedS: isCut ? window.end_s - zero : null,
     zeroS: zero,
     time,
@@ -109,6 +135,10 @@ export function overlay(run: RunDetails, samples: RunSamples): Omit<Overlaid, "i
 
 /** Every lane of these runs, each in an ink of its own. */
 export async function readOverlaid(runs: readonly string[]): Promise<Overlaid[]> {
-  const lanes = (await Promise.all(runs.map(readLanes))).flat();
+  const read = await Promise.all(
+    runs.map((id) => Promise.all([readRun(id), readSamples(id, CHANNELS, POINTS)])),
+  );
+  const alignment = chooseAlignment(read.map(([run]) => run));
+  const lanes = read.flatMap(([run, samples]) => overlay(run, samples, alignment));
   return lanes.map((lane, index) => ({ ...lane, ink: inkOf(index) }));
 }

@@ -83,17 +83,21 @@ function OverlayPlot({ channel, curves, judged, view, hidden }: PlotProps) {
   );
 }
 
-/** What time 0 is of a run whose numbers are of no load. */
+/** Of what the numbers of a run are that had no load. */
 const beginningOf = ({ window }: Overlaid): string =>
   window?.label ? words.fromChange(window.label) : words.fromStart;
+
+const isMeasuredInPart = ({ startS, changedS }: Overlaid): boolean =>
+  startS !== 0 || changedS !== null;
+
+const measuredOf = ({ startS, changedS, time }: Overlaid): string =>
+  words.measured(startS.toFixed(2), (changedS ?? time.at(-1) ?? 0).toFixed(2));
 
 function Remark({ curve }: { curve: Overlaid }) {
   return (
     <>
       {!curve.hasOnset && <small class="unit"> {beginningOf(curve)}</small>}
-      {curve.changedS !== null && (
-        <small class="unit"> {words.measured(curve.changedS.toFixed(2))}</small>
-      )}
+      {isMeasuredInPart(curve) && <small class="unit"> {measuredOf(curve)}</small>}
     </>
   );
 }
@@ -121,7 +125,7 @@ function OverlayCurves({ curves, judged }: Pick<PlotProps, "curves" | "judged">)
   );
 }
 
-/** Runs over one another, from where the window of the numbers of each begins: its last load. */
+/** Runs over one another, see `chooseAlignment` for where each begins. */
 export function OverlayPage({ runs }: { runs: readonly string[] }) {
   const [curves, setCurves] = useState<readonly Overlaid[] | null>(null);
   const [difference, setDifference] = useState<RunDifference | null>(null);
@@ -151,7 +155,8 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
           ← {text.run.toList}
         </PlaceLink>
         <h2>
-          {words.title} <small class="unit">{words.aligned}</small>
+          {words.title}{" "}
+          <small class="unit">{words.aligned[curves?.[0]?.alignment ?? "window"]}</small>
         </h2>
       </div>
       {curves === null && <p class="runs-empty">{text.runs.loading}</p>}

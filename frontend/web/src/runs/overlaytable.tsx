@@ -104,7 +104,7 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
   const window: MetricsColumn = {
     key: words.window,
     title: words.window,
-    hint: words.windowHint,
+    hint: words.windowHint[curves[0]?.alignment ?? "window"],
     class: "overlay-window",
     cell: (row) => windowOf(curves[row] as Overlaid),
   };

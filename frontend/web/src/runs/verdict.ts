@@ -1,7 +1,7 @@
 /** Runs of an overlay judged against one of them: within tolerances of value and time, or when not. */
 import { judgeRun } from "../api/runs";
 import type { RunVerdict, VerdictRequest } from "../api/types";
-import { CHANNELS, FACTORS, type Overlaid, type OverlayChannel } from "./overlaid";
+import { type Alignment, CHANNELS, FACTORS, type Overlaid, type OverlayChannel } from "./overlaid";
 
 const POINTS = 4000;
 
@@ -40,7 +40,11 @@ export interface BandShown {
   high: readonly (number | null)[];
 }
 
-export const buildRequest = (reference: string, tolerances: Tolerances): VerdictRequest => ({
+export const buildRequest = (
+  reference: string,
+  tolerances: Tolerances,
+  align: Alignment,
+): VerdictRequest => ({
   other: reference,
   tolerances: Object.fromEntries(
     CHANNELS.map((channel) => {
@@ -50,7 +54,7 @@ export const buildRequest = (reference: string, tolerances: Tolerances): Verdict
     }),
   ),
   rest: null,
-  align: "window",
+  align,
   points: POINTS,
 });
 
@@ -59,8 +63,9 @@ export function judgeRuns(
   runs: readonly string[],
   reference: string,
   tolerances: Tolerances,
+  align: Alignment,
 ): Promise<Judged[]> {
-  const wanted = buildRequest(reference, tolerances);
+  const wanted = buildRequest(reference, tolerances, align);
   const others = runs.filter((run) => run !== reference);
   return Promise.all(
     others.map(async (run) => ({ run, reference, verdict: await judgeRun(run, wanted) })),

@@ -67,7 +67,8 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
     ) as Tolerances;
     setIsJudging(true);
     const ids = runs.map(([run]) => run);
-    onJudged((await attempt(() => judgeRuns(ids, reference, tolerances))) ?? []);
+    const align = curves[0]?.alignment ?? "window";
+    onJudged((await attempt(() => judgeRuns(ids, reference, tolerances, align))) ?? []);
     setIsJudging(false);
   };
   const type = (channel: OverlayChannel, field: keyof Bounds, value: string) => {

@@ -147,7 +147,10 @@ export const runsText = {
   },
   overlay: {
     title: "Overlay",
-    aligned: "Time 0 is when the last load came on.",
+    aligned: {
+      window: "Time 0 is when the last load came on.",
+      start: "Time 0 is the start of each run: not every one of them had a load.",
+    },
     fromStart: "no load: from its start",
     fromChange: (change: string) => `no load: from ${change}`,
     error: "Position error",
@@ -170,8 +173,11 @@ export const runsText = {
     },
     run: "Run",
     window: "Window",
-    windowHint: "In the time of the replay; on the axis it begins at 0",
-    measured: (seconds: string) => `measured 0–${seconds} s`,
+    windowHint: {
+      window: "In the time of the replay; on the axis it begins at 0",
+      start: "In the time of the replay, which is that of the axis",
+    },
+    measured: (from: string, to: string) => `measured ${from}–${to} s`,
     settledError: measuredText.names.settled,
     rmsError: "rms error",
     peakError: "Peak error",

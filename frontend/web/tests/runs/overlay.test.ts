@@ -6,9 +6,46 @@ import { stubBrowser } from "../browser";
 stubBrowser();
 vi.stubGlobal("document", { baseURI: "http://lab/", documentElement: { dataset: {} } });
 vi.stubGlobal("location", { search: "" });
-const { overlay } = await import("../../src/runs/overlaid");
+const { chooseAlignment, overlay } = await import("../../src/runs/overlaid");
 const { whyUnlike } = await import("../../src/runs/alike");
 const { COLUMNS, findBest } = await import("../../src/runs/overlaytable");
+
+describe("runs laid over one another", () => {
+  const runOf = (change: object) =>
+    ({ lanes: ["lane1"], lane_names: ["FL"], period_s: 0.001, first_tick: 0, ...change }) as never;
+  const NAMED = { is_whole: false, lanes: ["FL"], load_ended: false };
+  const loaded = { kind: "load", label: "3 kg load", first_tick: 5000, end_tick: 9000 };
+  const LOADED = runOf({
+    ...{ id: "a", ticks: 10_000, commands: [], configuration: { loads: [] } },
+    window: { ...loaded, start_s: 5, end_s: 9, ...NAMED },
+  });
+  const ended = { kind: "start", label: "", first_tick: 0, end_tick: 100 };
+  const ENDED = runOf({
+    ...{ id: "b", ticks: 100, commands: [], configuration: { loads: [] } },
+    window: { ...ended, start_s: 0, end_s: 0.1, ...NAMED },
+  });
+  const samples = (...time: number[]) => ({ time_s: time, lanes: {} }) as never;
+
+  it("begin at their starts where one ended before its load came", () => {
+    expect(chooseAlignment([LOADED, ENDED])).toBe("start");
+    const [withLoad] = overlay(LOADED, samples(0, 5, 10), "start");
+    const [without] = overlay(ENDED, samples(0, 0.1), "start");
+    expect([...(withLoad?.time ?? [])]).toEqual([0, 5, 10]);
+    expect([...(without?.time ?? [])]).toEqual([0, 0.1]);
+    expect(withLoad).toMatchObject({ startS: 5, changedS: 9, alignment: "start", zeroS: 0 });
+    expect(without).toMatchObject({ startS: 0, changedS: null });
+  });
+
+  it("begin at their loads where each had one, or a record begins later than its run", () => {
+    expect(chooseAlignment([LOADED, LOADED])).toBe("window");
+    expect(chooseAlignment([ENDED, ENDED])).toBe("window");
+    const later = runOf({ ...(ENDED as object), first_tick: 50 });
+    expect(chooseAlignment([LOADED, later])).toBe("window");
+    const [curve] = overlay(LOADED, samples(0, 5, 10), chooseAlignment([LOADED, LOADED]));
+    expect([...(curve?.time ?? [])]).toEqual([-5, 0, 5]);
+    expect(curve).toMatchObject({ startS: 0, changedS: 4, zeroS: 5 });
+  });
+});
 
 describe("the best of an overlay", () => {
   const PAPER = { tick: 2000, command: { kind: "load", argument: { kind: "paper" } } };

@@ -40,14 +40,18 @@ describe("a verdict in an overlay", () => {
   it("asks in the units of the record what was typed in those of the screen", () => {
     const bounds = { absolute: 180, relativePercent: 5, timeS: 0.01 };
     const stiffness = { absolute: 2, relativePercent: 0, timeS: 0 };
-    const wanted = buildRequest("a", {
-      position_error_rad: bounds,
-      stiffness_error_nm_per_rad: stiffness,
-    });
+    const wanted = buildRequest(
+      "a",
+      {
+        position_error_rad: bounds,
+        stiffness_error_nm_per_rad: stiffness,
+      },
+      "start",
+    );
     expect(wanted.tolerances?.[POSITION]?.absolute).toBeCloseTo(Math.PI);
     expect(wanted.tolerances?.[POSITION]).toMatchObject({ relative: 0.05, time_s: 0.01 });
     expect(wanted.tolerances?.stiffness_error_nm_per_rad?.absolute).toBe(2);
-    expect(wanted).toMatchObject({ other: "a", rest: null, align: "window" });
+    expect(wanted).toMatchObject({ other: "a", rest: null, align: "start" });
   });
 
   it("is told in the time of the axis, whose 0 is another moment of each run", () => {
