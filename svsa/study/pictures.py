@@ -128,9 +128,15 @@ def draw_sensitivity(indices: Sequence[Sensitivity]) -> Picture:
             (0.2, one.total_order, "with interactions", "#E69F00"),
         ):
             values = np.array([order[name] for name in names])
-            errors = np.abs(values[:, 1:].T - values[:, 0])
-            axes.barh(
-                places + shift, values[:, 0], 0.38, xerr=errors, label=label, color=color, capsize=2
+            ends = values[:, 1:]
+            axes.barh(places + shift, values[:, 0], 0.38, label=label, color=color)
+            axes.errorbar(
+                ends.mean(axis=1),
+                places + shift,
+                xerr=np.ptp(ends, axis=1) / 2.0,
+                fmt="none",
+                ecolor="black",
+                capsize=2,
             )
         axes.set_yticks(places, [_tell_setting(name) for name in names])
         axes.set_xlabel(f"Share of the variance of {one.outcome}, {get_title(one.law)}")

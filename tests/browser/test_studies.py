@@ -12,7 +12,7 @@ from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_viol
 from tests.browser.test_page import WORKER_MS
 from tests.exhaustive import exhaust
 from tests.lab import Lab, run_lab
-from tests.study.studies import build_study
+from tests.study.studies import VARIED, build_study
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
@@ -21,9 +21,11 @@ SIZES = ((WIDE,), (WIDE, TABLET, PHONE))
 
 @pytest.fixture(scope="module")
 def studied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """A lab with a study of 80 runs of 1.2 s."""
+    """A lab with a study of 80 runs of 1.2 s, and one of 64 drawn for what decides them."""
     data = tmp_path_factory.mktemp("data")
-    assert run_study(keep_study("short", build_study(), data / "studies"), workers=0)
+    decided = build_study(vary=VARIED[:2], laws=("ndobc",), runs=16, sampling="sensitivity")
+    for name, study in (("short", build_study()), ("decided", decided)):
+        assert run_study(keep_study(name, study, data / "studies"), workers=0)
     with run_lab(data=str(data)) as lab:
         yield lab
 
@@ -67,6 +69,26 @@ def test_a_wrong_text_is_told_with_its_line_and_nothing_is_begun(page: Page, stu
     text.fill('title = "Mine"\nruns = 2\n')
     page.get_by_role("button", name="Check").press("Enter")
     expect(page.get_by_text("Right: 2 draws, 2 runs under NDOBC.")).to_be_visible()
-    assert [one["name"] for one in studied.client.get("/api/v1/studies").json()["kept"]] == [
-        "short"
-    ]
+    kept = studied.client.get("/api/v1/studies").json()["kept"]
+    assert {one["name"] for one in kept} == {"short", "decided"}
+
+
+SHARES_DRAWN = """panel => [...panel.querySelectorAll("dl > div")].map(row =>
+    [...row.querySelectorAll("dd")].map(one => [one.querySelector("i"), one].map(
+        each => each.getBoundingClientRect().width)).map(([bar, whole]) => bar / whole))"""
+
+
+def test_the_bars_of_what_decides_it_are_as_long_as_its_sobol_indices(
+    page: Page, studied: Lab
+) -> None:
+    asked = studied.client.get("/api/v1/studies/decided/sensitivity").raise_for_status()
+    (told,) = asked.json()
+    own, total = told["first_order"], told["total_order"]
+    names = sorted(total, key=lambda name: -total[name]["value"])
+    expected = [min(1.0, max(0.0, of[name]["value"])) for name in names for of in (own, total)]
+    assert max(expected) > 0.3
+    page.goto(studied.url + "/?studies=decided")
+    panel = page.get_by_role("region", name="What decides it")
+    expect(panel).to_be_visible(timeout=WORKER_MS)
+    drawn = [share for row in panel.evaluate(SHARES_DRAWN) for share in row]
+    assert drawn == pytest.approx(expected, abs=0.01)
