@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Trace } from "./definitions";
-import { addDrawing, renew } from "./frame";
+import { addDrawing } from "./frame";
 import type { PlotSetup } from "./setups";
 
 interface DrawnChart {
@@ -26,24 +26,22 @@ export function ChartBox({ class: look, make, setup, traces, hidden }: ChartBoxP
     const element = host.current;
     if (element === null) return;
     const chart = make(element, setup, traces);
-    let isSeen = true;
-    const drawing = { draw: () => chart.draw(), isSeen: () => isSeen };
+    const drawing = addDrawing(() => chart.draw());
     hide.current = (keys) => {
       chart.hide(keys);
-      renew(drawing);
+      drawing.renew();
     };
-    const removeDrawing = addDrawing(drawing);
     const resizing = new ResizeObserver(() => {
       chart.resize(element.clientWidth, element.clientHeight);
-      renew(drawing);
+      drawing.renew();
     });
-    const seeing = new IntersectionObserver((entries) => {
-      isSeen = entries.at(-1)?.isIntersecting ?? true;
-    });
+    const seeing = new IntersectionObserver((entries) =>
+      drawing.see(entries.at(-1)?.isIntersecting ?? true),
+    );
     resizing.observe(element);
     seeing.observe(element);
     return () => {
-      removeDrawing();
+      drawing.remove();
       resizing.disconnect();
       seeing.disconnect();
       chart.destroy();

@@ -2,7 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { type Cast, cast } from "../state/lanes";
 import { windowS } from "../state/preferences";
-import { received, samples, selectionCount, session } from "../state/session";
+import { countReceived, samples, selectionCount, session } from "../state/session";
 import type { SampleRing } from "../stream/ring";
 import { keepInside, liveSpan, type Span, zoomSpan } from "./spans";
 
@@ -89,7 +89,7 @@ export function followSession(): () => void {
     if (span === null) return;
     span.ring.adopt(samples.ring);
     held.value = { ...span };
-    received.count++;
+    countReceived();
   });
   return () => {
     stopRun();

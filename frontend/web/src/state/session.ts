@@ -21,7 +21,12 @@ export const connectionCount = signal(0);
 /** Another session has the name of the one that was shown, until somebody has seen that. */
 export const isAnother = signal(false);
 /** Counts what was received: a plot whose count is behind has something to draw. */
-export const received = { count: 0 };
+export const received = signal(0);
+
+/** Other samples are there than before. */
+export function countReceived(): void {
+  received.value = received.peek() + 1;
+}
 
 export const isLive = computed(() => phase.value === "live");
 export const samples: { ring: SampleRing } = { ring: new SampleRing(1, []) };
@@ -55,7 +60,7 @@ export function acceptState(state: Progress, sinceTick = 0): void {
 function beginRun(number: number): void {
   run = number;
   samples.ring.clear();
-  received.count++;
+  countReceived();
 }
 
 /** The samples stand in the order of the lanes that the page draws them as. */
@@ -82,7 +87,7 @@ function acceptText(message: string): void {
   run = content.state.run_number;
   samples.ring = continues ? samples.ring.reselect(names) : new SampleRing(CAPACITY, names);
   take(content.state);
-  received.count++;
+  countReceived();
   if (continues) return;
   selection.continues = false;
   missedSamples.value = 0;
@@ -95,7 +100,7 @@ function acceptBinary(message: ArrayBuffer): void {
   if (batch.run > run) beginRun(batch.run);
   samples.ring.append(batch, periodS);
   if (batch.missed > 0) missedSamples.value += batch.missed;
-  received.count++;
+  countReceived();
   if (selection.continues) {
     selection.continues = false;
     selectionCount.value++;

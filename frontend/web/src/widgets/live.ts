@@ -10,8 +10,8 @@ export function useLiveText<T extends HTMLElement>(read: () => string): RefObjec
   useEffect(() => {
     let shownCount = -1;
     const write = () => {
-      if (element.current === null || shownCount === received.count) return;
-      shownCount = received.count;
+      if (element.current === null || shownCount === received.peek()) return;
+      shownCount = received.peek();
       const next = read();
       if (element.current.textContent !== next) element.current.textContent = next;
     };
