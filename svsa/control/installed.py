@@ -35,6 +35,11 @@ def list_law_names() -> tuple[str, ...]:
     return tuple(_find_entries())
 
 
+def list_law_inks() -> dict[str, int]:
+    """Of every law that is installed the look that is its own in every picture, from 0."""
+    return {name: ink for ink, name in enumerate(list_law_names())}
+
+
 def check_installed(name: str) -> str:
     """The name; raises `ParameterError` where no law of that name is installed."""
     if name not in _find_entries():

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from svsa.control.installed import get_title, list_law_names
+from svsa.control.installed import get_title, list_law_inks
 from svsa.control.law import NAME
 
 REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zorder": 3}
@@ -12,13 +12,12 @@ OWN_COLOR = "#000000"
 
 
 def style_law(law: str) -> dict[str, Any]:
-    """How the curves of a law look, as the page draws it: by its place among those installed.
+    """How the curves of a law look, as the page draws it: in the ink that is its own.
 
     Twenty looks of which no two share both colour and dash; neighbours share neither. What is no
     installed law is drawn in black.
     """
-    laws = list_law_names()
-    ink = laws.index(law) if law in laws else None
+    ink = list_law_inks().get(law)
     look = (
         (OWN_COLOR, "-") if ink is None else (COLORS[ink % len(COLORS)], DASHES[ink % len(DASHES)])
     )

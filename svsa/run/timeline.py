@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from svsa.control.installed import list_law_names
+from svsa.control.installed import list_law_inks
 from svsa.errors import StateError
 from svsa.plant.disturbances import Load
 from svsa.run.command import (
@@ -211,7 +211,7 @@ class Timeline:
         used = {one.controller: one.ink for lane in self.lanes for one in lane}
         if controller in used:
             return used[controller]
-        customary = {law: ink for ink, law in enumerate(list_law_names())}
+        customary = list_law_inks()
         own = customary.get(controller.law)
         kept = set(used.values())
         now = {used[one] for one in present if one in used}

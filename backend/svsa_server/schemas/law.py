@@ -11,7 +11,7 @@ from svsa.control.installed import (
     get_law,
     get_notes,
     has_own_parameters,
-    list_law_names,
+    list_law_inks,
 )
 from svsa.control.law import EstimateSource
 from svsa.control.parameters import LawParameters
@@ -50,6 +50,7 @@ class LawState(BaseModel):
 
     name: str
     title: str
+    ink: int = Field(description="Which look its curves have, from 0, where its colour is free")
     summary: str
     equation: str = Field(description="KaTeX")
     source: str = Field(description="Number of the paper's equation, a citation, or empty")
@@ -62,16 +63,17 @@ class LawState(BaseModel):
 
 def list_laws() -> list[LawState]:
     """Every law that is installed; one that does not work says why."""
-    return [_describe(name) for name in list_law_names()]
+    return [_describe(name, ink) for name, ink in list_law_inks().items()]
 
 
-def _describe(name: str) -> LawState:
+def _describe(name: str, ink: int) -> LawState:
     try:
         law, is_own = get_law(name), has_own_parameters(name)
     except LawError as error:
         return LawState(
             name=name,
             title=name,
+            ink=ink,
             summary="",
             equation="",
             source="",
@@ -84,6 +86,7 @@ def _describe(name: str) -> LawState:
     return LawState(
         name=name,
         title=law.title,
+        ink=ink,
         summary=law.summary,
         equation=law.equation,
         source=law.source,

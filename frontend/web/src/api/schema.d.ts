@@ -5128,6 +5128,11 @@ export interface components {
             name: string;
             /** Title */
             title: string;
+            /**
+             * Ink
+             * @description Which look its curves have, from 0, where its colour is free
+             */
+            ink: number;
             /** Summary */
             summary: string;
             /**

@@ -2,6 +2,8 @@
 import { computed, signal } from "@preact/signals";
 import { measureLaw, type Results, type Row, readArena, seeScenario } from "../api/arena";
 import type { Law } from "../api/types";
+import type { Ink } from "../plots/definitions";
+import { inksOfLaws } from "../plots/lawinks";
 import { explain } from "../state/actions";
 import { sortRows } from "./columns";
 
@@ -27,6 +29,12 @@ export const rows = computed<readonly Row[]>(() => {
 
 export const rowOf = (law: Law): Row | undefined =>
   results.value?.rows.find((row) => row.law === law);
+
+/** The inks of the laws in the radar. */
+export const inks = computed<ReadonlyMap<Law, Ink>>(() => {
+  const shared = inksOfLaws(chosen.value);
+  return new Map(chosen.value.map((law, index) => [law, shared[index] as Ink]));
+});
 
 export async function openArena(): Promise<void> {
   if (results.peek() !== null) return;

@@ -1,8 +1,9 @@
 import type { Row, SweepOutcome } from "../api/arena";
-import { inkOf } from "../plots/inks";
+import type { Ink } from "../plots/definitions";
+import { dotOf } from "../plots/lawinks";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
-import { chosen, rowOf, see } from "./arena";
+import { chosen, inks, rowOf, see } from "./arena";
 
 const words = text.arena;
 const RADIUS = 96;
@@ -77,8 +78,8 @@ function Web({ found }: { found: readonly Row[] }) {
           </g>
         );
       })}
-      {found.map((row, index) => {
-        const { colour, dash } = inkOf(index);
+      {found.map((row) => {
+        const { colour, dash } = inks.value.get(row.law) as Ink;
         const stroke = `var(--plot-${colour})`;
         return (
           <polygon
@@ -101,13 +102,9 @@ function Shares({ found }: { found: readonly Row[] }) {
       <thead>
         <tr>
           <td />
-          {found.map((row, index) => (
+          {found.map((row) => (
             <th key={row.law} scope="col">
-              <i
-                class="arena-dot"
-                aria-hidden="true"
-                style={{ background: `var(--plot-${inkOf(index).colour})` }}
-              />
+              <i class="arena-dot" aria-hidden="true" style={dotOf(inks.value.get(row.law))} />
               {titleOf(row.law)}
             </th>
           ))}

@@ -1,10 +1,10 @@
 import type { Row } from "../api/arena";
-import { inkOf } from "../plots/inks";
+import { dotOf } from "../plots/lawinks";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
 import { ScoreBar } from "../widgets/scorebar";
 import { SortHead } from "../widgets/sorthead";
-import { choose, chosen, confirmed, measuring, opening, rows, see, sort } from "./arena";
+import { choose, confirmed, inks, measuring, opening, rows, see, sort } from "./arena";
 import { barOf, COLUMNS, type Column, formatValue, isBest } from "./columns";
 
 const words = text.arena;
@@ -112,22 +112,17 @@ export function ArenaTable() {
         </thead>
         <tbody>
           {rows.value.map((row) => {
-            const at = chosen.value.indexOf(row.law);
-            const look = at < 0 ? undefined : inkOf(at).colour;
+            const ink = inks.value.get(row.law);
             return (
               <tr key={row.law}>
                 <th scope="row" class="arena-law">
                   <button
                     type="button"
-                    aria-pressed={at >= 0}
+                    aria-pressed={ink !== undefined}
                     title={words.chooseHint}
                     onClick={() => choose(row.law)}
                   >
-                    <i
-                      class="arena-dot"
-                      aria-hidden="true"
-                      style={look && { background: `var(--plot-${look})` }}
-                    />
+                    <i class="arena-dot" aria-hidden="true" style={dotOf(ink)} />
                     {titleOf(row.law)}
                   </button>
                   <Confirmed row={row} />

@@ -1,12 +1,14 @@
 import type { LawTrace } from "../api/falsifications";
 import type { Law } from "../api/types";
 import { LawBoxes } from "../jobs/lawboxes";
-import { inkOf } from "../plots/inks";
+import type { Ink } from "../plots/definitions";
+import { dotOf } from "../plots/lawinks";
 import { keepLaws } from "../runs/place";
 import { titleOf, usableLaws } from "../state/laws";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../units";
 import { besideOf, findingOf, isBusy, laws, scenario, see } from "./falsifier";
+import type { DrawnLaw } from "./picture";
 
 const words = text.falsifier;
 
@@ -42,12 +44,12 @@ export const rankLaws = (traces: readonly LawTrace[]): LawTrace[] =>
 
 interface RowProps {
   one: LawTrace;
-  /** Its place among those that are drawn; -1: it is not. */
-  at: number;
+  /** undefined: it is not drawn. */
+  ink: Ink | undefined;
   onDraw: (law: Law) => void;
 }
 
-function Row({ one, at, onDraw }: RowProps) {
+function Row({ one, ink, onDraw }: RowProps) {
   const title = titleOf(one.law);
   return (
     <tr class={one.fault === null ? undefined : "is-ended"}>
@@ -55,14 +57,11 @@ function Row({ one, at, onDraw }: RowProps) {
         <button
           type="button"
           class="falsifier-law"
-          aria-pressed={at >= 0}
+          aria-pressed={ink !== undefined}
           title={words.draw(title)}
           onClick={() => onDraw(one.law)}
         >
-          <i
-            aria-hidden="true"
-            style={at < 0 ? undefined : { background: `var(--plot-${inkOf(at).colour})` }}
-          />
+          <i aria-hidden="true" style={dotOf(ink)} />
           {title}
         </button>
       </th>
@@ -114,7 +113,7 @@ function Choice() {
 
 interface LawsProps {
   traces: readonly LawTrace[];
-  drawn: readonly Law[];
+  drawn: readonly DrawnLaw[];
   isRunning: boolean;
   onDraw: (law: Law) => void;
 }
@@ -140,7 +139,12 @@ export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
           </thead>
           <tbody>
             {rankLaws(traces).map((one) => (
-              <Row key={one.law} one={one} at={drawn.indexOf(one.law)} onDraw={onDraw} />
+              <Row
+                key={one.law}
+                one={one}
+                ink={drawn.find(({ law }) => law === one.law)?.ink}
+                onDraw={onDraw}
+              />
             ))}
           </tbody>
         </table>

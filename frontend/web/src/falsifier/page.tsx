@@ -2,8 +2,10 @@ import { useComputed } from "@preact/signals";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Law } from "../api/types";
 import { isGoing } from "../jobs/progress";
+import type { Ink } from "../plots/definitions";
+import { inksOfLaws } from "../plots/lawinks";
 import { PlaceLink } from "../runs/placelink";
-import { titleOf } from "../state/laws";
+import { laws as installedLaws, titleOf } from "../state/laws";
 import { text } from "../text/en";
 import { Desk } from "../widgets/desk";
 import {
@@ -24,7 +26,7 @@ import {
 } from "./falsifier";
 import { Found } from "./found";
 import { Laws } from "./laws";
-import { Picture } from "./picture";
+import { type DrawnLaw, Picture } from "./picture";
 import { Start } from "./start";
 
 const words = text.falsifier;
@@ -87,10 +89,12 @@ function Under() {
   useEffect(() => void runThem(), [wanted]);
   const trace = shown.value;
   const names = picked ?? trace?.laws.map(({ law }) => law).slice(0, MAX_DRAWN) ?? [];
-  const drawn = useMemo(
-    () => names.flatMap((law) => trace?.laws.find((other) => other.law === law) ?? []),
-    [trace, names.join()],
-  );
+  const installed = installedLaws.value;
+  const drawn = useMemo(() => {
+    const found = names.flatMap((law) => trace?.laws.find((other) => other.law === law) ?? []);
+    const inks = inksOfLaws(found.map(({ law }) => law));
+    return found.map((one, index): DrawnLaw => ({ ...one, ink: inks[index] as Ink }));
+  }, [trace, names.join(), installed]);
   if (one === null) return null;
   if (trace === null) return <p class="hint desk-wide">{problem.value === "" && words.running}</p>;
   const draw = (law: Law) =>
@@ -100,7 +104,7 @@ function Under() {
       <Picture scenario={one} trace={trace} drawn={drawn} />
       <Laws
         traces={trace.laws}
-        drawn={drawn.map(({ law }) => law)}
+        drawn={drawn}
         isRunning={traced.value?.key !== wanted && problem.value === ""}
         onDraw={draw}
       />

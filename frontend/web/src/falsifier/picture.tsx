@@ -1,8 +1,8 @@
 import { useMemo } from "preact/hooks";
 import type uPlot from "uplot";
 import type { LawTrace, Scenario, Trace } from "../api/falsifications";
-import type { Ink, PlotColour } from "../plots/definitions";
-import { DASHED, DOTTED, inkOf, PLAIN } from "../plots/inks";
+import type { Ink } from "../plots/definitions";
+import { DASHED, DOTTED, PLAIN } from "../plots/inks";
 import { palette } from "../plots/palette";
 import { type StaticContent, type StaticCurve, spanWithin } from "../plots/staticchart";
 import { useStaticChart } from "../plots/usestaticchart";
@@ -23,9 +23,14 @@ const TORQUE_INKS: readonly Ink[] = (
   ] as const
 ).map(([colour, dash]) => ({ colour, dash, width: 2 }));
 const MIN_SPANS = { torque: 0.1, position: 0.01, stiffness: 0.01 } as const;
+/** A law whose errors are in the picture. */
+export interface DrawnLaw extends LawTrace {
+  ink: Ink;
+}
+
 type Chart = keyof typeof MIN_SPANS;
 
-function curvesOf(chart: Chart, trace: Trace, drawn: readonly LawTrace[]): StaticCurve[] {
+function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): StaticCurve[] {
   if (chart === "torque") {
     return BODIES.map((body, at) => ({
       key: body,
@@ -33,9 +38,9 @@ function curvesOf(chart: Chart, trace: Trace, drawn: readonly LawTrace[]): Stati
       values: trace.torque_nm.map((torques) => torques[at] as number),
     })).filter(({ values }, at) => at === 0 || values.some((value) => value !== 0));
   }
-  return drawn.map((one, at) => ({
+  return drawn.map((one) => ({
     key: one.law,
-    ...inkOf(at),
+    ...one.ink,
     values:
       chart === "position"
         ? one.position_error_rad.map((value) => value && value * DEGREES_PER_RADIAN)
@@ -44,7 +49,7 @@ function curvesOf(chart: Chart, trace: Trace, drawn: readonly LawTrace[]): Stati
 }
 
 /** A cross where a run ended in a fault. */
-function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly LawTrace[]): void {
+function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly DrawnLaw[]): void {
   const { ctx: context } = plot;
   const reach = CROSS_PX * devicePixelRatio;
   drawn.forEach((one, at) => {
@@ -54,7 +59,7 @@ function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly LawTrace[]): voi
     const x = plot.valToPos(trace.time_s[last] as number, "x", true);
     const y = plot.valToPos(values[last] as number, "y", true);
     context.save();
-    context.strokeStyle = palette.peek()[inkOf(at).colour as PlotColour];
+    context.strokeStyle = palette.peek()[one.ink.colour];
     context.lineWidth = 2.5 * devicePixelRatio;
     context.setLineDash([]);
     context.beginPath();
@@ -70,7 +75,7 @@ function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly LawTrace[]): voi
 interface ChartProps {
   chart: Chart;
   trace: Trace;
-  drawn: readonly LawTrace[];
+  drawn: readonly DrawnLaw[];
   view: ReturnType<typeof spanWithin>;
 }
 
@@ -120,7 +125,7 @@ function ErrorChart(props: ChartProps) {
 interface PictureProps {
   scenario: Scenario;
   trace: Trace;
-  drawn: readonly LawTrace[];
+  drawn: readonly DrawnLaw[];
 }
 
 /** The torques of the loads, and below them the errors that they cause. */

@@ -18,6 +18,41 @@ export const inkOf = (ink: number): Ink => ({
   width: ink === 0 ? 2.5 : 2,
 });
 
+/**
+ * An ink for each of several curves, as the server shares them out among lanes: the own one where
+ * its colour is free, else the first whose colour is; where none is, one that looks otherwise. The
+ * order decides only between curves whose own ink is the same. null: one that has none.
+ */
+export function shareInks(own: readonly (number | null)[]): Ink[] {
+  const shared = new Map<number, number>();
+  const isTaken = (ink: number) => [...shared.values()].includes(ink);
+  const isColourTaken = (ink: number) =>
+    [...shared.values()].some((one) => (one - ink) % LANE_COLOURS.length === 0);
+  const firstLook = () => {
+    let ink = 0;
+    while (isTaken(ink)) ink++;
+    return ink;
+  };
+  const wishes = own
+    .map((ink, index) => ({ ink: ink ?? Number.MAX_SAFE_INTEGER, index }))
+    .sort((one, other) => one.ink - other.ink);
+  for (const { ink, index } of wishes) {
+    if (own[index] !== null && !isColourTaken(ink)) shared.set(index, ink);
+  }
+  for (const { index } of wishes) {
+    if (shared.has(index)) continue;
+    const free = [...LANE_COLOURS.keys()].find((ink) => !isColourTaken(ink));
+    shared.set(index, free ?? firstLook());
+  }
+  return own.map((_, index) => inkOf(shared.get(index) as number));
+}
+
+/** Of who controlled a lane at a time; null where nobody is known. */
+export const inkAt = (
+  stretches: readonly { ink: number; start_s: number }[] | undefined,
+  timeS: number,
+): number | null => stretches?.filter(({ start_s: start }) => start <= timeS).at(-1)?.ink ?? null;
+
 const COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "orange", "purple"];
 
 /**

@@ -1,5 +1,5 @@
 import type { Metrics as LaneMetrics } from "../api/types";
-import { inkOf } from "../plots/inks";
+import { inkAt, inkOf } from "../plots/inks";
 import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
 import { describeMeasured, explainSettled } from "../runs/measured";
 import { text } from "../text/replay";
@@ -14,7 +14,7 @@ const formatError = (rad: number | null) => formatMetric(rad === null ? null : t
 
 /** Of who controlled the lane in the window. */
 const inkIn = ({ stretches, window }: Run, lane: number): number =>
-  stretches[lane]?.filter(({ start_s: start }) => start <= window.start_s).at(-1)?.ink ?? lane;
+  inkAt(stretches[lane], window.start_s) ?? lane;
 
 function Metrics({ run }: { run: Run }) {
   const { window, metrics } = run;

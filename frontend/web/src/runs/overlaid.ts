@@ -9,7 +9,7 @@ import type {
   VerdictRequest,
 } from "../api/types";
 import type { Ink } from "../plots/definitions";
-import { inkOf } from "../plots/inks";
+import { inkAt, shareInks } from "../plots/inks";
 import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
 import { shiftToRecord } from "./measured";
@@ -57,6 +57,8 @@ export interface Overlaid {
   changedS: number | null;
   /** The session's time where the axis has its 0, s. */
   zeroS: number;
+  /** Of who controlled it in the window, in its run. */
+  ownInk: number | null;
   ink: Ink;
   /** On the axis, s. */
   time: Float64Array;
@@ -119,6 +121,7 @@ export function overlay(
     lane: run.lane_names[index] ?? lane,
     measuredLane: window?.lanes[index] ?? lane,
     plant: index === 0 ? run.plant : "simulated",
+    ownInk: inkAt(run.stretches[index], begin),
     isAlone: run.lanes.length === 1,
     hasOnset: window?.kind === "load",
     window: window && shiftToRecord(window, run),
@@ -133,12 +136,13 @@ export function overlay(
   }));
 }
 
-/** Every lane of these runs, each in an ink of its own. */
+/** Every lane of these runs, each in its own ink where no other is drawn in that. */
 export async function readOverlaid(runs: readonly string[]): Promise<Overlaid[]> {
   const read = await Promise.all(
     runs.map((id) => Promise.all([readRun(id), readSamples(id, CHANNELS, POINTS)])),
   );
   const alignment = chooseAlignment(read.map(([run]) => run));
   const lanes = read.flatMap(([run, samples]) => overlay(run, samples, alignment));
-  return lanes.map((lane, index) => ({ ...lane, ink: inkOf(index) }));
+  const inks = shareInks(lanes.map(({ ownInk }) => ownInk));
+  return lanes.map((lane, index) => ({ ...lane, ink: inks[index] as Ink }));
 }

@@ -7,7 +7,7 @@ import { text } from "../text/en";
 import { nameColumn } from "./names";
 import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
 import { ColumnChoice } from "./scatter";
-import { columnOf, ended, lawInk, marks, marksOf, show } from "./shown";
+import { columnOf, ended, lawInks, marks, marksOf, show } from "./shown";
 import { axes, brush, rows, study } from "./studies";
 import { LawName } from "./tables";
 
@@ -35,6 +35,7 @@ export function Distribution() {
   const metric = axes.value.metric ?? "";
   const values = show(rows.value, metric);
   const laws = study.value?.laws ?? [];
+  const inks = lawInks.value;
   const held = marks.value;
   const { at, isLog } = placeLimits(values);
   const curves = laws.map((_, place) => distribute(values, ended.value, marksOf(place), at));
@@ -70,8 +71,9 @@ export function Distribution() {
         ],
         series: [
           {},
-          ...laws.map((_, place) => ({
-            stroke: () => palette.peek()[lawInk(place)],
+          ...inks.map(({ colour, dash }) => ({
+            stroke: () => palette.peek()[colour],
+            dash: [...dash],
             width: 2,
             points: { show: false },
           })),
@@ -90,7 +92,7 @@ export function Distribution() {
       made.destroy();
       plot.current = null;
     };
-  }, [rows.value, metric, held]);
+  }, [rows.value, metric, held, inks]);
   useSignalEffect(() => {
     void palette.value;
     plot.current?.redraw(false);

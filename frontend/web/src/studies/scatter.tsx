@@ -9,7 +9,7 @@ import { axesOf, type Plane } from "./look";
 import { nameColumn } from "./names";
 import { findNearest } from "./points";
 import { valuesOf } from "./rows";
-import { brushedCount, ended, good, lawInk, lawPlaces, planes, shownMarks } from "./shown";
+import { brushedCount, ended, good, lawInks, lawPlaces, planes, shownMarks } from "./shown";
 import {
   axes,
   brush,
@@ -127,7 +127,7 @@ export function Scatter({ plane }: { plane: Plane }) {
       x: across,
       y: up,
       paint: (plot) => {
-        const colours = (study.peek()?.laws ?? []).map((_, place) => palette.peek()[lawInk(place)]);
+        const colours = lawInks.peek().map(({ colour }) => palette.peek()[colour]);
         paintDots(plot, {
           x,
           y,
@@ -162,7 +162,7 @@ export function Scatter({ plane }: { plane: Plane }) {
     };
   }, [x, y, plane]);
   useSignalEffect(() => {
-    void [palette.value, shownMarks.value, picked.value, good.value];
+    void [palette.value, lawInks.value, shownMarks.value, picked.value, good.value];
     frame.current?.show(brush.value?.plane === plane ? brush.value : null);
   });
   const missing = x.reduce(

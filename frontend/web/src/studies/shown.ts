@@ -1,7 +1,7 @@
 /** The rows as they are drawn: shown units, who is in the brush, which colour, which law. */
 import { computed } from "@preact/signals";
 import type { StudyColumn } from "../api/studies";
-import { inkOf } from "../plots/inks";
+import { inksOfLaws } from "../plots/lawinks";
 import type { Axis } from "./frame";
 import { factorOf, type Plane } from "./look";
 import { nameColumn } from "./names";
@@ -61,7 +61,8 @@ export const lawPlaces = computed(() => {
   return (column?.values ?? new Float64Array(0)).map((code) => places[code] ?? 0);
 });
 
-export const lawInk = (place: number) => inkOf(place).colour;
+/** The inks of the laws of the study, in its order. */
+export const lawInks = computed(() => inksOfLaws(study.value?.laws ?? []));
 
 /** Of the brushed runs those of the law that is shown: laws on one draw lie at one place. */
 export const shownMarks = computed(() => {

@@ -1,12 +1,13 @@
 import type { Estimate } from "../api/studies";
 import { isGoing } from "../jobs/progress";
+import { dotOf } from "../plots/lawinks";
 import { titleOf } from "../state/laws";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { factorOf, shownUnit } from "./look";
 import { nameColumn } from "./names";
 import { estimateShare, tellPercents } from "./points";
-import { columnOf, ended, good, lawInk, marksOf } from "./shown";
+import { columnOf, ended, good, lawInks, marksOf } from "./shown";
 import { axes, brush, indices, study, summary } from "./studies";
 
 const words = text.studies;
@@ -32,7 +33,7 @@ function inBrush(place: number): string {
 /** A law with the colour of its runs. place: among the laws of the study. */
 export const LawName = ({ law, place }: { law: string; place: number }) => (
   <span class="studies-law">
-    <i style={{ background: `var(--plot-${lawInk(place)})` }} aria-hidden="true" />
+    <i style={dotOf(lawInks.value[place])} aria-hidden="true" />
     {titleOf(law)}
   </span>
 );

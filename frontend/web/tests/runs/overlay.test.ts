@@ -12,7 +12,10 @@ const { COLUMNS, findBest } = await import("../../src/runs/overlaytable");
 
 describe("runs laid over one another", () => {
   const runOf = (change: object) =>
-    ({ lanes: ["lane1"], lane_names: ["FL"], period_s: 0.001, first_tick: 0, ...change }) as never;
+    ({
+      ...{ lanes: ["lane1"], lane_names: ["FL"], stretches: [], period_s: 0.001, first_tick: 0 },
+      ...change,
+    }) as never;
   const NAMED = { is_whole: false, lanes: ["FL"], load_ended: false };
   const loaded = { kind: "load", label: "3 kg load", first_tick: 5000, end_tick: 9000 };
   const LOADED = runOf({
@@ -72,6 +75,7 @@ describe("the best of an overlay", () => {
     const run = {
       id,
       lane_names: ["FL"],
+      stretches: [],
       window: lane,
       metrics,
       ...of,

@@ -13,6 +13,7 @@ const details = (change: object) =>
     period_s: 0.001,
     first_tick: 0,
     ticks: 10_000,
+    stretches: [],
     ...change,
   }) as unknown as RunDetails;
 let readPlace: typeof ReadPlace;
@@ -117,7 +118,14 @@ describe("the window of a run's numbers", () => {
 
   it("begins at 0 of an overlay, which says where it ends and whose numbers those are", () => {
     const run = details({ title: "A", lane_names: ["NDOBC → FL"], window, metrics: [{}] });
-    const [curve] = overlay(run, samples);
+    const stretches = [
+      [
+        { ink: 0, start_s: 0 },
+        { ink: 1, start_s: 1.5 },
+      ],
+    ];
+    const [curve] = overlay({ ...run, stretches } as never, samples);
+    expect(curve?.ownInk).toBe(1);
     expect(curve).toMatchObject({ hasOnset: true, changedS: 3, measuredLane: "FL" });
     expect([...(curve?.time ?? [])]).toEqual([0, 3]);
     const whole = { ...window, kind: "start", end_tick: 10_000, end_s: 10 };

@@ -20,8 +20,8 @@ function stateOf(law: string, rivals: Lane[], changes: object = {}): SessionStat
 }
 
 const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
-  ...{ name, title: name.toUpperCase(), summary: "", equation: "u=0", source: "", notes: "" },
-  ...{ estimate: "none", takes_gains: false, parameters: [], problem: null },
+  ...{ name, title: name.toUpperCase(), ink: 0, summary: "", equation: "u=0", source: "" },
+  ...{ notes: "", estimate: "none", takes_gains: false, parameters: [], problem: null },
   ...changes,
 });
 

@@ -2,8 +2,8 @@ import { beforeEach, expect, it, vi } from "vitest";
 import type { LawRow } from "../../src/api/types";
 
 const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
-  ...{ name, title: name.toUpperCase(), summary: "", equation: "u=0", source: "", notes: "" },
-  ...{ estimate: "none", takes_gains: false, parameters: [], problem: null },
+  ...{ name, title: name.toUpperCase(), ink: 0, summary: "", equation: "u=0", source: "" },
+  ...{ notes: "", estimate: "none", takes_gains: false, parameters: [], problem: null },
   ...changes,
 });
 const RATE = { name: "rate", symbol: "ω", meaning: "Rate", unit: "rad/s", kind: "number" } as const;
