@@ -7,8 +7,8 @@ from functools import partial
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
-from tests.browser.settled import find_lasting, get_box, until
+from tests.browser.bench_fixture import BENCH, FAULT, HOMED, PatchedBench
+from tests.browser.settled import find_lasting, get_box, resize, until
 from tests.browser.test_page import open_page
 from tests.exhaustive import exhaust
 from tests.lab import Lab
@@ -155,6 +155,25 @@ def test_a_quick_stop_is_latched_until_the_fault_is_cleared(
     expect(banner).to_have_count(0)
     expect_enabled(page, "Arm")
     assert patched.commands == ["quick-stop", "bench/clear"]
+
+
+@pytest.mark.parametrize("has_hold", [False, True], ids=["no switch", "dead-man's switch"])
+def test_a_fault_and_opened_details_leave_room_for_the_actuator(
+    page: Page, patched: PatchedBench, has_hold: bool
+) -> None:
+    problems = [f"Motor {motor} does not say that it is supervised." for motor in (1, 2)]
+    patched.become(status="fault", fault=FAULT, problems=problems, dead_man=has_hold)
+    expect(page.get_by_role("alert").filter(has_text="Quick stop.")).to_be_visible()
+    find_details(page).click()
+    expect(find_bench(page).get_by_text(problems[0])).to_be_visible()
+    clear = find_bench(page).get_by_role("button", name="Clear fault")
+    for height in (720, 900):
+        resize(page, 1280, height)
+        until(page, lambda: get_box(page.locator(".view"))["height"] > 150)
+        calibration = page.get_by_role("region", name="Calibration")
+        calibration.scroll_into_view_if_needed()
+        expect(calibration).to_be_in_viewport()
+        expect(clear).to_be_in_viewport(ratio=1)
 
 
 def test_why_it_does_not_arm_is_told_and_everything_else_is_in_the_details(
