@@ -4,6 +4,7 @@ import type { Effects } from "../api/types";
 import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
 import { EFFECTS, type Effect } from "../state/effects";
+import { standing } from "../state/meanwhile";
 import { text } from "../text/en";
 import { Problem } from "../widgets/problem";
 import { Field } from "./field";
@@ -50,7 +51,7 @@ export function EffectList({ effects }: { effects: Effects }) {
     if (effects[effect]) last.current = { ...last.current, [effect]: effects[effect] };
   }
   const change = (changes: Partial<Record<keyof Effects, unknown>>) =>
-    putEffects({ ...effects, ...changes } as Effects);
+    putEffects({ ...standing("effects", effects), ...changes } as Effects);
   return (
     <div class="effects">
       {EFFECTS.map((effect) => {
@@ -75,7 +76,11 @@ export function EffectList({ effects }: { effects: Effects }) {
                   name={`${name}.${key}`}
                   {...shownAs(key)}
                   value={held[key] as number}
-                  send={(value) => change({ [effect]: { ...held, [key]: value } })}
+                  send={(value) =>
+                    change({
+                      [effect]: { ...(standing("effects", effects)[effect] ?? held), [key]: value },
+                    })
+                  }
                 />
               ))}
           </div>

@@ -1,6 +1,7 @@
 import { type GainsRequest, putGains } from "../api/client";
 import type { Configuration } from "../api/types";
 import { DesignSummary } from "../design/summary";
+import { standing } from "../state/meanwhile";
 import { text } from "../text/en";
 import { Field } from "./field";
 
@@ -10,13 +11,16 @@ type CoefficientsKey = "position_coefficients" | "stiffness_coefficients";
 interface CoefficientsProps {
   which: CoefficientsKey;
   symbol: string;
-  values: readonly number[];
+  gains: GainsState;
 }
 
-function Coefficients({ which, symbol, values }: CoefficientsProps) {
+function Coefficients({ which, symbol, gains }: CoefficientsProps) {
+  const values = gains[which];
   const send = (changed: number, value: number) => {
     const request: GainsRequest = {
-      [which]: values.map((held, index) => (index === changed ? value : held)),
+      [which]: standing("gains", gains)[which].map((held, index) =>
+        index === changed ? value : held,
+      ),
     };
     return putGains(request);
   };
@@ -42,16 +46,8 @@ export function Gains({ gains }: { gains: GainsState }) {
       <DesignSummary />
       <details class="more">
         <summary>{text.gains.coefficients}</summary>
-        <Coefficients
-          which="position_coefficients"
-          symbol="q"
-          values={gains.position_coefficients}
-        />
-        <Coefficients
-          which="stiffness_coefficients"
-          symbol="σ"
-          values={gains.stiffness_coefficients}
-        />
+        <Coefficients which="position_coefficients" symbol="q" gains={gains} />
+        <Coefficients which="stiffness_coefficients" symbol="σ" gains={gains} />
       </details>
     </>
   );

@@ -3,6 +3,7 @@ import { putPosition } from "../api/client";
 import type { PositionReference, Sent, SessionState } from "../api/types";
 import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
+import { standing } from "../state/meanwhile";
 import { text } from "../text/en";
 import { toRadians } from "../units";
 import { Field } from "./field";
@@ -18,7 +19,8 @@ const KINDS = [
 ] as const;
 
 function SineFields({ reference }: { reference: Sine }) {
-  const send = (change: Partial<Sine>) => putPosition({ ...reference, ...change });
+  const send = (change: Partial<Sine>) =>
+    putPosition({ ...standing("position", reference), ...change });
   return (
     <>
       <Field

@@ -2,6 +2,7 @@ import { putObserver } from "../api/client";
 import type { SessionState } from "../api/types";
 import { shownAs } from "../quantities";
 import { lawOf } from "../state/laws";
+import { standing } from "../state/meanwhile";
 import { text } from "../text/en";
 import type { SliderRange } from "../widgets/scale";
 import { Field } from "./field";
@@ -14,7 +15,7 @@ export function Observer({ state }: { state: SessionState }) {
   const present = lawOf(law);
   const bandwidth = observer.bandwidth_rad_per_s;
   const sendOne = (changed: number, beta: number) => {
-    const next: typeof bandwidth = [...bandwidth];
+    const next: typeof bandwidth = [...standing("observer", observer).bandwidth_rad_per_s];
     next[changed] = beta;
     return putObserver(...next);
   };

@@ -3,6 +3,7 @@ import { putStiffness } from "../api/client";
 import type { Sent, SessionState, StiffnessReference } from "../api/types";
 import { shownAs } from "../quantities";
 import { perform } from "../state/actions";
+import { standing } from "../state/meanwhile";
 import { text } from "../text/en";
 import type { SliderRange } from "../widgets/scale";
 import { Field } from "./field";
@@ -19,7 +20,8 @@ const KINDS = [
 ] as const;
 
 function SineFields({ reference }: { reference: Sine }) {
-  const send = (change: Partial<Sine>) => putStiffness({ ...reference, ...change });
+  const send = (change: Partial<Sine>) =>
+    putStiffness({ ...standing("stiffness", reference), ...change });
   return (
     <>
       <Field

@@ -4,6 +4,7 @@ import { quantityOf } from "../quantities";
 import { text } from "../text/en";
 import { titleOf } from "./laws";
 import { show } from "./refusal";
+import { session } from "./session";
 
 type Section = keyof Configuration;
 type Held = Pick<SessionState, "configuration">;
@@ -20,6 +21,16 @@ const listSections = (path: string): readonly Section[] => {
   const [, name = ""] = path.split("/");
   return SETS[name] ?? [name as Section];
 };
+
+/**
+ * What a section is set to now, for who changes a part of it alone: since the part was drawn, or
+ * refused, another person may have set the rest. What was drawn, where the section is of another kind.
+ */
+export function standing<S extends Section, T extends Configuration[S]>(section: S, drawn: T): T {
+  const kindOf = (held: unknown) => (held as { kind?: string }).kind;
+  const now = session.peek()?.configuration[section];
+  return now !== undefined && kindOf(now) === kindOf(drawn) ? (now as T) : drawn;
+}
 
 /** Whether what a path sets is the same in both. */
 export function isSame(path: string, before: Held | null, now: Held): boolean {

@@ -46,11 +46,12 @@ async function load(server: Server) {
   const { putPosition, start } = await import("../../src/api/client");
   const { perform, problem } = await import("../../src/state/actions");
   const { session } = await import("../../src/state/session");
+  const { standing } = await import("../../src/state/meanwhile");
   const { text } = await import("../../src/text/en");
   session.value = stateAt("1.0") as never;
   const set = (change: Partial<Sine>, seen?: State) => {
-    const reference = { ...SINE, ...change };
-    return perform("motion", () => putPosition(reference), seen as never);
+    const send = () => putPosition({ ...(standing("position", SINE as never) as Sine), ...change });
+    return perform("motion", send, seen as never);
   };
   return { set, start: () => perform("session", start), problem, session, words: text.meanwhile };
 }
@@ -81,15 +82,25 @@ describe("a setting that another person changes meanwhile", () => {
     expect(server.held.configuration.position.frequency_hz).toBe(0.2);
   });
 
-  it("is sent again where that is wished, over what the other has set", async () => {
+  it("is sent again where that is wished, upon what the other has set", async () => {
     const page = await load(server);
     server.change({ amplitude_rad: Math.PI / 4 });
     await page.set({ frequency_hz: 0.5 });
     expect(await page.problem.value?.again?.()).toBe(true);
     expect(page.problem.value).toBeNull();
-    expect(server.held.configuration.position).toEqual({ ...SINE, frequency_hz: 0.5 });
+    const both = { ...SINE, amplitude_rad: Math.PI / 4, frequency_hz: 0.5 };
+    expect(server.held.configuration.position).toEqual(both);
     server.change({ amplitude_rad: 0.1 });
     expect(await page.set({ frequency_hz: 0.4 }), "asked anew each time").toBe(false);
+  });
+
+  it("is sent whole where what the other has set has no such part", async () => {
+    const page = await load(server);
+    const constant = { kind: "constant", position_rad: 1 };
+    server.held = { ...stateAt("1.1"), ...{ configuration: { position: constant } } } as never;
+    await page.set({ frequency_hz: 0.5 });
+    expect(await page.problem.value?.again?.()).toBe(true);
+    expect(server.held.configuration.position).toMatchObject({ ...SINE, frequency_hz: 0.5 });
   });
 
   it("is compared with what was seen when its draft was begun", async () => {
