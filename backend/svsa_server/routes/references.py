@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 from fastapi import APIRouter, Body
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, computed_field
 
 from svsa.reference.preview import sample_reference
 from svsa.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness
@@ -43,9 +43,21 @@ class ReferencePreview(BaseModel):
 
     time_s: list[float]
     value: list[float] = Field(description="rad or N·m/rad")
-    least: float
-    greatest: float
+    low: float = Field(description="Least value")
+    high: float = Field(description="Greatest value")
     peak_rate: float = Field(description="Greatest |first derivative|, rad/s or N·m/rad/s")
+
+    @computed_field(description="Now `low`", json_schema_extra={"deprecated": True})
+    @property
+    def least(self) -> float:
+        """`low`, as it was called."""
+        return self.low
+
+    @computed_field(description="Now `high`", json_schema_extra={"deprecated": True})
+    @property
+    def greatest(self) -> float:
+        """`high`, as it was called."""
+        return self.high
 
 
 @router.post("/csv")
@@ -93,11 +105,11 @@ async def preview_stiffness(
 
 def _preview(reference: Trajectory) -> ReferencePreview:
     times, values = sample_reference(reference)
-    least, greatest = get_range(reference)
+    low, high = get_range(reference)
     return ReferencePreview(
         time_s=times.tolist(),
         value=values[:, 0].tolist(),
-        least=least,
-        greatest=greatest,
+        low=low,
+        high=high,
         peak_rate=float(np.abs(values[:, 1]).max()),
     )

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, Field
+from pydantic import AfterValidator, BaseModel, Field, computed_field
 
 from svsa.checked import read_quantity
 from svsa.control.installed import (
@@ -41,8 +41,20 @@ class ParameterState(BaseModel):
     unit: str = Field(description='"1" or empty where it has none')
     kind: Literal["number", "numbers", "flag", "text"]
     default: Value
-    least: float | None = Field(description="Null where nothing bounds it from below")
-    most: float | None
+    low: float | None = Field(description="Null where nothing bounds it from below")
+    high: float | None = Field(description="Null where nothing bounds it from above")
+
+    @computed_field(description="Now `low`", json_schema_extra={"deprecated": True})
+    @property
+    def least(self) -> float | None:
+        """`low`, as it was called."""
+        return self.low
+
+    @computed_field(description="Now `high`", json_schema_extra={"deprecated": True})
+    @property
+    def most(self) -> float | None:
+        """`high`, as it was called."""
+        return self.high
 
 
 class LawState(BaseModel):
@@ -107,8 +119,8 @@ def _list_parameters(model: type[LawParameters]) -> list[ParameterState]:
             side: next((getattr(m, side) for m in field.metadata if hasattr(m, side)), None)
             for side in ("ge", "gt", "le", "lt")
         }
-        least = bounds["ge"] if bounds["ge"] is not None else bounds["gt"]
-        most = bounds["le"] if bounds["le"] is not None else bounds["lt"]
+        low = bounds["ge"] if bounds["ge"] is not None else bounds["gt"]
+        high = bounds["le"] if bounds["le"] is not None else bounds["lt"]
         listed.append(
             ParameterState(
                 name=name,
@@ -117,8 +129,8 @@ def _list_parameters(model: type[LawParameters]) -> list[ParameterState]:
                 unit=declared.unit,
                 kind=_find_kind(defaults[name]),
                 default=defaults[name],
-                least=least,
-                most=most,
+                low=low,
+                high=high,
             )
         )
     return listed

@@ -28,8 +28,8 @@ def test_a_csv_becomes_what_a_session_is_given_and_is_looked_at(client: TestClie
     path = "/api/v1/references/position/preview"
     preview = client.post(path, json=series["reference"]).raise_for_status().json()
     assert (preview["time_s"][0], preview["time_s"][-1]) == (0.0, 1.0)
-    assert preview["greatest"] == pytest.approx(math.radians(10.0), rel=1e-3)
-    assert max(preview["value"]) == pytest.approx(preview["greatest"], rel=1e-3)
+    assert preview["high"] == pytest.approx(math.radians(10.0), rel=1e-3)
+    assert max(preview["value"]) == pytest.approx(preview["high"], rel=1e-3)
     assert preview["peak_rate"] > math.radians(20.0), "faster than the straight lines between"
 
 
@@ -67,6 +67,7 @@ def test_every_kind_is_looked_at(
     path = "/api/v1/references/stiffness/preview"
     preview = client.post(path, json=numbers).raise_for_status().json()
     assert preview["time_s"][-1] == pytest.approx(duration)
+    assert (preview["low"], preview["high"]) == (least, greatest)
     assert (preview["least"], preview["greatest"]) == (least, greatest)
 
 

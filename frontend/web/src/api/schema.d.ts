@@ -6009,12 +6009,27 @@ export interface components {
             /** Default */
             default: number | boolean | string | number[];
             /**
-             * Least
+             * Low
              * @description Null where nothing bounds it from below
              */
-            least: number | null;
-            /** Most */
-            most: number | null;
+            low: number | null;
+            /**
+             * High
+             * @description Null where nothing bounds it from above
+             */
+            high: number | null;
+            /**
+             * Least
+             * @deprecated
+             * @description Now `low`
+             */
+            readonly least: number | null;
+            /**
+             * Most
+             * @deprecated
+             * @description Now `high`
+             */
+            readonly most: number | null;
         };
         /**
          * PersonState
@@ -6344,15 +6359,33 @@ export interface components {
              * @description rad or N·m/rad
              */
             value: number[];
-            /** Least */
-            least: number;
-            /** Greatest */
-            greatest: number;
+            /**
+             * Low
+             * @description Least value
+             */
+            low: number;
+            /**
+             * High
+             * @description Greatest value
+             */
+            high: number;
             /**
              * Peak Rate
              * @description Greatest |first derivative|, rad/s or N·m/rad/s
              */
             peak_rate: number;
+            /**
+             * Least
+             * @deprecated
+             * @description Now `low`
+             */
+            readonly least: number;
+            /**
+             * Greatest
+             * @deprecated
+             * @description Now `high`
+             */
+            readonly greatest: number;
         };
         /**
          * RegionRequest

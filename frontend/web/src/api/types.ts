@@ -20,8 +20,8 @@ export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];
 /** The name of a law. */
 export type Law = Configuration["law"];
-export type LawRow = Schemas["LawState"];
-export type LawParameter = Schemas["ParameterState"];
+export type LawRow = Omit<Schemas["LawState"], "parameters"> & { parameters: LawParameter[] };
+export type LawParameter = Omit<Schemas["ParameterState"], "least" | "most">;
 export type Speed = SessionState["speed"];
 export type LoadRow = Schemas["LoadState"];
 export type LaneRow = SessionState["lanes"][number];

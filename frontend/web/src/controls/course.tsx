@@ -16,8 +16,8 @@ interface CourseProps {
 export function Course({ preview, unit, factor }: CourseProps) {
   const shown = (value: number) => formatNumber(value * factor, 3);
   const caption = text.references.course(
-    shown(preview.least),
-    shown(preview.greatest),
+    shown(preview.low),
+    shown(preview.high),
     unit,
     formatNumber(preview.time_s.at(-1), 3),
     shown(preview.peak_rate),

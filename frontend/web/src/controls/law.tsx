@@ -8,9 +8,9 @@ import { Field } from "./field";
 type Value = string | number | boolean | readonly number[];
 
 /** A slider where both ends are bounded; by decades where they are far apart. */
-export function rangeOf({ least, most }: LawParameter): { range?: SliderRange } {
-  if (least === null || most === null) return {};
-  return { range: { min: least, max: most, logarithmic: least > 0 && most / least >= 10 } };
+export function rangeOf({ low, high }: LawParameter): { range?: SliderRange } {
+  if (low === null || high === null) return {};
+  return { range: { min: low, max: high, logarithmic: low > 0 && high / low >= 10 } };
 }
 
 /** Of several numbers each has its place. */

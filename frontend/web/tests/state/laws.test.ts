@@ -28,15 +28,13 @@ it("a parameter has a slider where both its ends are bounded", async () => {
   const { changedAt, rangeOf } = await import("../../src/controls/law");
   const { isWordy } = await import("../../src/state/laws");
   const row = { ...RATE, default: 2 };
-  expect(rangeOf({ ...row, least: 1, most: 150 })).toEqual({
+  expect(rangeOf({ ...row, low: 1, high: 150 })).toEqual({
     range: { min: 1, max: 150, logarithmic: true },
   });
-  expect(rangeOf({ ...row, least: 0, most: 3 }).range?.logarithmic).toBe(false);
-  expect(rangeOf({ ...row, least: null, most: 3 })).toEqual({});
-  expect([isWordy({ ...row, least: 1, most: 2 })]).toEqual([false]);
-  expect(isWordy({ ...row, meaning: "Rate of the link's own motion", least: 1, most: 2 })).toBe(
-    true,
-  );
+  expect(rangeOf({ ...row, low: 0, high: 3 }).range?.logarithmic).toBe(false);
+  expect(rangeOf({ ...row, low: null, high: 3 })).toEqual({});
+  expect([isWordy({ ...row, low: 1, high: 2 })]).toEqual([false]);
+  expect(isWordy({ ...row, meaning: "Rate of the link's own motion", low: 1, high: 2 })).toBe(true);
   expect(changedAt(2, null, 3)).toBe(3);
   expect(changedAt([1, 2, 3], 1, 5)).toEqual([1, 5, 3]);
 });
@@ -65,7 +63,7 @@ it("a refused parameter has the name of its field, a lane's where all laws call 
     });
   const out = (name: string) =>
     `${name}: 5000 rad/s is out of range, at most 100 rad/s. It stays as it was.`;
-  const rate = { ...RATE, default: 2, least: 1, most: 100 };
+  const rate = { ...RATE, default: 2, low: 1, high: 100 };
   const wordy = {
     ...rate,
     name: "velocity_rad_per_s",
