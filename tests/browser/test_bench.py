@@ -176,6 +176,24 @@ def test_a_fault_and_opened_details_leave_room_for_the_actuator(
         expect(clear).to_be_in_viewport(ratio=1)
 
 
+def test_a_fault_is_told_on_a_phone_with_the_details_opened(
+    page: Page, patched: PatchedBench
+) -> None:
+    resize(page, 390, 844)
+    patched.become(status="fault", fault=FAULT, problems=["Motor 1 says nothing."], dead_man=True)
+    find_details(page).click()
+    expect(find_bench(page).get_by_text("Motor 1 says nothing.")).to_be_visible()
+    page.evaluate("scrollTo(0, 0)")
+    told = page.get_by_role("alert").filter(has_text="Quick stop.").get_by_text("Quick stop.")
+    hang = page.get_by_role("button", name="Hang 3 kg")
+
+    def is_above_the_load() -> bool:
+        words = get_box(told)
+        return words["y"] + words["height"] < get_box(hang)["y"]
+
+    until(page, is_above_the_load)
+
+
 def test_why_it_does_not_arm_is_told_and_everything_else_is_in_the_details(
     page: Page, patched: PatchedBench
 ) -> None:

@@ -7,6 +7,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from svsa.course.exercise import Exercise
 from svsa.course.steps import Experiment, Explain, Predict
+from tests.browser.settled import get_box, resize, until
 from tests.course.runs import find_exercise
 from tests.course.test_exercises import RIGHT
 from tests.exhaustive import exhaust
@@ -95,6 +96,17 @@ def walk(hand: Hand) -> None:
         elif isinstance(step, Experiment):
             hand.experiment(step)
     hand.hand_in()
+
+
+def test_the_table_of_the_lanes_stays_in_its_column(page: Page, still_lab: Lab) -> None:
+    rivals = {"rivals": [{"law": "prescribed_performance"}]}
+    still_lab.client.put(still_lab.session + "/lanes", json=rivals).raise_for_status()
+    page.goto(still_lab.url + "/?learn=mechanism")
+    table, plots = page.locator(".comparison"), page.locator(".plots")
+    for width in (1280, 1440):
+        resize(page, width, 720)
+        until(page, lambda: get_box(table)["x"] + get_box(table)["width"] < get_box(plots)["x"])
+    still_lab.client.put(still_lab.session + "/lanes", json={"rivals": []}).raise_for_status()
 
 
 @pytest.mark.parametrize("name", exhaust([*RIGHT], ["mechanism"]))

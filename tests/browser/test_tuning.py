@@ -1,6 +1,7 @@
 """The panel *Tune*: a search is begun, followed to its end and put to use, by keyboard alone."""
 
 import re
+from functools import partial
 from typing import Any
 
 import httpx
@@ -8,6 +9,7 @@ import pytest
 from playwright.sync_api import Locator, Page, Response, expect
 
 from svsa.run.configuration import parse_design
+from tests.browser.settled import get_box, resize, until
 from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
 
@@ -79,3 +81,22 @@ def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: La
     page.keyboard.press("Escape")
     expect(panel).to_be_hidden()
     expect(open_tuning(page).get_by_text(re.compile("Done"))).to_be_visible()
+
+
+def test_the_panel_leaves_the_settings_and_the_transport_in_reach(
+    page: Page, still_lab: Lab
+) -> None:
+    open_page(page, still_lab)
+    panel = open_tuning(page)
+    controls = page.get_by_role("group", name="Controls", exact=True)
+    transport = page.get_by_role("button", name="Run", exact=True)
+
+    def is_below_and_beside(width: int) -> bool:
+        box, run = get_box(panel), get_box(transport)
+        right = box["x"] + box["width"]
+        is_left = width < 1121 or right <= get_box(controls)["x"]
+        return is_left and box["x"] >= 0 and right <= width and box["y"] >= run["y"] + run["height"]
+
+    for width, height in ((1280, 720), (820, 1180), (390, 844)):
+        resize(page, width, height)
+        until(page, partial(is_below_and_beside, width))

@@ -53,8 +53,9 @@ export function LawTable() {
           {isGoing(study.value?.job ?? null) ? words.later : words.summing}
         </p>
       )}
-      <div class="desk-scroll">
-        <table class="desk-table">
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
+      <div class="desk-scroll" tabIndex={0}>
+        <table class="desk-table studies-by-law">
           <thead>
             <tr>
               {[
