@@ -145,20 +145,25 @@ def publish_and_predict(
 
 
 @compiled
-def pass_ticks(constants: np.ndarray, carried: np.ndarray, count: int) -> None:
+def pass_ticks(
+    constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, first: int, count: int
+) -> None:
     """`count` periods in which the loop did not run: x̂ goes on with ŵ and the torque last sent.
 
     A state that stood still meanwhile would take all that the axes have moved since for what
-    they moved in one period, and so for a velocity.
+    they moved in one period, and so for a velocity. The law, which may have an observer of its
+    own, is led through these ticks, `first` and on, by the same x̂; what it asks for is not sent.
     """
     k, c = constants[0], carried[0]
     w = read_disturbance(c.estimate)
-    for _ in range(count):
+    for passed in range(count):
         made, applied = find_late_torque(k, c)
-        known = read_state(c.known)
-        store_state(c.known, predict_state(k.blocks.nominal, known, w, applied, k.blocks.period))
+        x = predict_state(k.blocks.nominal, read_state(c.known), w, applied, k.blocks.period)
+        store_state(c.known, x)
         store_torque(c.made, made)
         store_torque(c.before, c.sent)
+        positions = Positions(x.q, x.theta1, x.theta2)
+        decide(k.blocks, k.call, inputs, x, w, applied, positions, first + passed)
     store_state(c.expected, predict(k, c))
 
 

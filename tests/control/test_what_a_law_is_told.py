@@ -15,18 +15,28 @@ from svsa.control.installed import get_law
 from svsa.control.law import Law
 from svsa.isolation.confinement import leave_open
 from svsa.isolation.process import LawProcess
-from svsa.loop.measured import Actuation, BenchConstants, Carried, follow_and_decide, pass_ticks
+from svsa.loop.lane import AT_REST
+from svsa.loop.measured import (
+    Actuation,
+    BenchConstants,
+    Carried,
+    follow_and_decide,
+    pass_ticks,
+    publish_and_predict,
+)
 from svsa.model.dynamics import build_actuator
+from svsa.observer.state import predict_state
 from svsa.packed import pack
 from svsa.plant.sensors import read_sensors
 from svsa.run.batch import build_run_batch, run_configurations
 from svsa.run.blocks import compute_start_ratio
 from svsa.run.run import Run
-from svsa.signals import CHANNELS, Measurement, Positions, Torque
+from svsa.signals import CHANNELS, Disturbance, Measurement, Positions, Torque
 from svsa.simd.choice import choose
 from tests.session.sessions import EVERY_EFFECT, PULSE, advance, build_configuration
 
 TICKS = 60
+LINK_LOAD = Disturbance(0.3, 0.0, 0.0)
 KP, KD = 30.0, 2.0
 """N·m/rad and N·m·s/rad of a spring and a damper on motor 1."""
 
@@ -160,12 +170,45 @@ def test_on_a_bench_it_is_what_was_measured_after_ticks_that_were_missed_too():
     carried = pack(Carried())
     for missed in (0, 7, 0):
         if missed:
-            pass_ticks(constants, carried, missed)
+            pass_ticks(constants, run.inputs, carried, 0, missed)
         y = Measurement(0.01 * (missed + 1), -0.02, 0.003, 0.0, 0.0, 0.0)
         carried["measured"].view(float).reshape(-1)[:] = y
         follow_and_decide(constants, run.inputs, carried, 0)
         told = Positions(*run.lanes[0].memory[:3])
         assert told == Positions(y.theta1 + y.phi, y.theta1, y.theta2)
+
+
+def follow_figure(law, missed):
+    """û1 and ŵ of a law tick by tick, of a plant as its model is but for a torque on the link.
+
+    missed: ticks before 1.25 s, where the link is braked most.
+    """
+    run = Run(build_configuration(law=law, effects=svsa.RIG))
+    call = build_call(run.laws[0], run.lanes[0].memory)
+    constants = pack(BenchConstants(run.blocks[0], Actuation(0.0, 0.0), call))
+    carried, row = pack(Carried()), np.empty(len(CHANNELS))
+    x, torque, found = AT_REST, Torque(0.0, 0.0), {}
+    for tick in range(1600):
+        if 1250 - missed <= tick < 1250:
+            if tick == 1249:
+                pass_ticks(constants, run.inputs, carried, 1250 - missed, missed)
+        else:
+            y = x.theta1, x.theta2, x.q - x.theta1, x.dq, x.dtheta1, x.dtheta2
+            carried["measured"].view(float).reshape(-1)[:] = y
+            follow_and_decide(constants, run.inputs, carried, tick)
+            torque = Torque(*carried["asked"][0].tolist())
+            publish_and_predict(constants, carried, *torque, tick, row)
+            found[tick] = (*torque, *carried["believed"][0].tolist())
+        x = predict_state(run.blocks[0].nominal, x, LINK_LOAD, torque, run.period_s)
+    return found
+
+
+@pytest.mark.parametrize("law", ["eso_saturated", "pi_observer", "backstepping", "nmpc"])
+def test_a_law_takes_ticks_that_a_bench_missed_for_no_load(law):
+    """Or an observer of its own takes what has moved in all of them for what a load did in one."""
+    whole, missed = follow_figure(law, 0), follow_figure(law, 8)
+    off = [np.abs(np.subtract(missed[tick], whole[tick])).max() for tick in range(1250, 1600)]
+    assert max(off) < 0.02, "N·m"
 
 
 @compiled

@@ -174,7 +174,7 @@ class BenchLoop:
     def warm_up(self) -> None:
         """Have every compiled piece loaded before time counts."""
         self._decide(Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-        pass_ticks(self._constants, self._carried, 1)
+        pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, 1)
         self._publish(NO_TORQUE, self._scratch)
         self._forget()
 
@@ -187,7 +187,7 @@ class BenchLoop:
         plant = self.plant
         begins = not self.run.tick and plant.status in MOVING
         if missed and self._is_known and not begins:
-            pass_ticks(self._constants, self._carried, missed)
+            pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, missed)
         if missed and not begins and plant.status in MOVING:
             self.sink.skip(self.run.tick, missed)
             self.run.tick += missed
