@@ -7,11 +7,13 @@ PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type
   frontend/scene/svsa_scene/cameras.json
 # All but the peers of `svsa bench`, which are large and which nothing here needs.
 LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti
-# Each module in one of four processes, of which two wait for something most of the time: in the
-# order of the folders, the browser last, since its driver keeps an event loop running.
-SIDE_BY_SIDE := -n 4 --dist loadfile --no-loadscope-reorder
+# Each module in one process: in the order of the folders, the browser last, since its driver keeps
+# an event loop running. On two cores, as many more as those that wait for something most of the time.
+SIDE_BY_SIDE := --dist loadfile --no-loadscope-reorder
+ALL_BY := -n 4 $(SIDE_BY_SIDE)
+SHOWN_BY := -n 3 $(SIDE_BY_SIDE)
 # What computes all the time, and in `make test` what is against the clock and waits for a rig.
-BY_TWO := -n 2 --dist loadfile --no-loadscope-reorder
+BY_TWO := -n 2 $(SIDE_BY_SIDE)
 # A search at less depth than `make test-all`'s (tests/conftest.py).
 SHOWN := --hypothesis-profile=shown
 SERVED := package rig hardware scene server client browser
@@ -38,15 +40,15 @@ dev: .venv/installed $(PAGE)  ## the lab, and the page rebuilt as you type (on t
 bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
-test: .venv/installed $(PAGE)  ## each promise of the lab; further cases of one are left out
+test: .venv/installed $(PAGE)  ## each promise of the lab where it is soonest shown, and the main ways
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(SIDE_BY_SIDE) $(SHOWN) -m "not wall_clock and not exhaustive"
-	$(BIN)/pytest $(BY_TWO) -m "wall_clock and not exhaustive" $(WALL_CLOCK)
+	$(BIN)/pytest $(SHOWN_BY) $(SHOWN) -m "not exhaustive and not wall_clock and (smoke or not browser)"
+	$(BIN)/pytest $(BY_TWO) -m "not exhaustive and wall_clock and smoke" $(WALL_CLOCK)
 
 test-all: COMPILED = --exhaustive
 test-all: .venv/installed $(PAGE)  ## every test, as in CI
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(SIDE_BY_SIDE) -m "not wall_clock"
+	$(BIN)/pytest $(ALL_BY) -m "not wall_clock"
 	$(BIN)/pytest -m wall_clock $(WALL_CLOCK)
 
 quick: .venv/installed  ## the tests that are soon done and need no server, bench or browser

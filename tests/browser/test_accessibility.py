@@ -214,6 +214,7 @@ EXHAUSTIVE = pytest.mark.exhaustive
         pytest.param(open_private, (WIDE,), id="private", marks=EXHAUSTIVE),
     ],
 )
+@pytest.mark.smoke
 def test_a_screen_has_no_violation(
     page: Page,
     recorded: Lab,

@@ -13,6 +13,7 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
+@pytest.mark.smoke
 def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     go_to_page(page, "Arena")

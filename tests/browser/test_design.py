@@ -42,6 +42,7 @@ def real_parts(lab: Lab, group: str = "position") -> list[float]:
     return [root["re"] for root in gains[f"{group}_roots_rad_per_s"]]
 
 
+@pytest.mark.smoke
 def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
     page: Page, still_lab: Lab, panel: Locator
 ) -> None:

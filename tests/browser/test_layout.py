@@ -85,6 +85,7 @@ def measure(
     return lines
 
 
+@pytest.mark.smoke
 @pytest.mark.parametrize("sizes", exhaust([SIZES[::2], SIZES[1::2]], [SIZES[::2]]))
 @pytest.mark.parametrize("is_compared", [False, True], ids=["one lane", "compared"])
 def test_nothing_is_covered_cut_or_out_of_its_panel(

@@ -46,6 +46,7 @@ def test_two_pages_show_one_session_and_keep_their_own_look(
     wait_for_samples(second, end)
 
 
+@pytest.mark.smoke
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
 def test_a_reload_in_the_middle_of_a_run_loses_nothing(page: Page, lab: Lab) -> None:
     open_page(page, lab)

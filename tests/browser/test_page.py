@@ -88,6 +88,7 @@ def wait_for_samples(page: Page, after_s: float = 0.0, before_s: float = math.in
     raise AssertionError(f"no sample after {after_s} s came to the page")
 
 
+@pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d", "still")
 def test_the_load_button_makes_the_error_rise_and_ndobc_brings_it_back(
     page: Page, lab: Lab
@@ -105,6 +106,7 @@ def test_the_load_button_makes_the_error_rise_and_ndobc_brings_it_back(
     assert page.evaluate(LARGEST_ERROR, [onset + 1.5]) < 0.1 * ONE_DEGREE
 
 
+@pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d", "still")
 def test_load_button_plots_and_view_are_seen_together_and_the_controller_is_switched(
     page: Page, lab: Lab
@@ -124,6 +126,7 @@ def test_load_button_plots_and_view_are_seen_together_and_the_controller_is_swit
     assert lab.read()["configuration"]["law"] == "fl"
 
 
+@pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d", "still")
 def test_a_refused_value_is_explained_where_it_was_typed_and_taken_back(
     page: Page, lab: Lab

@@ -38,6 +38,7 @@ def wait_for_status(page: Page, lab: Lab, status: str) -> None:
     raise AssertionError(f"the session is {lab.read()['status']}, not {status}")
 
 
+@pytest.mark.smoke
 def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     bar = page.get_by_role("region", name="Status", exact=True)
@@ -50,6 +51,7 @@ def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) ->
     expect(stop).to_be_in_viewport(ratio=1)
 
 
+@pytest.mark.smoke
 def test_a_stop_that_is_not_confirmed_is_asked_again_pauses_and_tells_how_to_go_on(
     page: Page, lab: Lab
 ) -> None:
@@ -116,6 +118,7 @@ def read_lightness(colour: str) -> float:
     return sum(int(part) for part in re.findall(r"\d+", colour)[:3]) / 3
 
 
+@pytest.mark.smoke
 @pytest.mark.usefixtures("still")
 def test_keys_command_the_page(page: Page, lab: Lab) -> None:
     open_page(page, lab)

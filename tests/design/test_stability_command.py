@@ -27,6 +27,7 @@ def test_the_numbers_as_json():
     assert 0.0 < at_15["share_that_comes_to_rest"] < at_60["share_that_comes_to_rest"] <= 1.0
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_the_tables_and_the_picture(tmp_path):
     picture = tmp_path / "stability.png"

@@ -127,6 +127,7 @@ def test_a_motor_that_did_not_move_is_not_determined():
         result.build_design()
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_a_load_that_nobody_announced_is_refused(excited):
     configuration, _ = excited

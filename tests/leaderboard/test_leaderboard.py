@@ -78,6 +78,7 @@ def test_a_season_is_the_arenas_suite_with_other_chance():
     assert len(set(names)) == len(names) == season.run_count
 
 
+@pytest.mark.exhaustive
 def test_on_the_public_seeds_a_law_has_the_arenas_score():
     """One measure of a law: only the season differs."""
     season = build_season(PUBLIC_SEED)._replace(sweeps=build_sweeps(SEED))

@@ -23,6 +23,7 @@ from svsa_scene.replay_packing import ArrayPack
 from tests.scene.replay_page import CHANNELS, PERIOD_S, make_run, write_page
 
 
+@pytest.mark.exhaustive
 def test_a_minute_of_two_lanes_is_below_4_megabytes_even_with_noise(tmp_path: Path) -> None:
     samples, mass = make_run(ticks=60_000)
     noisy = samples + np.random.default_rng(1).normal(0.0, 1e-3, samples.shape)

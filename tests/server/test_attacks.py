@@ -66,6 +66,7 @@ def unharmed(lab: Lab) -> Iterator[str]:
         time.sleep(0.1)
 
 
+@pytest.mark.exhaustive
 def test_who_stops_reading_is_dropped_and_nothing_is_kept_for_them(attacked: Lab) -> None:
     with unharmed(attacked):
         dropped, grown = stop_reading(attacked, 8)
@@ -73,6 +74,7 @@ def test_who_stops_reading_is_dropped_and_nothing_is_kept_for_them(attacked: Lab
     assert grown < GROWTH_MB
 
 
+@pytest.mark.exhaustive
 def test_who_reads_on_is_kept(attacked: Lab) -> None:
     headers = {"Authorization": attacked.client.headers["Authorization"]}
     address = attacked.stream_url + "?rate_hz=1"
@@ -110,6 +112,7 @@ def test_a_malformed_frame_ends_its_own_stream_alone(attacked: Lab) -> None:
         assert send_frames(attacked) == dict.fromkeys(FRAMES, True)
 
 
+@pytest.mark.exhaustive
 def test_thirty_replays_at_once_are_bounded_and_told_when_to_come_again(attacked: Lab) -> None:
     with unharmed(attacked) as shown:
         attacked.jump(2)

@@ -195,7 +195,9 @@ def probe(
 
 
 @pytest.mark.parametrize("examples", exhaust(EXAMPLES, EXAMPLES[:1]))
-@pytest.mark.parametrize("mode", list(GenerationMode), ids=lambda mode: mode.name.lower())
+@pytest.mark.parametrize(
+    "mode", exhaust(GenerationMode, [GenerationMode.NEGATIVE]), ids=lambda mode: mode.name.lower()
+)
 def test_the_server_keeps_to_its_schema(lab: Lab, mode: GenerationMode, examples: int) -> None:
     schema = schemathesis.openapi.from_dict(lab.client.get("/openapi.json").json())
     chosen = settings(SETTINGS, max_examples=examples)

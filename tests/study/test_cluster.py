@@ -19,7 +19,6 @@ from svsa.study import cluster as dask
 from svsa.study.cluster import open_cluster
 from svsa.study.execution import run_study
 from svsa.study.store import StudyError, find_missing, keep_study, open_study, read_rows
-from tests.exhaustive import exhaust
 from tests.study.ended import end_on_the_way
 from tests.study.studies import build_study
 
@@ -92,7 +91,8 @@ def wait_until(is_so):
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize("how", exhaust([signal.SIGINT, signal.SIGKILL], [signal.SIGKILL]))
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
 def test_a_client_that_was_ended_leaves_what_another_goes_on_with(cluster, whole, tmp_path, how):
     address, _ = cluster
     stored = end_on_the_way(tmp_path, how, address)
@@ -163,6 +163,7 @@ def test_a_worker_of_another_version_is_refused(cluster, tmp_path, monkeypatch):
     assert find_missing(stored) == [(0, 40)]
 
 
+@pytest.mark.exhaustive
 def test_the_command_runs_a_study_on_a_cluster_of_this_machine(whole, tmp_path, monkeypatch):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     keep_study("one", build_study(runs=DRAWS))

@@ -9,6 +9,7 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
+@pytest.mark.smoke
 def test_runs_are_found_by_what_is_seen_filtered_and_sorted(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:

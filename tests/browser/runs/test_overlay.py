@@ -38,6 +38,7 @@ def test_on_a_phone_the_numbers_of_an_overlay_come_beside_the_whole_names(
     assert moved["x"] == pytest.approx(first["x"], abs=1), "the name stays beside its numbers"
 
 
+@pytest.mark.smoke
 def test_runs_are_laid_over_one_another_from_their_load_on(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:

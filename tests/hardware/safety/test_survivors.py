@@ -48,6 +48,7 @@ def rig() -> Iterator[RunningRig]:
         yield running
 
 
+@pytest.mark.smoke
 @pytest.mark.parametrize(
     "case", exhaust(CASES, SHOWN), ids=lambda case: f"{case[0].name}-{'-'.join(case[1])}"
 )

@@ -97,6 +97,7 @@ def test_unknown_runs_are_told(lab: Lab, run_id: str) -> None:
     assert answer.status_code == 404
 
 
+@pytest.mark.exhaustive
 def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None:
     with run_lab(data=str(tmp_path)) as lab:
         lab.client.post(lab.session + "/recording", json={"name": "cut off"}).raise_for_status()

@@ -20,6 +20,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
         yield running
 
 
+@pytest.mark.smoke
 def test_it_is_armed_and_homed_step_by_step_and_nothing_out_of_turn(bench: BenchLab) -> None:
     state = bench.read()
     assert state["bench"]["status"] == "off"
@@ -107,6 +108,7 @@ def check_recording(bench: BenchLab, run_id: str) -> None:
         assert "emulated" in answer.json()["detail"]
 
 
+@pytest.mark.smoke
 def test_a_quick_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:
     with bench.running():
         bench.wait_for_ticks(200)

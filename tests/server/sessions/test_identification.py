@@ -32,6 +32,7 @@ def wait_for_end(lab: Lab) -> dict:
     return state
 
 
+@pytest.mark.exhaustive
 def test_svsa_excite_records_what_svsa_identify_takes(tmp_path) -> None:
     with run_lab(data=str(tmp_path)) as lab:
         lab.load_figure("4b")
@@ -91,6 +92,7 @@ def test_what_disturbs_it_breaks_it_off_with_its_recording(lab: Lab, how: str) -
     assert wait_for_end(lab)["recording"] is None
 
 
+@pytest.mark.exhaustive
 def test_a_parameter_file_is_the_model_in_library_server_and_session(lab: Lab, tmp_path) -> None:
     paper = svsa.load_prototype()
     mine = paper.changed(nominal=paper.actuator)
