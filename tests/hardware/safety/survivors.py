@@ -23,9 +23,10 @@ SAID = "bench: "
 
 
 class Outcome(NamedTuple):
-    """before_ma: what both drives were told. zero_s: from the signal to zero, the rig's time.
+    """before_ma: what both drives were told as they came to hold.
 
-    modes: what the drives are in at the end, None after a reset.
+    zero_s: from the signal to zero, the rig's time. modes: what the drives are in at the end, None
+    after a reset.
     """
 
     before_ma: list[int]
@@ -110,18 +111,21 @@ def read_currents(rig: RunningRig) -> list[int]:
     return [drive["commanded_ma"] for drive in rig.control.read_state()["drives"].values()]
 
 
-def wait_until_held(rig: RunningRig) -> bool:
-    """Wait until both drives hold the load; False where the bench has stopped before."""
+def wait_until_held(rig: RunningRig) -> list[int]:
+    """The currents by which both drives come to hold the load; none where the bench stops before.
+
+    A moment later that of motor 2, which is small, may pass through zero.
+    """
     end = time.monotonic() + PATIENCE_S
     while time.monotonic() < end:
         state = rig.control.read_state()
         currents = [drive["commanded_ma"] for drive in state["drives"].values()]
         if any(drive["mode"] is None for drive in state["drives"].values()):
-            return False
+            return []
         if abs(currents[0]) > 300 and abs(currents[1]) > 10 and abs(state["x"]["dq"]) < 0.05:
-            return True
+            return currents
         time.sleep(0.01)
-    return False
+    return []
 
 
 def measure(
@@ -138,17 +142,17 @@ def measure(
     """
     for _ in range(ATTEMPTS):
         with run_standing_bench(path, rig) as bench:
-            if not wait_until_held(rig):
+            before = wait_until_held(rig)
+            if not before:
                 continue
-            state = rig.control.read_state()
-            before = [drive["commanded_ma"] for drive in state["drives"].values()]
+            signalled_s = rig.control.read_state()["time_s"]
             bench.signal(victims, number)
             end = time.monotonic() + PATIENCE_S
             while any(read_currents(rig)):
                 assert time.monotonic() < end, f"{victims}: the drives hold {read_currents(rig)}"
                 time.sleep(0.005)
             drives = rig.control.read_state()["drives"].values()
-            zero_s = max(drive["commanded_since_s"] for drive in drives) - state["time_s"]
+            zero_s = max(drive["commanded_since_s"] for drive in drives) - signalled_s
             for code in codes:
                 bench.wait_for(code)
                 if len(codes) > 1:
