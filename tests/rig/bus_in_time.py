@@ -51,6 +51,10 @@ class RigBus:
             self._advance_to(min(self.rig.next_event_us, end_us))
         return self._heard.popleft() if self._heard else None
 
+    def sleep(self, duration_s: float) -> None:
+        """Who talks and listens here is not let run for so long; the rig goes on."""
+        self._advance_to(self.rig.now_us + round(duration_s * 1e6))
+
     def _advance_to(self, end_us: int) -> None:
         for time_us, frame, sender in self.rig.advance_to(end_us):
             if sender is not self:

@@ -6,6 +6,7 @@ that a motor whose encoder is dead gets no more impulse than one that works.
 
 import math
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 from svsa.bench.check.probe import Probe, Traffic
@@ -20,7 +21,13 @@ IMPULSE_S = 0.003
 MAX_TRAVEL_RAD = 0.03
 MIN_COUNTS = 8
 MIN_DEFLECTION_COUNTS = 4
+COAST_S = 0.02
+"""A motor's counts are followed for so long after a pulse: both lag behind the current."""
 SETTLE_S = 0.2
+MAX_UNHEARD = 0.25
+"""A pulse tells only where no longer share of it went by without feedback of its drive."""
+MAX_REPEATS = 5
+"""Of pulses that told nothing, per motor: the motor gets no more impulse than that."""
 _SEND_S = 0.002
 
 
@@ -28,7 +35,8 @@ class Pulse(NamedTuple):
     """What a pulse did. current_ma, duration_s: asked for.
 
     moved, deflected: largest change of counts, either way. measured_ma: largest feedback of
-    the current, with its sign. errors: D frames.
+    the current, with its sign. errors: D frames. unheard_s: longest time of the pulse without
+    feedback.
     """
 
     current_ma: int
@@ -37,6 +45,12 @@ class Pulse(NamedTuple):
     deflected: int = 0
     measured_ma: int = 0
     errors: int = 0
+    unheard_s: float = math.inf
+
+    @property
+    def was_followed(self) -> bool:
+        """Whether enough of it was heard for what it did to tell something of the motor."""
+        return self.unheard_s <= MAX_UNHEARD * self.duration_s
 
 
 def check_motion(probe: Probe, name: str) -> Iterator[CheckStep]:
@@ -53,14 +67,26 @@ def check_motion(probe: Probe, name: str) -> Iterator[CheckStep]:
 
 
 def _turn(probe: Probe, name: str, motor: MotorSettings) -> tuple[Pulse, Pulse]:
-    """Pulses forth and back, each pair stronger, until one has told enough; returns the last."""
+    """Pulses forth and back, each pair stronger, until one has told enough; returns the last.
+
+    A pair that was not followed, by a computer or a bus that stood still, is given again.
+    """
     pulse = back = Pulse(0, 0.0)
+    repeats = MAX_REPEATS
     for level in LEVELS:
         current = (motor.sign or 1) * round(1e3 * level * motor.nominal_current_a)
         duration = min(LONGEST_PULSE_S, IMPULSE_S / level)
-        pulse = _pulse(probe, name, current, duration)
-        back = _pulse(probe, name, -current, duration)
-        if pulse.errors or back.errors or _is_clear(name, pulse):
+        while True:
+            pulse = _pulse(probe, name, current, duration)
+            back = _pulse(probe, name, -current, duration)
+            if pulse.errors or back.errors:
+                return pulse, back
+            if pulse.was_followed and back.was_followed:
+                break
+            if repeats == 0:
+                return pulse, back
+            repeats -= 1
+        if _is_clear(name, pulse):
             break
     return pulse, back
 
@@ -88,7 +114,8 @@ def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse
     spring = before.deflection[-1].counts
     most = _get_most_counts(getattr(probe.bench, name))
     most_spring = MAX_TRAVEL_RAD / abs(build_deflection_scale(probe.bench.deflection))
-    traffic, end = Traffic(), probe.now() + duration_s
+    traffic, begin = Traffic(), probe.now()
+    end = begin + duration_s
     try:
         while probe.now() < end and not traffic.drive_errors.get(address):
             probe.send_current(name, current_ma)
@@ -99,12 +126,17 @@ def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse
                 break
     finally:
         probe.send_current(name, 0)
-    moved, deflected = _find_travel(traffic, address, start, spring)
-    currents = [frame.feedback.current_ma for frame in traffic.feedback.get(address, [])]
-    after = probe.listen(SETTLE_S)
+    heard = traffic.feedback.get(address, [])
+    times = [begin, *(frame.time_s for frame in heard), probe.now()]
+    unheard = max(later - earlier for earlier, later in pairwise(times))
+    measured = max((frame.feedback.current_ma for frame in heard), key=abs, default=0)
+    _, deflected = _find_travel(traffic, address, start, spring)
+    for _ in probe.follow(COAST_S, traffic):
+        pass
+    moved, _ = _find_travel(traffic, address, start, spring)
+    after = probe.listen(SETTLE_S - COAST_S)
     errors = traffic.drive_errors.get(address, 0) + after.drive_errors.get(address, 0)
-    measured = max(currents, key=abs, default=0)
-    return Pulse(current_ma, duration_s, moved, deflected, measured, errors)
+    return Pulse(current_ma, duration_s, moved, deflected, measured, errors, unheard)
 
 
 def _find_travel(traffic: Traffic, address: Address, start: int, spring: int) -> tuple[int, int]:
@@ -125,6 +157,14 @@ def _judge_motor(name: str, motor: MotorSettings, pulse: Pulse, back: Pulse) -> 
         advice = (
             "The drive went into stall protection: see that the motor turns freely, its brake is"
             " off and its leads are not shorted; switch the drive off and on."
+        )
+        return CheckStep(title, Result.FAIL, measured, advice)
+    if not (pulse.was_followed and back.was_followed):
+        unheard = 1e3 * max(pulse.unheard_s, back.unheard_s)
+        measured += f", no feedback for {unheard:.0f} of {1e3 * pulse.duration_s:.0f} ms"
+        advice = (
+            "The pulses could not be followed: leave the machine to this program, take other"
+            " traffic off the bus, and run the check again."
         )
         return CheckStep(title, Result.FAIL, measured, advice)
     if abs(pulse.moved) < MIN_COUNTS:

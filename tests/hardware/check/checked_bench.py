@@ -25,10 +25,18 @@ def assert_left_alone(bus):
         assert drive.mode is None or not drive.powered
 
 
+def find_current(message, motor):
+    """The current that a frame asks of this motor, mA; None for every other frame."""
+    address, command = split_id(message.arbitration_id)
+    if command is not Command.CURRENT or address.number != int(motor[-1]):
+        return None
+    return decode(command, message.data).current_ma
+
+
 def list_currents(bus):
-    found = []
-    for time_s, message in bus.sent:
-        address, command = split_id(message.arbitration_id)
-        if command is Command.CURRENT:
-            found.append((time_s, address, decode(command, message.data).current_ma))
-    return found
+    return [
+        (time_s, split_id(message.arbitration_id)[0], current)
+        for time_s, message in bus.sent
+        for motor in ("motor1", "motor2")
+        if (current := find_current(message, motor)) is not None
+    ]

@@ -23,7 +23,7 @@ from svsa.rig.faults import (
 )
 from svsa.rig.parameters import RigDeflection, RigParameters
 from svsa.rig.rig import Rig
-from tests.hardware.check.checked_bench import check, list_currents
+from tests.hardware.check.checked_bench import check, find_current, list_currents
 from tests.rig.bus_in_time import RigBus, copy_bench
 
 MOVING_S = 1.6
@@ -84,6 +84,33 @@ def test_the_latency_is_that_of_bus_lag_and_feedback_period(path, bus):
     steps = check(path, bus, move=True)
     median = float(steps["motor1: latency"].measured.split("after ")[1].split(" ms")[0])
     assert median == pytest.approx(0.13 + 0.35 + 0.5 + 0.13, abs=0.5)
+
+
+def test_a_pulse_that_the_computer_slept_through_is_given_again(path, bus):
+    """Late by 30 ms where it lasts 27 ms: it is over before it was felt."""
+    slept = []
+
+    def sleep_once(message):
+        if find_current(message, "motor2") == 128 and not slept:
+            slept.append(bus.now())
+            bus.sleep(0.03)
+
+    bus.before_send = sleep_once
+    steps = check(path, bus, move=True)
+    assert len(slept) == 1
+    assert steps["motor2: sign"].result is Result.OK
+
+
+def test_pulses_that_are_slept_through_again_and_again_tell_of_the_computer(path, bus):
+    def sleep(message):
+        if find_current(message, "motor2"):
+            bus.sleep(0.16)
+
+    bus.before_send = sleep
+    step = check(path, bus, move=True)["motor2: sign"]
+    assert step.result is Result.FAIL
+    assert "leave the machine to this program" in step.advice
+    assert sum(address.number == 2 and mA != 0 for _, address, mA in list_currents(bus)) == 12
 
 
 FAULTS = [

@@ -8,7 +8,7 @@ from svsa.bench.calibration import find_calibration
 from svsa.bench.cli import bench_check, bench_home
 from svsa.bench.file import read_bench
 from svsa.rig.launch import start_rig
-from tests.rig.bus_in_time import copy_bench
+from tests.rig.bus_in_time import RIG_BENCH, copy_bench
 
 APP = Typer()
 APP.command("bench-check")(bench_check)
@@ -39,7 +39,7 @@ def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_
 
 
 @pytest.mark.exhaustive
-@pytest.mark.wall_clock
+@pytest.mark.wall_clock(stall_s=read_bench(RIG_BENCH).safety.stale_fault_s)
 def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
     """A rig in its own process, python-can in between: the record is written, all is left off."""
     with start_rig(lockstep=False) as rig:
