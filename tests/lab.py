@@ -3,6 +3,7 @@
 import contextlib
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -14,6 +15,7 @@ from typing import NamedTuple
 import httpx
 
 START_TIMEOUT_S = 300.0
+END_TIMEOUT_S = 60.0
 PATIENCE_S = 120.0
 """Of a client: an answer that takes a busy machine longer is none."""
 
@@ -106,12 +108,20 @@ def run_lab(
             yield Lab(url, client, process, Path(settings["data"]))
     finally:
         guard.cancel()
-        process.terminate()
-        try:
-            process.wait(15)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+        end(process)
+
+
+def end(process: subprocess.Popen[str]) -> None:
+    """As Ctrl-C does, where it has not ended yet: it has to end by itself, and soon."""
+    if process.poll() is not None:
+        return
+    process.terminate()
+    try:
+        assert process.wait(END_TIMEOUT_S) in (0, -signal.SIGTERM)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+        raise
 
 
 def _wait_for_port(process: subprocess.Popen[str]) -> str:

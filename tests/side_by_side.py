@@ -2,7 +2,7 @@
 
 Tests in a browser wait for pages where the others compute. One half of the processes begins with
 the one kind and one half with the other, so that no core waits for long, and only one half has a
-browser and a lab of its own before it comes to help the other.
+browser and a lab of its own before it comes to help the other, where that is worth another.
 """
 
 from pathlib import PurePosixPath
@@ -21,6 +21,10 @@ LONGEST = (
     *("test_plots", "test_replay", "test_lti", "test_safety", "test_grades", "test_memory"),
 )
 """They begin, so that no process is left with one of them while the others are done."""
+
+
+WORTH = 8
+"""So many modules must be left: a browser and a lab cost more to start than some of them to do."""
 
 
 def rank(unit: str) -> int:
@@ -49,6 +53,8 @@ class SideBySide(LoadFileScheduling):
             kinds = (browser,)
         elif int(node.gateway.id.removeprefix("gw")) % 2:
             kinds = (browser, others)
+        elif len(self.nodes) > 1 and len(browser) < WORTH:
+            kinds = (others,)
         else:
             kinds = (others, browser)
         return next((kind[0] for kind in kinds if kind), None)

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tests.side_by_side import SideBySide
+from tests.side_by_side import WORTH, SideBySide
 
 PAGES = ["tests/browser/test_arena.py", "tests/browser/test_life.py", "tests/browser/test_view.py"]
 OTHERS = ["tests/model/test_spring.py", "tests/study/test_cluster.py", "tests/run/test_batch.py"]
@@ -61,7 +61,11 @@ def test_one_half_begins_with_browsers_and_each_with_its_longest() -> None:
     assert showing == [PAGES[1], PAGES[2], PAGES[0]]
 
 
-def test_who_is_done_with_the_others_helps_with_the_browsers() -> None:
-    computing, showing = share(PAGES + OTHERS, 2, lazy=1)
+@pytest.mark.parametrize(("pages", "helps"), [(WORTH - 1, False), (WORTH + 2, True)])
+def test_who_is_done_with_the_others_helps_with_the_browsers_where_that_is_worth_one(
+    pages: int, helps: bool
+) -> None:
+    browsers = [f"tests/browser/test_{number}.py" for number in range(pages)]
+    computing, showing = share(browsers + OTHERS, 2, lazy=1)
     assert computing[:3] == [OTHERS[1], OTHERS[0], OTHERS[2]]
-    assert set(computing[3:]) == set(PAGES) - set(showing)
+    assert set(computing[3:]) == (set(browsers) - set(showing) if helps else set())

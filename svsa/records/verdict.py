@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from svsa.checked import Checked, Number, quantity
 from svsa.errors import ParameterError, Violation
@@ -164,6 +163,8 @@ def build_band(
     low, high = values - room, values + room
     if not reach:
         return low, high
+    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # late: it takes a while
+
     is_unknown, size = np.isnan(values), 2 * reach + 1
     low, high = np.where(is_unknown, np.inf, low), np.where(is_unknown, -np.inf, high)
     low = minimum_filter1d(low, size, axis=0, mode="nearest")

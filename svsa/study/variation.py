@@ -5,7 +5,6 @@ from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
-from scipy.special import ndtr, ndtri
 
 from svsa.checked import BY_KIND, Checked, Flag, Number, Whole, quantity
 from svsa.errors import ParameterError, Violation
@@ -104,12 +103,16 @@ class Normal(_Range):
 
     def draw(self, shares: np.ndarray) -> list[Any]:
         """The values of these shares, 0 to 1, by the inverse of the distribution."""
+        from scipy.special import ndtri  # late: it takes a while
+
         begin, width = self._cut()
         values = self.mean + self.std * ndtri(begin + shares * width)
         return _settle(np.clip(values, self.low, self.high))
 
     def _cut(self) -> tuple[float, float]:
         """Where its range begins in the whole distribution, and how much of it that is."""
+        from scipy.special import ndtr  # late: it takes a while
+
         begin, end = ndtr([(end - self.mean) / self.std for end in (self.low, self.high)])
         return float(begin), float(end - begin)
 

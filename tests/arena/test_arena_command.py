@@ -6,7 +6,6 @@ import pytest
 from typer.testing import CliRunner
 
 import svsa
-from svsa.arena.measure import Entry, measure_law
 from svsa.arena.results import PUBLISHED, load_published, read_results, write_results
 from svsa.arena.row import TABLE
 from svsa.arena.seeds import derive_seed
@@ -110,7 +109,7 @@ def test_a_season_has_the_draws_of_its_secret(tmp_path):
 
 
 def test_where_a_run_ended_early_its_fault_stands():
-    row = measure_law(Entry("pid"))
+    row = load_published().get_row("pid")
     assert row.mass_rms_deg is None
     assert row.faults["mass"] == "deflection_limit"
     assert build_cells(row)[HEADINGS.index("3 kg")] == "deflection_limit"

@@ -8,10 +8,11 @@ import pytest
 
 from svsa.arena.find import find_scenario
 from svsa.arena.measure import Entry, measure_law, measure_rms, run_scenario
+from svsa.arena.results import load_published
 from svsa.arena.row import Row
 from svsa.arena.scenarios import IDEAL_4A, RIG_4A
 from svsa.control import backstepping, esp
-from svsa.control.installed import get_law
+from svsa.control.installed import get_law, list_law_names
 from tests.arena.prototypes import compare
 from tests.exhaustive import exhaust
 
@@ -21,6 +22,15 @@ pytestmark = pytest.mark.long
 @cache
 def measure(law: str) -> Row:
     return measure_law(Entry(law))
+
+
+@pytest.mark.parametrize("law", exhaust(list_law_names(), ["fl", "ndobc", "ndobc_w"]))
+def test_what_was_published_of_a_law_is_what_it_measures(law):
+    """To nine digits: who changes a law or the suite runs `make arena`."""
+    published, measured = load_published().get_row(law), measure(law)
+    assert published.agrees_with(measured)
+    assert published.agrees_with(measured.changed(version="of another lab"))
+    assert not published.agrees_with(measured.changed(score=measured.score * (1.0 + 1e-8)))
 
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])

@@ -4,20 +4,9 @@ import pytest
 
 import svsa
 from svsa.arena.find import find_scenario, list_scenarios
-from svsa.arena.measure import Entry, measure_law
 from svsa.arena.results import Results, load_published, read_results, write_results
 from svsa.arena.seeds import PUBLIC_SEED, SUITE_VERSION
 from svsa.control.installed import list_law_names
-from tests.exhaustive import exhaust
-
-
-@pytest.mark.parametrize("law", exhaust(list_law_names(), ["ndobc", "ndobc_w"]))
-def test_what_was_published_of_a_law_is_what_it_measures(law):
-    """To nine digits: who changes a law or the suite runs `make arena`."""
-    published, measured = load_published().get_row(law), measure_law(Entry(law))
-    assert published.agrees_with(measured)
-    assert published.agrees_with(measured.changed(version="of another lab"))
-    assert not published.agrees_with(measured.changed(score=measured.score * (1.0 + 1e-8)))
 
 
 def test_every_law_has_a_published_row_of_this_suite():

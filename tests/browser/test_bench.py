@@ -82,7 +82,6 @@ def test_a_simulation_shows_no_bench_and_no_mark(kept_page: Page, still_lab: Lab
 MARKS = {True: "EMULATED", False: "REAL BENCH", None: "BENCH"}
 
 
-@pytest.mark.smoke
 @pytest.mark.parametrize("emulated", exhaust(MARKS, [False]))
 def test_the_mark_is_in_band_view_status_bar_and_tab(
     page: Page, patched: PatchedBench, emulated: bool | None
@@ -130,7 +129,6 @@ def test_from_off_over_the_marks_to_a_run_and_its_stop(page: Page, patched: Patc
     expect_enabled(page)
 
 
-@pytest.mark.smoke
 def test_space_stops_a_bench_and_never_starts_it(page: Page, patched: PatchedBench) -> None:
     patched.become(status="run", homing=HOMED)
     expect_stage(page, "Run")

@@ -49,7 +49,6 @@ def take(page: Page, name: str) -> None:
     expect(find_control(page)).to_contain_text("You")
 
 
-@pytest.mark.smoke
 def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
     two_pages: tuple[Page, Page], still_lab: Lab
 ) -> None:

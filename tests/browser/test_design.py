@@ -42,7 +42,6 @@ def real_parts(lab: Lab, group: str = "position") -> list[float]:
     return [root["re"] for root in gains[f"{group}_roots_rad_per_s"]]
 
 
-@pytest.mark.smoke
 def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
     page: Page, still_lab: Lab, panel: Locator
 ) -> None:
@@ -64,6 +63,7 @@ def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
     assert real_parts(still_lab) == pytest.approx([-60.0] * 4, abs=0.1)
 
 
+@pytest.mark.smoke
 def test_an_unstable_choice_says_why_and_cannot_be_applied(page: Page, panel: Locator) -> None:
     drag(page, panel.get_by_role("slider", name="Position pole 4 of 4"), 100, -60)
     verdict = panel.get_by_role("status", name="Verdict: Not this one")

@@ -54,7 +54,6 @@ def test_the_tour_is_skipped(page: Page, lab: Lab) -> None:
     expect(tour).to_be_hidden()
 
 
-@pytest.mark.smoke
 def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     name = "Equation of the control laws"

@@ -11,7 +11,6 @@ from tests.lab import Lab
 pytestmark = pytest.mark.browser
 
 
-@pytest.mark.smoke
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
 def test_what_a_script_sets_while_somebody_types_is_told_and_not_undone(
     page: Page, lab: Lab

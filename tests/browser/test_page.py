@@ -106,7 +106,6 @@ def test_the_load_button_makes_the_error_rise_and_ndobc_brings_it_back(
     assert page.evaluate(LARGEST_ERROR, [onset + 1.5]) < 0.1 * ONE_DEGREE
 
 
-@pytest.mark.smoke
 @pytest.mark.usefixtures("without_3d", "still")
 def test_load_button_plots_and_view_are_seen_together_and_the_controller_is_switched(
     page: Page, lab: Lab

@@ -50,7 +50,6 @@ def test_plots_are_added_removed_kept_and_reset(page: Page, lab: Lab) -> None:
     expect(find_plot(page, "Deflection")).to_have_count(0)
 
 
-@pytest.mark.smoke
 def test_an_event_tells_what_it_did_where_it_happened(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()

@@ -26,7 +26,6 @@ def read(lab: Lab) -> dict[str, Any]:
     return lab.read()["configuration"]
 
 
-@pytest.mark.smoke
 def test_the_rig_is_one_choice_and_a_figure_keeps_it(
     page: Page, lab: Lab, realism: Locator
 ) -> None:

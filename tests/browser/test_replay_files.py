@@ -64,7 +64,6 @@ def test_it_takes_the_light_theme_of_the_system(page: Page, tmp_path: Path) -> N
     expect_theme(page, "light")
 
 
-@pytest.mark.smoke
 def test_hostile_words_are_only_words(page: Page, tmp_path: Path) -> None:
     evil = "</script><script>window.bad=1</script><img src=x onerror='window.bad=1'>\ud800"
     path = write_page(

@@ -118,7 +118,6 @@ def read_lightness(colour: str) -> float:
     return sum(int(part) for part in re.findall(r"\d+", colour)[:3]) / 3
 
 
-@pytest.mark.smoke
 @pytest.mark.usefixtures("still")
 def test_keys_command_the_page(page: Page, lab: Lab) -> None:
     open_page(page, lab)

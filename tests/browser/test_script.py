@@ -72,7 +72,6 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
     )
 
 
-@pytest.mark.smoke
 def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(
     page: Page, lab: Lab, tmp_path: Path
 ) -> None:

@@ -74,7 +74,6 @@ def view(opened_once: Page, browser_context_args: dict, lab: Lab) -> Page:
     return page
 
 
-@pytest.mark.smoke
 def test_the_camera_goes_to_a_preset_of_this_page_only(view: Page) -> None:
     page = view
     page.get_by_role("button", name="Camera: Side").click()

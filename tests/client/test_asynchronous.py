@@ -8,13 +8,11 @@ import pytest
 import svsa
 from svsa.client import LabError
 from tests.lab import Lab as Server
-from tests.lab import run_lab
 
 
-@pytest.fixture(scope="module")
-def server():
-    with run_lab() as running:
-        yield running
+@pytest.fixture
+def server(lab: Server) -> Server:
+    return lab
 
 
 def test_a_run_is_set_loaded_watched_and_recorded(server: Server) -> None:

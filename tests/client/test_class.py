@@ -105,6 +105,7 @@ def test_a_script_whose_maker_is_removed_is_told_so(
         assert ada.session.law
 
 
+@pytest.mark.exhaustive
 def test_a_copied_script_asks_for_control_like_a_person(
     tokens: tuple[str, str, str, str], tmp_path: Path
 ) -> None:

@@ -12,10 +12,11 @@ from tests.lab import Lab as Server
 from tests.lab import run_lab
 
 
-@pytest.fixture(scope="module")
-def server() -> Iterator[Server]:
-    with run_lab() as running:
-        yield running
+@pytest.fixture
+def server(shared_lab: Server) -> Iterator[Server]:
+    shared_lab.begin_anew()
+    yield shared_lab
+    shared_lab.client.post(shared_lab.session + "/pause")
 
 
 @pytest.fixture
@@ -156,6 +157,7 @@ def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
         session.law = "fl"
 
 
+@pytest.mark.exhaustive
 def test_a_secret_opens_the_lab() -> None:
     with run_lab(secret="of the class") as guarded:
         with pytest.raises(AccessError):

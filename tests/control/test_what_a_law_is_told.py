@@ -129,7 +129,7 @@ def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_no
     ("law", "effects"),
     [
         pytest.param("hear", "ideal", marks=pytest.mark.exhaustive),
-        ("hear", "rig"),
+        pytest.param("hear", "rig", marks=pytest.mark.exhaustive),
         ("hear_branching", "rig"),
         pytest.param("hear", "every", marks=pytest.mark.exhaustive),
         pytest.param("hear_branching", "every", marks=pytest.mark.exhaustive),

@@ -130,6 +130,7 @@ def test_a_search_that_was_broken_off_goes_on_to_the_same_end(monkeypatch, metho
     assert sum(ran) == len(whole.severities) - 64 + 2, "with nothing, and the worst, once each"
 
 
+@pytest.mark.exhaustive
 def test_a_search_for_the_peak_ends_with_its_bound_and_keeps_95_percent():
     adversary = build_adversary(law="fl", harm="peak", terms=[PULSE, STEP])
     found = falsify(adversary, runs=2560)

@@ -121,6 +121,7 @@ def test_through_sockets_the_same_run_gives_the_same_samples_to_the_bit(compensa
     assert np.array_equal(run("ndobc", start_rig), compensated, equal_nan=True)
 
 
+@pytest.mark.exhaustive
 def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
     """Given while the bench moves, in the loop's packed constants; the same again to the bit."""
     times = [0.05 * number for number in range(21)]

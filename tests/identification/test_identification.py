@@ -116,6 +116,13 @@ def test_intervals_hold_the_truth_as_often_as_they_say(seed):
     assert sum(contains(estimates[name], getattr(actuator, name)) for name in ACTUATOR) >= 6
 
 
+def test_no_design_is_written_of_what_was_not_determined(found):
+    guessed = ("motor2_inertia_kg_m2", "motor2_damping_nms_per_rad")
+    with pytest.raises(IdentificationError, match="B2, D2"):
+        found._replace(undetermined=guessed).build_design()
+
+
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_a_motor_that_did_not_move_is_not_determined():
     # friction hides its inertia and damping: no file must be written with a guess

@@ -104,10 +104,10 @@ def test_what_has_no_end_and_what_is_no_number() -> None:
     ("module", "symbol", "name"),
     [
         (trigonometry, "S", "SINE"),
-        (trigonometry, "C", "COSINE"),
-        (trigonometry, "P", "ARC_SINE"),
-        (exponential, "E", "EXPONENTIAL"),
-        (exponential, "L", "LOGARITHM"),
+        pytest.param(trigonometry, "C", "COSINE", marks=pytest.mark.exhaustive),
+        pytest.param(trigonometry, "P", "ARC_SINE", marks=pytest.mark.exhaustive),
+        pytest.param(exponential, "E", "EXPONENTIAL", marks=pytest.mark.exhaustive),
+        pytest.param(exponential, "L", "LOGARITHM", marks=pytest.mark.exhaustive),
     ],
 )
 def test_the_coefficients_are_those_of_the_exchange_algorithm(

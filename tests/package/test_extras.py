@@ -7,6 +7,8 @@ import sys
 import tomllib
 from pathlib import Path
 
+import pytest
+
 from svsa.extras import MODULES
 
 HIDE = """
@@ -88,6 +90,7 @@ def test_what_needs_an_extra_says_in_one_line_how_to_install_it():
         assert line.endswith(f"run `pip install 'svsa-lab[{extra}]'`."), call
 
 
+@pytest.mark.exhaustive
 def test_the_server_needs_the_bench_s_packages_for_a_bench_only():
     program = (
         "import sys\n"

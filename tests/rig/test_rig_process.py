@@ -91,6 +91,7 @@ def test_in_lockstep_time_stands_until_it_is_asked_to_go_on(rig):
     wire.close()
 
 
+@pytest.mark.exhaustive
 def test_lockstep_over_the_wire_is_the_same_to_the_byte():
     def record():
         with start_rig(lockstep=True) as running:

@@ -21,6 +21,9 @@ import svsa
 from svsa_server.access.class_keys import ClassKeys, ToldOnce
 from tests.lab import run_lab
 
+pytestmark = pytest.mark.exhaustive
+"""What the path of a lab is in its answers, `access/test_below_a_path` shows."""
+
 ROOT = "/svsa"
 CERTIFICATE = "caddy/pki/authorities/local/root.crt"
 DOCUMENTED = Path(__file__).parents[2] / "docs" / "proxy.md"

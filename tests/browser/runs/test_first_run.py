@@ -11,7 +11,6 @@ from tests.lab import Lab
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
-@pytest.mark.smoke
 def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, lab: Lab) -> None:
     lab.load_figure()
     page.goto(lab.url)

@@ -48,7 +48,6 @@ def test_a_run_is_renamed_and_written_about(page: Page, lab: Lab, runs: tuple[st
     expect(name).to_have_value("Group 3")
 
 
-@pytest.mark.smoke
 @pytest.mark.usefixtures("without_replay")
 def test_a_branch_is_a_private_session_that_stands_at_the_moment(
     page: Page, lab: Lab, runs: tuple[str, str]

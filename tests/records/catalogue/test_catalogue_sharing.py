@@ -14,6 +14,7 @@ from svsa.records.catalogue.runs import Catalogue
 from svsa.records.header import RecordHeader, read_header, write_header
 from svsa.records.parquet import measure_bytes
 from svsa.records.writer import write_record
+from tests.exhaustive import exhaust
 from tests.records.records import add, build_header, build_samples
 
 
@@ -31,19 +32,25 @@ def work(folder: str, first: int, failures: "multiprocessing.Queue[str]") -> Non
 
 
 @pytest.mark.long
-def test_two_processes_and_many_threads_share_a_folder(catalogue: Catalogue) -> None:
+@pytest.mark.parametrize("hands", exhaust([1, 2], [1]))
+def test_processes_and_threads_share_a_folder(catalogue: Catalogue, hands: int) -> None:
+    """So many processes beside this one, and so many threads of its own."""
     context = multiprocessing.get_context("spawn")
     failures = context.Queue()
     folder = str(catalogue.folder)
-    processes = [context.Process(target=work, args=(folder, n, failures)) for n in (100, 200)]
-    threads = [threading.Thread(target=work, args=(folder, n, failures)) for n in (300, 400)]
+    processes = [
+        context.Process(target=work, args=(folder, n, failures)) for n in (100, 200)[:hands]
+    ]
+    threads = [
+        threading.Thread(target=work, args=(folder, n, failures)) for n in (300, 400)[:hands]
+    ]
     for worker in (*processes, *threads):
         worker.start()
     for worker in (*processes, *threads):
         worker.join(60)
     assert failures.empty(), failures.get()
     page = catalogue.list(page_size=200)
-    assert page.total == 60
+    assert page.total == 2 * hands * 15
     assert {run.state for run in page.runs} == {"complete"}
     assert all(run.name == "Name " + run.id.removeprefix("run-") for run in page.runs)
 

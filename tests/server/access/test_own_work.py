@@ -9,7 +9,7 @@ import pytest
 
 from svsa.study.file import read_study
 from svsa.study.store import keep_study, measure_bytes, open_study
-from tests.server.access.classroom import SHARED, Classroom, read_kind, run_class
+from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
 
 SESSIONS, JOBS, TUNINGS = "/api/v1/sessions", "/api/v1/jobs", "/api/v1/tunings"
 STUDIES, FALSIFICATIONS = "/api/v1/studies", "/api/v1/falsifications"
@@ -62,6 +62,20 @@ def test_long_work_is_its_makers_and_the_instructors(classroom: Classroom) -> No
     instructor.delete(f"{JOBS}/{job}").raise_for_status()
 
 
+def test_a_kept_study_is_seen_by_its_maker_and_the_instructor(tmp_path: Path) -> None:
+    with run_class(tmp_path) as room:
+        ada, bob, instructor = room.join("Ada"), room.join("Bob"), room.log_in()
+        study = read_study("load")[1].changed(runs=4)
+        keep_study("load", study, tmp_path / "studies", read_person(ada)["id"])
+        for one, sees in ((ada, ["load"]), (bob, []), (instructor, ["load"])):
+            assert [kept["name"] for kept in one.get(STUDIES).json()["kept"]] == sees
+        for below in ("", "/summary", "/rows?column=succeeded", "/rows.parquet", "/rows/0"):
+            assert read_kind(bob.get(f"{STUDIES}/load{below}")) == "not_yours", below
+        assert read_kind(bob.delete(f"{STUDIES}/load")) == "not_yours"
+        assert ada.delete(f"{STUDIES}/load").status_code == 204
+
+
+@pytest.mark.exhaustive
 def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     watching = classroom.join("Ola", role="observer")

@@ -40,6 +40,7 @@ def test_what_compiles_ends_with_the_server(started, monkeypatch):
     assert process.poll() is not None
 
 
+@pytest.mark.exhaustive
 def test_the_laws_are_compiled_by_the_command_that_compiles_all():
     done = subprocess.run(
         [sys.executable, "-c", *compiling._COMPILE], check=False, capture_output=True

@@ -46,6 +46,7 @@ def test_a_board_begins_with_all_laws_missing_and_its_secret_in_the_labs_folder(
     assert (data / FOLDER / "secret").stat().st_mode & 0o077 == 0
 
 
+@pytest.mark.exhaustive
 def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
     law = "def law(*given):\n    return spring\n"
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": law})

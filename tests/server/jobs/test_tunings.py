@@ -58,6 +58,7 @@ def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
     assert [one["id"] for one in lab.get(TUNINGS).json()] == [name]
 
 
+@pytest.mark.exhaustive
 def test_a_tuning_is_broken_off_and_keeps_its_best(lab):
     """It begins from the session's own design where that is asked for."""
     beta = {"bandwidth_rad_per_s": [44.0, 44.0, 44.0]}

@@ -51,6 +51,7 @@ def test_a_run_that_there_is_not_is_refused_by_name(shared_lab: Lab) -> None:
     assert shared_lab.client.post(f"{ARENA}/laws/nobody/measurement").status_code == 422
 
 
+@pytest.mark.exhaustive
 def test_a_law_measured_here_gives_its_published_row(shared_lab: Lab) -> None:
     answer = shared_lab.client.post(f"{ARENA}/laws/ndobc/measurement", timeout=300.0)
     found = answer.raise_for_status().json()

@@ -35,6 +35,7 @@ def student(lab, data):
     return Student(lab, OWN_LAW)
 
 
+@pytest.mark.exhaustive
 def test_a_law_is_tried_and_kept_for_another_browser(student, lab):
     law = student.try_law(LAZY.decode()).raise_for_status().json()["law"]
     again = Student(lab, OWN_LAW).read()

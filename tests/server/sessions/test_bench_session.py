@@ -108,7 +108,6 @@ def check_recording(bench: BenchLab, run_id: str) -> None:
         assert "emulated" in answer.json()["detail"]
 
 
-@pytest.mark.smoke
 def test_a_quick_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:
     with bench.running():
         bench.wait_for_ticks(200)
