@@ -10,8 +10,7 @@ LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti
 # Each module in one process: in the order of the folders, the browser last, since its driver keeps
 # an event loop running. On two cores, as many more as those that wait for something most of the time.
 SIDE_BY_SIDE := --dist loadfile --no-loadscope-reorder
-ALL_BY := -n 4 $(SIDE_BY_SIDE)
-SHOWN_BY := -n 3 $(SIDE_BY_SIDE)
+BY_FOUR := -n 4 $(SIDE_BY_SIDE)
 # What computes all the time, and in `make test` what is against the clock and waits for a rig.
 BY_TWO := -n 2 $(SIDE_BY_SIDE)
 # A search at less depth than `make test-all`'s (tests/conftest.py).
@@ -42,13 +41,13 @@ bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 
 test: .venv/installed $(PAGE)  ## each promise of the lab where it is soonest shown, and the main ways
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(SHOWN_BY) $(SHOWN) -m "not exhaustive and not wall_clock and (smoke or not browser)"
+	$(BIN)/pytest $(BY_FOUR) $(SHOWN) -m "not exhaustive and not wall_clock and (smoke or not browser)"
 	$(BIN)/pytest $(BY_TWO) -m "not exhaustive and wall_clock and smoke" $(WALL_CLOCK)
 
 test-all: COMPILED = --exhaustive
 test-all: .venv/installed $(PAGE)  ## every test, as in CI
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(ALL_BY) -m "not wall_clock"
+	$(BIN)/pytest $(BY_FOUR) -m "not wall_clock"
 	$(BIN)/pytest -m wall_clock $(WALL_CLOCK)
 
 quick: .venv/installed  ## the tests that are soon done and need no server, bench or browser

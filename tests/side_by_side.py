@@ -1,10 +1,12 @@
 """Which process takes which module next under `pytest -n … --dist loadfile`.
 
-Tests in a browser wait for pages where the others compute. One half of the processes begins with
-the one kind and one half with the other, so that no core waits for long, and only one half has a
-browser and a lab of its own before it comes to help the other, where that is worth another.
+Tests in a browser wait for pages where the others compute. Some of the processes begin with the
+one kind and the rest with the other, so that no core waits for long; a browser and a lab of its own
+cost a process more to start than some modules to do.
 """
 
+import math
+from functools import cached_property
 from pathlib import PurePosixPath
 
 from xdist.scheduler import LoadFileScheduling
@@ -23,8 +25,8 @@ LONGEST = (
 """They begin, so that no process is left with one of them while the others are done."""
 
 
-WORTH = 8
-"""So many modules must be left: a browser and a lab cost more to start than some of them to do."""
+WORTH = 20
+"""So many modules of the browser's there must be for each process that begins with them."""
 
 
 def rank(unit: str) -> int:
@@ -51,10 +53,20 @@ class SideBySide(LoadFileScheduling):
         others = [unit for unit in units if not unit.startswith(BROWSER)]
         if any(unit.startswith(BROWSER) for unit in self.assigned_work[node]):
             kinds = (browser,)
-        elif int(node.gateway.id.removeprefix("gw")) % 2:
+        elif self.begins_with_browsers(node):
             kinds = (browser, others)
-        elif len(self.nodes) > 1 and len(browser) < WORTH:
-            kinds = (others,)
         else:
             kinds = (others, browser)
         return next((kind[0] for kind in kinds if kind), None)
+
+    def begins_with_browsers(self, node: WorkerController) -> bool:
+        """One process for every `WORTH` modules, and at most one half of them."""
+        number = int(node.gateway.id.removeprefix("gw"))
+        return number % 2 == 1 and number // 2 < math.ceil(self.browser_modules / WORTH)
+
+    @cached_property
+    def browser_modules(self) -> int:
+        """How many there are, from the first to the last."""
+        assert self.collection is not None
+        modules = {self._split_scope(test) for test in self.collection}
+        return sum(module.startswith(BROWSER) for module in modules)

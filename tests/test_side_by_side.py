@@ -61,11 +61,14 @@ def test_one_half_begins_with_browsers_and_each_with_its_longest() -> None:
     assert showing == [PAGES[1], PAGES[2], PAGES[0]]
 
 
-@pytest.mark.parametrize(("pages", "helps"), [(WORTH - 1, False), (WORTH + 2, True)])
-def test_who_is_done_with_the_others_helps_with_the_browsers_where_that_is_worth_one(
-    pages: int, helps: bool
-) -> None:
-    browsers = [f"tests/browser/test_{number}.py" for number in range(pages)]
-    computing, showing = share(browsers + OTHERS, 2, lazy=1)
+def test_who_is_done_with_the_others_helps_with_the_browsers() -> None:
+    computing, showing = share(PAGES + OTHERS, 2, lazy=1)
     assert computing[:3] == [OTHERS[1], OTHERS[0], OTHERS[2]]
-    assert set(computing[3:]) == (set(browsers) - set(showing) if helps else set())
+    assert set(computing[3:]) == set(PAGES) - set(showing)
+
+
+@pytest.mark.parametrize(("pages", "begin"), [(WORTH, 1), (WORTH + 1, 2), (3 * WORTH, 2)])
+def test_more_begin_with_browsers_where_there_are_many(pages: int, begin: int) -> None:
+    browsers = [f"tests/browser/test_{number}.py" for number in range(pages)]
+    shared = share(browsers + 9 * OTHERS, 4)
+    assert sum(units[0] in browsers for units in shared) == begin

@@ -97,6 +97,7 @@ def test_a_fault_in_one_unloading_is_the_worst_of_them():
     assert row.unloading_worst == row.unloadings_failed[0]
 
 
+@pytest.mark.exhaustive
 def test_a_pd_on_the_motors_knows_nothing_of_a_load_on_the_link():
     """The spring bends by 2 N·m at 15 N·m/rad, and a PD leaves it so: 8.5°, for ever.
 

@@ -14,6 +14,7 @@ from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
 from svsa.rig.launch import RunningRig, start_rig
 from svsa.signals import CHANNEL_INDEX, Torque
+from tests.exhaustive import exhaust
 from tests.hardware.plant_stand import NO_TORQUE, Stand, stand_emulated, stand_simulated
 
 PLANTS = ("simulated", "socketcand", "slcan")
@@ -27,7 +28,7 @@ def rig() -> Iterator[RunningRig]:
         yield running
 
 
-@pytest.fixture(params=PLANTS)
+@pytest.fixture(params=exhaust(PLANTS, PLANTS[:2]))
 def stand(request: pytest.FixtureRequest, rig: RunningRig) -> Iterator[Stand]:
     if request.param == "simulated":
         yield from stand_simulated()

@@ -23,6 +23,7 @@ from svsa.rig.faults import (
 )
 from svsa.rig.parameters import RigDeflection, RigParameters
 from svsa.rig.rig import Rig
+from tests.exhaustive import exhaust
 from tests.hardware.check.checked_bench import check, find_current, list_currents
 from tests.rig.bus_in_time import RigBus, copy_bench
 
@@ -118,19 +119,22 @@ FAULTS = [
     (Stall(node="motor1"), MOVING_S, "motor1: feedback", "turns freely"),
     (BusErrors(count=100), 0.0, "bus", "120 Ω"),
     (DropFrames(node="motor1", probability=0.95), 0.0, "motor1: feedback", "Frames are lost"),
-    (DropFrames(node="motor2"), 0.0, "mode sequence", "not taken the mode"),
     (DropFrames(node="deflection"), 0.0, "deflection encoder (can)", "identifier"),
     (CurrentOffset(node="motor2", offset_a=0.2), 0.0, "at rest", "do not arm"),
     (ReversedEncoder(node="motor1"), 0.0, "motor1: sign", "swap the encoder's A and B"),
-    (ReversedMotor(node="motor2"), 0.0, "motor2: sign", "leads of the motor"),
     (FrozenEncoder(node="motor2"), 0.0, "motor2: sign", "its encoder is not read"),
     (ReversedEncoder(node="deflection"), 0.0, "deflection: sign", "sign = -1 in [deflection]"),
+]
+REPEATED = [
+    (DropFrames(node="motor2"), 0.0, "mode sequence", "not taken the mode"),
+    (ReversedMotor(node="motor2"), 0.0, "motor2: sign", "leads of the motor"),
     (FrozenEncoder(node="deflection"), 0.0, "deflection: sign", "coupled"),
 ]
 
 
-@pytest.mark.parametrize(("fault", "at_s", "step", "advice"), FAULTS)
-def test_a_fault_is_found_and_what_to_do_is_said(path, bus, fault, at_s, step, advice):
+@pytest.mark.parametrize("case", exhaust(FAULTS + REPEATED, FAULTS), ids=lambda case: case[2])
+def test_a_fault_is_found_and_what_to_do_is_said(path, bus, case):
+    fault, at_s, step, advice = case
     bus.rig.schedule(round(at_s * 1e6), lambda: bus.rig.inject(fault))
     steps = check(path, bus, move=True, watch=lambda _: True)
     assert steps[step].result is Result.FAIL
@@ -178,6 +182,7 @@ def test_a_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
     assert steps["deflection: sign"].result is Result.FAIL
 
 
+@pytest.mark.exhaustive
 def test_an_uncalibrated_bench_can_be_checked(tmp_path, bus):
     path = copy_bench(
         tmp_path,
