@@ -1,8 +1,9 @@
 """Which process takes which module next under `pytest -n … --dist loadfile`.
 
-Tests in a browser wait for pages where the others compute. Some of the processes begin with the
-one kind and the rest with the other, so that no core waits for long; a browser and a lab of its own
-cost a process more to start than some modules to do.
+Tests in a browser wait for pages where the others compute, and a process that has begun with
+browsers has an event loop that others cannot bear. So a few processes go over to browsers while the
+rest is still at the others, that no core waits at the end; a browser and a lab of its own cost a
+process more to start than some modules to do.
 """
 
 import math
@@ -14,11 +15,12 @@ from xdist.workermanage import WorkerController
 
 BROWSER = "tests/browser/"
 LONGEST = (
-    *("test_schema_fuzz", "test_identification", "test_can_plant_faults", "test_closed_loop"),
-    *("test_replay_page", "test_cluster", "test_bench_check", "test_stability_command"),
+    *("test_schema_fuzz", "test_identification", "test_attacks", "test_stream", "test_cluster"),
+    *("test_can_plant_faults", "test_closed_loop", "test_private_sessions", "test_class"),
+    *("test_replay_page", "test_bench_check", "test_stability_command", "test_run_anew"),
     *("test_bench_plants", "test_bench_faults", "test_schema_doors", "test_exercises"),
     *("test_leaderboard", "test_extras", "test_execution", "test_compilation"),
-    *("test_studies", "test_design", "test_class", "test_script", "test_life", "test_view"),
+    *("test_studies", "test_design", "test_script", "test_life", "test_view"),
     *("test_falsifier", "test_layout", "test_bench", "test_control", "test_accessibility"),
     *("test_plots", "test_replay", "test_lti", "test_safety", "test_grades", "test_memory"),
 )
@@ -26,7 +28,10 @@ LONGEST = (
 
 
 WORTH = 20
-"""So many modules of the browser's there must be for each process that begins with them."""
+"""So many modules of the browser's there must be for each process that goes over to them."""
+
+OTHERS_EACH = 10
+"""So many others are done by the rest in the time that one module of the browser's takes."""
 
 
 def rank(unit: str) -> int:
@@ -53,13 +58,13 @@ class SideBySide(LoadFileScheduling):
         others = [unit for unit in units if not unit.startswith(BROWSER)]
         if any(unit.startswith(BROWSER) for unit in self.assigned_work[node]):
             kinds = (browser,)
-        elif self.begins_with_browsers(node):
+        elif self.is_to_show(node) and len(others) <= OTHERS_EACH * len(browser):
             kinds = (browser, others)
         else:
             kinds = (others, browser)
         return next((kind[0] for kind in kinds if kind), None)
 
-    def begins_with_browsers(self, node: WorkerController) -> bool:
+    def is_to_show(self, node: WorkerController) -> bool:
         """One process for every `WORTH` modules, and at most one half of them."""
         number = int(node.gateway.id.removeprefix("gw"))
         return number % 2 == 1 and number // 2 < math.ceil(self.browser_modules / WORTH)

@@ -127,6 +127,7 @@ print(len([*svsa.design.linearize(15.0)]), svsa.runs.__name__, svsa.Catalogue.__
 """
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_a_start_imports_what_a_run_needs_and_the_rest_when_it_is_asked_for() -> None:
     """numba's own check for scipy, too; matrices in a law's function work all the same."""

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tests.side_by_side import WORTH, SideBySide
+from tests.side_by_side import OTHERS_EACH, WORTH, SideBySide
 
 PAGES = ["tests/browser/test_arena.py", "tests/browser/test_life.py", "tests/browser/test_view.py"]
 OTHERS = ["tests/model/test_spring.py", "tests/study/test_cluster.py", "tests/run/test_batch.py"]
@@ -70,5 +70,13 @@ def test_who_is_done_with_the_others_helps_with_the_browsers() -> None:
 @pytest.mark.parametrize(("pages", "begin"), [(WORTH, 1), (WORTH + 1, 2), (3 * WORTH, 2)])
 def test_more_begin_with_browsers_where_there_are_many(pages: int, begin: int) -> None:
     browsers = [f"tests/browser/test_{number}.py" for number in range(pages)]
-    shared = share(browsers + 9 * OTHERS, 4)
+    shared = share(browsers + OTHERS, 4)
     assert sum(units[0] in browsers for units in shared) == begin
+
+
+def test_browsers_begin_when_the_others_left_take_as_long() -> None:
+    others = [f"tests/model/test_{number}.py" for number in range(4 * OTHERS_EACH)]
+    computing, showing = share(PAGES + others, 2)
+    assert showing[0] in others
+    assert set(showing[-len(PAGES) :]) == set(PAGES)
+    assert not set(computing) & set(PAGES)

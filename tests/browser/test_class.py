@@ -100,7 +100,6 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
     expect(ada.get_by_role("button", name="Fig. 4B")).to_be_disabled()
 
 
-@pytest.mark.smoke
 def test_a_page_that_was_opened_outside_is_there_once_one_is_in(open_page, room: Room) -> None:
     page = open_page("/learn")
     exercises = page.get_by_role("region", name="Exercises").get_by_role("listitem")

@@ -130,7 +130,6 @@ def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still
     assert still_lab.read()["configuration"]["rivals"] == []
 
 
-@pytest.mark.smoke
 def test_a_recording_is_begun_told_and_ended(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     page.get_by_role("button", name="Record", exact=True).click()

@@ -133,7 +133,6 @@ def test_it_takes_the_dark_theme_of_the_system(opened: Opened) -> None:
     expect_theme(opened.page, "dark")
 
 
-@pytest.mark.smoke
 def test_one_scrubber_moves_the_3d_view_and_the_plots_together(
     opened: Opened, exported: Path
 ) -> None:

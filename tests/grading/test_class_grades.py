@@ -78,6 +78,7 @@ def test_side_by_side_each_gets_the_grade_that_it_gets_alone(store):
     assert "one of feedback-linearization" in beside[-1].problem
 
 
+@pytest.mark.exhaustive
 def test_a_grader_that_is_lost_refuses_nobody_s_work(store, monkeypatch):
     monkeypatch.setattr(grader_queue, "grade_file", end_process)
     with pytest.raises(GraderLostError, match="from outside"):

@@ -29,6 +29,7 @@ STOPS = GOOD.replace(
 )
 
 
+@pytest.mark.exhaustive
 @pytest.mark.usefixtures("short_season")
 def test_a_submitted_laws_worst_run_is_the_one_that_was_measured(tmp_path, monkeypatch):
     board = Board(tmp_path)

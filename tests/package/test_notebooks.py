@@ -7,13 +7,12 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-from tests.exhaustive import exhaust
-
 FOLDER = Path(__file__).parents[2] / "docs" / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 
 
-@pytest.mark.parametrize("path", exhaust(NOTEBOOKS, NOTEBOOKS[-1:]), ids=lambda path: path.stem)
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs_and_is_kept_without_what_it_printed(path, tmp_path, monkeypatch):
     notebook = nbformat.read(path, as_version=4)
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]

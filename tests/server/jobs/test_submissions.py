@@ -60,6 +60,7 @@ def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
     assert lab.get(BOARD).json()["entries"] == []
 
 
+@pytest.mark.exhaustive
 def test_a_submission_is_followed_and_broken_off_and_enters_nothing(lab):
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": LAZY.decode()}).json()
     name = begun["job"]["id"]

@@ -49,6 +49,7 @@ def test_the_shared_session_is_not_ended(lab: Lab) -> None:
     assert "reset" in answer.json()["detail"]
 
 
+@pytest.mark.exhaustive
 def test_there_are_only_so_many_and_idle_ones_end(small_lab: Lab) -> None:
     names = [create(small_lab)["session"] for _ in range(2)]
     refused = small_lab.client.post(SESSIONS, json={})
