@@ -118,7 +118,6 @@ def is_as_wide_as_the_view(page: Page) -> bool:
     return table["width"] <= view["width"] + 1
 
 
-@pytest.mark.smoke
 @pytest.mark.parametrize("name", exhaust([*RIGHT], ["mechanism"]))
 def test_an_exercise_is_done_and_handed_in_by_keyboard(page: Page, lab: Lab, name: str) -> None:
     exercise = find_exercise(name)

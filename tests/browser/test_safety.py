@@ -38,7 +38,6 @@ def wait_for_status(page: Page, lab: Lab, status: str) -> None:
     raise AssertionError(f"the session is {lab.read()['status']}, not {status}")
 
 
-@pytest.mark.smoke
 def test_the_status_bar_is_in_sight_and_tells_what_runs(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     bar = page.get_by_role("region", name="Status", exact=True)

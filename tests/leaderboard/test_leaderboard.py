@@ -177,6 +177,7 @@ def test_a_board_of_an_earlier_suite_shows_none_of_it(tmp_path, monkeypatch):
     assert board.list() == []
 
 
+@pytest.mark.exhaustive
 @pytest.mark.usefixtures("short_season")
 def test_where_nothing_isolates_nothing_is_entered_and_practice_says_so(tmp_path, monkeypatch):
     file = tmp_path / "law.py"

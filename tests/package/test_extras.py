@@ -72,6 +72,7 @@ def run_without(extras: tuple[str, ...], program: str) -> str:
     return done.stdout
 
 
+@pytest.mark.exhaustive
 def test_the_library_simulates_without_any_extra():
     program = (
         "import svsa, svsa.cli\n"

@@ -101,6 +101,7 @@ def test_a_client_that_was_ended_leaves_what_another_goes_on_with(cluster, whole
     assert read_table(stored) == whole
 
 
+@pytest.mark.exhaustive
 def test_what_a_lost_worker_had_is_run_by_another_once(cluster, whole, tmp_path):
     """It is held first, so that it has parts when it is killed, and given no chance to finish."""
     address, workers = cluster
