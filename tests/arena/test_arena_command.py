@@ -43,6 +43,7 @@ def test_a_law_that_is_not_installed_is_refused_before_anything_runs():
         run("fl", "no_law")
 
 
+@pytest.mark.exhaustive
 @pytest.mark.long
 def test_a_row_as_json_and_as_markdown():
     """FL: what it does not hold is null in JSON and a word in the table, and no number."""

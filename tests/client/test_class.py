@@ -21,6 +21,9 @@ from tests.client.copied_script import (
 )
 from tests.lab import run_lab
 
+pytestmark = pytest.mark.exhaustive
+"""What a token lets its bearer do is shown over REST, in `tests/server/access`."""
+
 ADA, BOB = Person("p-1", "Ada", Role.OPERATOR), Person("p-2", "Bob", Role.OPERATOR)
 
 
@@ -105,7 +108,6 @@ def test_a_script_whose_maker_is_removed_is_told_so(
         assert ada.session.law
 
 
-@pytest.mark.exhaustive
 def test_a_copied_script_asks_for_control_like_a_person(
     tokens: tuple[str, str, str, str], tmp_path: Path
 ) -> None:
