@@ -118,6 +118,22 @@ def test_the_panel_fits_the_screen(page: Page, panel: Locator) -> None:
 
     until(page, is_within)
     page.wait_for_function("document.documentElement.scrollHeight <= innerHeight")
+    panel.evaluate("panel => panel.scrollTo(0, panel.scrollHeight)")
+    panel.get_by_role("button", name="Close").click(timeout=WORKER_MS)
+    expect(panel).to_be_hidden()
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("width", [390, 820, 1280])
+def test_what_is_opened_over_the_lab_leaves_the_transport_in_reach(
+    page: Page, still_lab: Lab, width: int
+) -> None:
+    page.set_viewport_size({"width": width, "height": 844})
+    open_page(page, still_lab)
+    page.keyboard.press("?")
+    below = get_box(page.get_by_role("dialog", name="Keyboard"))["y"]
+    transport = get_box(page.get_by_role("button", name="Run", exact=True))
+    assert transport["y"] + transport["height"] <= below
 
 
 def test_an_unstable_design_fails_in_a_simulation_of_its_own(
