@@ -8,10 +8,9 @@ PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type
 # All but the peers of `svsa bench`, which are large and which nothing here needs.
 LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti
 # Each module in one process: in the order of the folders, the browser last, since its driver keeps
-# an event loop running. On two cores one more, or two, for what waits for something most of the time.
+# an event loop running. On two cores two more, for what waits for something most of the time.
 SIDE_BY_SIDE := --dist loadfile --no-loadscope-reorder
 BY_FOUR := -n 4 $(SIDE_BY_SIDE)
-BY_THREE := -n 3 $(SIDE_BY_SIDE)
 # What computes all the time, and in `make test` what is against the clock and waits for a rig.
 BY_TWO := -n 2 $(SIDE_BY_SIDE)
 # A search at less depth than `make test-all`'s (tests/conftest.py).
@@ -42,7 +41,7 @@ bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 
 test: .venv/installed $(PAGE)  ## each promise of the lab where it is soonest shown, and the main ways
 	@$(COMPILE_AND_TEST_PAGE)
-	$(BIN)/pytest $(BY_THREE) $(SHOWN) -m "not exhaustive and not wall_clock and (smoke or not browser)"
+	$(BIN)/pytest $(BY_FOUR) $(SHOWN) -m "not exhaustive and not wall_clock and (smoke or not browser)"
 	$(BIN)/pytest $(BY_TWO) -m "not exhaustive and wall_clock and smoke" $(WALL_CLOCK)
 
 test-all: COMPILED = --exhaustive
