@@ -1,18 +1,29 @@
-"""A worker gives way once, however deep it stands."""
+"""A worker gives way once, however deep it stands, and begins with what has been read already."""
 
-import multiprocessing
 import os
-from concurrent.futures import ProcessPoolExecutor
+import sys
 
-from svsa.worker_process import give_way
+import pytest
+
+from svsa.worker_process import give_way, start_workers
 
 
-def give_way_below_one_who_did():
+def give_way_again() -> int:
     give_way()
-    give_way()
+    return os.nice(0)
 
 
-def test_a_workers_worker_has_its_priority():
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(1, spawn, give_way_below_one_who_did) as pool:
-        assert pool.submit(os.nice, 0).result() == max(10, os.nice(0))
+def list_read() -> set[str]:
+    return set(sys.modules)
+
+
+def test_a_workers_worker_has_its_priority() -> None:
+    with start_workers(1) as pool:
+        assert pool.submit(give_way_again).result() == max(10, os.nice(0))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there each worker reads all for itself")
+def test_a_worker_has_what_was_read_when_the_first_began() -> None:
+    with start_workers(1) as pool:
+        pool.submit(os.getpid).result()
+        assert "svsa.code_cache" in pool.submit(list_read).result()

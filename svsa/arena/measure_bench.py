@@ -4,7 +4,6 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, wait
 from itertools import product
-from multiprocessing import get_context
 from queue import Queue
 
 from svsa.arena.bench_runs import NUMBERS, BenchRun, BenchRuns
@@ -14,6 +13,7 @@ from svsa.errors import FaultError
 from svsa.extras import require_extra
 from svsa.release import __version__
 from svsa.run.figure import DURATION_S, get_figure
+from svsa.worker_process import choose_start
 
 POLL_S = 0.2
 Job = tuple[str, str]
@@ -58,7 +58,7 @@ def measure_run(number: int, job: Job, tell: TellOf) -> BenchRun:
 
 def _measure_side_by_side(jobs: Sequence[Job], workers: int, tell: TellOf) -> tuple[BenchRun, ...]:
     """In processes of their own, which say through a queue how far they are."""
-    context = get_context("spawn")
+    context = choose_start()
     with context.Manager() as manager, ProcessPoolExecutor(workers, context) as pool:
         told: Queue[tuple[int, float]] = manager.Queue()
         asked = [pool.submit(_measure_apart, n, job, told) for n, job in enumerate(jobs)]

@@ -2,9 +2,8 @@
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from functools import cache
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Self
 
@@ -15,6 +14,7 @@ from svsa.arena.row import Row
 from svsa.arena.seeds import PUBLIC_SEED, SUITE_VERSION
 from svsa.checked import Checked, quantity
 from svsa.errors import ParameterError, Violation
+from svsa.worker_process import start_workers
 
 PUBLISHED = Path(__file__).parent / "results.json"
 
@@ -99,7 +99,7 @@ def measure_laws(
 
 def _measure_side_by_side(laws: Sequence[str], seed: int) -> Iterator[Row]:
     workers = min(len(laws), os.cpu_count() or 1)
-    with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
+    with start_workers(workers) as pool:
         asked = [pool.submit(_measure, law, seed) for law in laws]
         try:
             for answer in as_completed(asked):

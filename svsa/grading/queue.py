@@ -2,11 +2,10 @@
 
 import os
 from collections.abc import Callable, Generator, Iterable
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from itertools import islice
-from multiprocessing import get_context
 from pathlib import Path
 
 from svsa.course.exercise import Exercise
@@ -14,7 +13,7 @@ from svsa.errors import ParameterError, StateError, Violation
 from svsa.grading.book import Book
 from svsa.grading.grade import Grade, grade
 from svsa.grading.submission import Submission
-from svsa.worker_process import give_way
+from svsa.worker_process import start_workers
 
 _WAITING_EACH = 2
 
@@ -70,7 +69,7 @@ def grade_side_by_side(
         for path in waiting:
             yield path, partial(grade_file, path, exercises, runs, book, again)
         return
-    with ProcessPoolExecutor(workers, get_context("spawn"), give_way) as pool:
+    with start_workers(workers) as pool:
         asked = dict[Future[Grade], Path]()
         try:
             while True:

@@ -1,13 +1,12 @@
 """Who runs the parts of a study: this process, or processes of this machine."""
 
-import multiprocessing
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 
 from svsa.study.store import Span, StoredStudy, StudyError
 from svsa.study.work import run_part
-from svsa.worker_process import give_way
+from svsa.worker_process import start_workers
 
 Part = tuple[Span, bytes]
 """Draws, and their rows as a Parquet file."""
@@ -31,8 +30,7 @@ class Pool:
 
     def run_parts(self, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
         """The parts of these spans; after an interruption those that were being worked at."""
-        context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(self._workers, context, give_way) as pool:
+        with start_workers(self._workers) as pool:
             begun: dict[Future[bytes], Span] = {}
             interrupted: KeyboardInterrupt | None = None
             while True:

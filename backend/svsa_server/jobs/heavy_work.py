@@ -5,7 +5,6 @@ low priority. Who finds the queue full is told to come again.
 """
 
 import asyncio
-import multiprocessing
 import os
 import tempfile
 from collections.abc import Callable
@@ -15,7 +14,7 @@ from pathlib import Path
 from typing import IO, TypeVar
 
 from svsa.errors import SvsaError
-from svsa.worker_process import give_way
+from svsa.worker_process import start_workers
 
 MAX_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
 RETRY_AFTER_S = 5
@@ -66,12 +65,7 @@ class HeavyWork:
 
     def _get_pool(self) -> ProcessPoolExecutor:
         if self._pool is None:
-            self._pool = ProcessPoolExecutor(
-                self._workers,
-                multiprocessing.get_context("spawn"),
-                give_way,
-                max_tasks_per_child=_JOBS_A_WORKER,
-            )
+            self._pool = start_workers(self._workers, _JOBS_A_WORKER)
         return self._pool
 
     def close(self) -> None:
