@@ -128,7 +128,7 @@ def build_app(
     install_error_handlers(app)
     app.router.routes.extend(build_routes())
     app.router.routes.extend(build_page_routes())
-    install_openapi(app, needs_secret=door.kind != "open")
+    install_openapi(app, build_routes, needs_secret=door.kind != "open")
     return app
 
 

@@ -1,13 +1,18 @@
 """The OpenAPI schema: what FastAPI knows of the routes, and what goes for all of them."""
 
+from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
+from starlette.routing import BaseRoute
 
 from svsa_server.access.guard import LONGEST_BODY_BYTES
 from svsa_server.access.permissions import find_permission
 from svsa_server.problems import MEDIA_TYPE
+
+BuildRoutes = Callable[[], list[BaseRoute]]
 
 SCHEME = "bearer"
 UPGRADED = "default"
@@ -17,21 +22,28 @@ _METHODS = ("get", "put", "post", "patch", "delete")
 _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
 
 
-def install_openapi(app: FastAPI, needs_secret: bool) -> None:
-    """Have the application answer with this schema. needs_secret: whether a secret is set."""
+def install_openapi(app: FastAPI, build_routes: BuildRoutes, needs_secret: bool) -> None:
+    """Have the application answer with the schema of these routes.
+
+    build_routes: gives the same ones each time. needs_secret: whether a secret is set.
+    """
 
     def build() -> dict[str, Any]:
-        if app.openapi_schema is None:
-            schema = get_openapi(
-                title=app.title,
-                version=app.version,
-                description=app.description,
-                routes=app.routes,
-            )
-            app.openapi_schema = _complete(schema, needs_secret)
+        about = (app.title, app.version, app.description)
+        app.openapi_schema = _build_schema(*about, build_routes, needs_secret)
         return app.openapi_schema
 
     app.openapi = build
+
+
+@cache
+def _build_schema(
+    title: str, version: str, description: str, build_routes: BuildRoutes, needs_secret: bool
+) -> dict[str, Any]:
+    schema = get_openapi(
+        title=title, version=version, description=description, routes=build_routes()
+    )
+    return _complete(schema, needs_secret)
 
 
 def _complete(schema: dict[str, Any], needs_secret: bool) -> dict[str, Any]:

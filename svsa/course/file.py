@@ -3,6 +3,7 @@
 import os
 import re
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,6 +13,8 @@ from svsa.toml_file import parse_toml, tell_place
 
 EXERCISE_FILE = "exercise file"
 FENCE = "+++"
+MAX_KEPT = 64
+"""Exercises that are not read anew while their files stay as they are."""
 FOLDER_VARIABLE = "SVSA_COURSE"
 _BUILT_IN = Path(__file__).parent / "exercises"
 _HEADING = re.compile(r"##\s+(\S+)\s*")
@@ -61,6 +64,7 @@ def read_exercise(path: Path | str) -> Exercise:
     return parse_exercise(text, Path(path).stem, str(path))
 
 
+@lru_cache(MAX_KEPT)
 def parse_exercise(text: str, name: str, place: str = "") -> Exercise:
     """The exercise in a text; raises `ParameterError` as `read_exercise`, `place` as the file.
 

@@ -10,6 +10,7 @@ import contextlib
 import gzip
 import hashlib
 import math
+import ssl
 from collections.abc import Awaitable, Callable
 from typing import NamedTuple
 
@@ -30,6 +31,8 @@ MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
 _CONNECT_TIMEOUT_S = 5.0
 _SEND_TIMEOUT_S = 20.0
+_NOBODY = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+"""Whom a connection to a port of this machine, which is not encrypted, has to trust."""
 _SUBPROTOCOL_PREFIX = "viser-v"
 _KEPT_HEADERS = ("content-type",)
 _INJECTED = (
@@ -107,7 +110,9 @@ class ViserProxy:
 
     def __init__(self, find_port: Callable[[str], Awaitable[int]]) -> None:
         self._find_port = find_port
-        self._http = httpx.AsyncClient(trust_env=False, timeout=_CONNECT_TIMEOUT_S)
+        self._http = httpx.AsyncClient(
+            verify=_NOBODY, trust_env=False, timeout=_CONNECT_TIMEOUT_S
+        )
         self._page: _Page | None = None
 
     @property

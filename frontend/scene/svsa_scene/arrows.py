@@ -1,8 +1,10 @@
 """Torques as curved arrows about their axis: longer with the torque, turned with its sign."""
 
 import math
+from functools import cache
 from typing import NamedTuple
 
+import trimesh
 import viser
 
 from svsa_scene import appearance as look
@@ -67,7 +69,7 @@ class TorqueArrow:
         self._root = scene.add_frame(
             node, show_axes=False, position=(0.0, 0.0, place.z), visible=False
         )
-        arc = join([make_arc(radius, _WIRE, _PIECE)])
+        arc = _build_piece(radius)
         self._pieces = [
             scene.add_mesh_simple(
                 f"{node}/{number}",
@@ -81,9 +83,7 @@ class TorqueArrow:
             for number in range(_PIECES)
         ]
         self._head = scene.add_frame(f"{node}/h", show_axes=False)
-        cone = make_arrow_head(3.2 * _WIRE, _HEAD)
-        cone.apply_translation((radius, 0.0, 0.0))
-        head = join([make_arc(radius, _WIRE, -_PIECE), cone])
+        head = _build_head(radius)
         scene.add_mesh_simple(
             f"{node}/h/m", head.vertices, head.faces, color=color, cast_shadow=False
         )
@@ -140,3 +140,17 @@ class TorqueArrows:
         self._link.show(pose.disturbance_link_nm)
         self._motor1.show(pose.disturbance_motor1_nm)
         self._motor2.show(pose.disturbance_motor2_nm)
+
+
+@cache
+def _build_piece(radius: float) -> trimesh.Trimesh:
+    """A piece of arc, from +x on."""
+    return join([make_arc(radius, _WIRE, _PIECE)])
+
+
+@cache
+def _build_head(radius: float) -> trimesh.Trimesh:
+    """What ends an arc at +x."""
+    cone = make_arrow_head(3.2 * _WIRE, _HEAD)
+    cone.apply_translation((radius, 0.0, 0.0))
+    return join([make_arc(radius, _WIRE, -_PIECE), cone])

@@ -33,7 +33,7 @@ class DeflectionLimit:
         self._marks = []
         for name in ("m", "n"):
             self._marks.append(scene.add_frame(f"/a/c/{name}", show_axes=False))
-            glb = mechanism.export(mechanism.build_limit_mark())
+            glb = mechanism.export(mechanism.build_limit_mark)
             scene.add_glb(f"/a/c/{name}/solid", glb)
 
     def show(self, limit_rad: float) -> None:

@@ -4,6 +4,9 @@ z of a part is its place along the joint axis, from the motor at the back (negat
 in front. Colour tells the axis: blue turns with θ1, brass with θ2, white with q.
 """
 
+from collections.abc import Callable, Hashable
+from functools import cache
+
 import numpy as np
 import trimesh
 from trimesh.exchange.gltf import export_glb
@@ -191,9 +194,10 @@ def build_limit_mark() -> Group:
     return [look.paint(join([make_plate(outline, (SECTOR_Z - 0.02, SECTOR_Z + 0.02))]), look.LIMIT)]
 
 
-def export(group: Group) -> bytes:
-    """The group as one binary glTF."""
-    return export_glb(trimesh.Scene(group), include_normals=True)
+@cache
+def export(build: Callable[..., Group], *arguments: Hashable) -> bytes:
+    """The group that this function builds, as one binary glTF: the same for every scene."""
+    return export_glb(trimesh.Scene(build(*arguments)), include_normals=True)
 
 
 def _make_upright(floor: float, z: tuple[float, float]) -> trimesh.Trimesh:

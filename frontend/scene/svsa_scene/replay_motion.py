@@ -142,8 +142,7 @@ def _add_ghost(
         position=(0.0, 0.0, _GHOST_STEP * lane),
         visible=stretch.first <= 0,
     )
-    group = [look.paint(mesh, finish) for mesh in mechanism.build_ghost()]
-    server.scene.add_glb(f"{node}/solid", mechanism.export(group))
+    server.scene.add_glb(f"{node}/solid", mechanism.export(_build_ghost, finish))
     if name:
         add_label(server, f"{node}/t", name, _ON_GHOST)
     return frame
@@ -203,3 +202,7 @@ def _pack_track(key: _Key, frames: list[int], values: list[Any], pack: ArrayPack
         rows = [np.broadcast_to(np.asarray(value, dtype=float), width) for value in values]
         return track | {"width": width, "values": pack.add(rows), "smooth": key.field in _SMOOTH}
     return track | {"words": values}
+
+
+def _build_ghost(finish: look.Finish) -> mechanism.Group:
+    return [look.paint(mesh, finish) for mesh in mechanism.build_ghost()]

@@ -50,5 +50,5 @@ class Rivals:
     def _paint(self, number: int) -> None:
         """The outline in its ink, in place of the one before."""
         finish = look.Finish(look.get_ink_color(self._inks[number]), 0.0, 0.7, 0.75)
-        solid = mechanism.export(mechanism.build_rival(finish, number))
+        solid = mechanism.export(mechanism.build_rival, finish, number)
         self._scene.add_glb(f"/a/r{number}/solid", solid)

@@ -1,7 +1,10 @@
 """The actuator in a viser scene: built once, then moved by poses only."""
 
 import math
+from collections.abc import Callable
+from functools import cache
 
+import trimesh
 import viser
 
 from svsa_scene import appearance as look
@@ -63,17 +66,17 @@ class ActuatorScene:
         scene = self._server.scene
         half = math.sqrt(0.5)
         scene.add_frame("/a", show_axes=False, wxyz=(half, 0.0, half, 0.0))
-        self._add("/a/stand", mechanism.build_stand())
-        self._connector = self._add("/a/c", mechanism.build_connector())
-        self._plate = self._add("/a/c/s", mechanism.build_spiral_plate())
-        self._pivot = self._add("/a/c/p", mechanism.build_pivot())
+        self._add("/a/stand", mechanism.build_stand)
+        self._connector = self._add("/a/c", mechanism.build_connector)
+        self._plate = self._add("/a/c/s", mechanism.build_spiral_plate)
+        self._pivot = self._add("/a/c/p", mechanism.build_pivot)
         self._limit = DeflectionLimit(self._server, self._moved)
-        self._link = self._add("/a/l", mechanism.build_link())
-        self._lever = self._add("/a/l/v", mechanism.build_lever())
+        self._link = self._add("/a/l", mechanism.build_link)
+        self._lever = self._add("/a/l/v", mechanism.build_lever)
         self._lever.position = (-RADIUS, 0.0, 0.0)
-        self._block = self._add("/a/l/b", mechanism.build_block())
-        self._ghost = self._add("/a/g", mechanism.build_ghost())
-        self._load = self._add("/a/w", mechanism.build_load())
+        self._block = self._add("/a/l/b", mechanism.build_block)
+        self._ghost = self._add("/a/g", mechanism.build_ghost)
+        self._load = self._add("/a/w", mechanism.build_load)
         self._load.visible = False
         self._add_springs()
         self._add_sector()
@@ -81,14 +84,14 @@ class ActuatorScene:
         self._arrows = TorqueArrows(self._server, self._moved)
         self._rivals = Rivals(self._server, self._moved)
 
-    def _add(self, name: str, group: mechanism.Group) -> viser.SceneNodeHandle:
+    def _add(self, name: str, build: Callable[[], mechanism.Group]) -> viser.SceneNodeHandle:
         scene = self._server.scene
         frame = scene.add_frame(name, show_axes=False)
-        scene.add_glb(f"{name}/solid", mechanism.export(group))
+        scene.add_glb(f"{name}/solid", mechanism.export(build))
         return frame
 
     def _add_springs(self) -> None:
-        helix = join([make_helix(0.1, 0.022, 7)])
+        helix = _build_helix()
         self._springs = [
             self._server.scene.add_mesh_simple(
                 f"/a/l/{name}",
@@ -155,3 +158,9 @@ class ActuatorScene:
             self._stiffness_step = step
             for spring in self._springs:
                 spring.color = look.get_stiffness_color(step)
+
+
+@cache
+def _build_helix() -> trimesh.Trimesh:
+    """A spring of unit length."""
+    return join([make_helix(0.1, 0.022, 7)])
