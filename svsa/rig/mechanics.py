@@ -5,12 +5,25 @@ Between two events all periods are one compiled call.
 """
 
 import math
+from typing import NamedTuple
 
+import numpy as np
+
+from svsa.compilation import compiled
 from svsa.errors import StateError
-from svsa.model.dynamics import build_actuator
+from svsa.loop.lane import AT_REST, NO_TORQUE
+from svsa.loop.measured import read_state, store_state, store_torque
+from svsa.model.dynamics import Actuator, build_actuator
 from svsa.model.lever import compute_lever_ratio_slope
-from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table, schedule_load
-from svsa.plant.effects import Effects, build_bench
+from svsa.packed import pack, view_field
+from svsa.plant.disturbances import (
+    Load,
+    LoadTable,
+    ScheduledLoad,
+    build_load_table,
+    schedule_load,
+)
+from svsa.plant.effects import Bench, Effects, build_bench
 from svsa.plant.integration import coast
 from svsa.plant.stops import Stops
 from svsa.rig.parameters import RigParameters
@@ -18,9 +31,37 @@ from svsa.signals import State, Torque
 
 GRID_US = 100
 MAX_LOADS = 100
-AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-NO_TORQUE = Torque(0.0, 0.0)
 _PERIOD_S = GRID_US * 1e-6
+
+
+class _Plant(NamedTuple):
+    """What stays as it is: the true actuator, its effects, its stops."""
+
+    actuator: Actuator
+    bench: Bench
+    stops: Stops
+
+
+class _Moving(NamedTuple):
+    """Where it is; what the motors make, and what they are asked for, N·m."""
+
+    x: State = AT_REST
+    torque: Torque = NO_TORQUE
+    target: Torque = NO_TORQUE
+
+
+@compiled
+def _coast_on(
+    plant: np.ndarray, moving: np.ndarray, table: LoadTable, tick: int, count: int
+) -> None:
+    """`coast` with a `_Plant` and a `_Moving` that are packed: cheap to call from Python."""
+    p, m = plant[0], moving[0]
+    torque, target = Torque(m.torque.u1, m.torque.u2), Torque(m.target.u1, m.target.u2)
+    x, made = coast(
+        p.actuator, p.bench, p.stops, read_state(m.x), torque, target, table, tick, _PERIOD_S, count
+    )
+    store_state(m.x, x)
+    store_torque(m.torque, made)
 
 
 class Mechanics:
@@ -34,17 +75,22 @@ class Mechanics:
         p = parameters
         effects = Effects(friction=p.friction, current_lag=p.current_lag, gravity=p.gravity)
         slope = compute_lever_ratio_slope(p.actuator.spiral_reduction)
-        self._actuator = build_actuator(p.actuator, p.lever_ratio)
-        self._bench = build_bench(effects, p.seed, p.actuator, _PERIOD_S)
-        self._stops = Stops(
-            (p.lever_ratio_min - p.lever_ratio) / slope,
-            (p.lever_ratio_max - p.lever_ratio) / slope,
-            float(p.deflection_max_rad),
+        plant = _Plant(
+            build_actuator(p.actuator, p.lever_ratio),
+            build_bench(effects, p.seed, p.actuator, _PERIOD_S),
+            Stops(
+                (p.lever_ratio_min - p.lever_ratio) / slope,
+                (p.lever_ratio_max - p.lever_ratio) / slope,
+                float(p.deflection_max_rad),
+            ),
         )
+        self._plant, self._moving = pack(plant), pack(_Moving())
+        self._state = view_field(self._moving, "x")
+        self._made = view_field(self._moving, "torque")
+        self._asked = view_field(self._moving, "target")
         self._tick = 0
         self._x = AT_REST
-        self.torque = NO_TORQUE
-        self.target = NO_TORQUE
+        self.torque = self.target = NO_TORQUE
         self._loads: tuple[ScheduledLoad, ...] = ()
         self._table = build_load_table(())
         self._load_count = 0
@@ -76,6 +122,7 @@ class Mechanics:
         if target != self.target:
             self._coast(-(-time_us // GRID_US))
             self.target = target
+            self._asked[:] = target
 
     def add_load(self, time_us: int, load: Load) -> int:
         """Hang a load on; its `start_s` is the rig's time. Returns its number.
@@ -100,22 +147,13 @@ class Mechanics:
     def home(self, time_us: int) -> None:
         """Put the mechanism to its zero marks, at rest, as an operator does by hand."""
         self._coast(-(-time_us // GRID_US))
-        self._x = AT_REST
+        self._state[:] = self._x = AT_REST
 
     def _coast(self, tick: int) -> None:
         if tick > self._tick or self._tick == 0:
-            self._x, self.torque = coast(
-                self._actuator,
-                self._bench,
-                self._stops,
-                self._x,
-                self.torque,
-                self.target,
-                self._table,
-                self._tick,
-                _PERIOD_S,
-                tick - self._tick,
-            )
+            _coast_on(self._plant, self._moving, self._table, self._tick, tick - self._tick)
             self._tick = max(tick, self._tick)
+            self._x = State(*self._state.tolist())
+            self.torque = Torque(*self._made.tolist())
         if not math.isfinite(sum(self._x)):
             raise StateError("The emulated mechanism has left all bounds: home it.")
