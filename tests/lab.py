@@ -115,9 +115,9 @@ def end(process: subprocess.Popen[str]) -> None:
     """As Ctrl-C does, where it has not ended yet: it has to end by itself, and soon."""
     if process.poll() is not None:
         return
-    process.terminate()
+    process.send_signal(signal.SIGINT)
     try:
-        assert process.wait(END_TIMEOUT_S) in (0, -signal.SIGTERM)
+        assert process.wait(END_TIMEOUT_S) in (0, 130)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()

@@ -1,5 +1,6 @@
 """Who may come in: loopback without a secret, everyone who knows it with one."""
 
+import signal
 import socket
 import sys
 from collections.abc import Iterator
@@ -119,6 +120,14 @@ def test_a_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
             guarded_lab.stream_url, additional_headers={"Cookie": f"{name}={value}"}, proxy=None
         ) as stream:
             assert "hello" in str(stream.recv(timeout=10))
+
+
+@pytest.mark.exhaustive  # every lab of the tests ends by Ctrl-C, so that it does is shown there
+def test_a_service_manager_ends_the_lab_quickly_though_somebody_looks_on() -> None:
+    with run_lab() as lab, connect(lab.stream_url, proxy=None) as stream:
+        assert "hello" in str(stream.recv(timeout=10))
+        lab.process.terminate()
+        assert lab.process.wait(15) in (0, -signal.SIGTERM)
 
 
 def test_an_open_lab_has_neither_class_nor_persons(lab) -> None:

@@ -23,6 +23,7 @@ from tests.server.access.classroom import (
     wait_for_run,
 )
 
+WHOLE_COST = True
 ADA = Person("p-1", "Ada", Role.OPERATOR)
 
 
