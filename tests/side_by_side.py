@@ -30,7 +30,7 @@ LONGEST = (
 WORTH = 20
 """So many modules of the browser's there must be for each process that goes over to them."""
 
-OTHERS_EACH = 10
+OTHERS_EACH = 6
 """So many others are done by the rest in the time that one module of the browser's takes."""
 
 

@@ -3,11 +3,10 @@
 import asyncio
 import contextlib
 from collections.abc import AsyncIterator
-from functools import cache, partial
+from functools import partial
 from typing import TYPE_CHECKING
 
-from fastapi import APIRouter, FastAPI
-from fastapi.routing import APIRoute
+from fastapi import FastAPI
 from starlette.routing import BaseRoute
 
 import svsa
@@ -54,6 +53,11 @@ from svsa_server.routes import (
     outcomes,
     recordings,
     references,
+    run_difference,
+    run_files,
+    run_origins,
+    run_samples,
+    run_verdict,
     runs,
     scenarios,
     sessions,
@@ -103,7 +107,6 @@ def build_app(
         lifespan=_live,
         docs_url=None,
         redoc_url=None,
-        generate_unique_id_function=get_name,
     )
     app.state.door = door
     app.state.config = config
@@ -132,11 +135,9 @@ def build_app(
     return app
 
 
-@cache
 def build_routes() -> list[BaseRoute]:
     """All that is asked below /api/v1, and of a platform: the same for every application."""
-    api = APIRouter(prefix="/api/v1")
-    for part in (
+    parts = (
         lab,
         access,
         classroom,
@@ -153,6 +154,11 @@ def build_routes() -> list[BaseRoute]:
         course,
         grades,
         references,
+        run_samples,
+        run_files,
+        run_origins,
+        run_difference,
+        run_verdict,
         runs,
         jobs,
         tunings,
@@ -162,17 +168,9 @@ def build_routes() -> list[BaseRoute]:
         arena,
         leaderboard,
         outcomes,
-    ):
-        api.include_router(part.router)
-    whole = APIRouter(generate_unique_id_function=get_name)
-    whole.include_router(api)
-    whole.include_router(lti.router)
-    return whole.routes
-
-
-def get_name(route: APIRoute) -> str:
-    """An operation's id: the name of its function."""
-    return route.name
+        lti,
+    )
+    return [route for part in parts for route in part.router.routes]
 
 
 def build_door(config: Settings, keys: ClassKeys | None = None) -> Door:

@@ -10,7 +10,6 @@ from dataclasses import asdict
 from typing import IO, Any
 
 import numpy as np
-from scipy.io import savemat
 
 from svsa.records.header import RecordError
 from svsa.records.reader import Record
@@ -45,6 +44,8 @@ def write_mat(record: Record, stream: IO[bytes]) -> None:
         columns = {name: samples[:, number, [i]] for i, name in enumerate(names)}
         content[lane] = columns
         content["time_s"] = columns.get("time_s", content["time_s"])
+    from scipy.io import savemat  # takes a server 0.15 s to read, for the few who want this format
+
     savemat(stream, content, long_field_names=True, do_compression=True, oned_as="column")
 
 

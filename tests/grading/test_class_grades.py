@@ -17,7 +17,6 @@ from tests.course.runs import find_exercise
 from tests.isolation.test_attacks import isolation  # noqa: F401
 
 FL, OWN = "feedback-linearization", "own-law"
-EXERCISES = {name: find_exercise(name) for name in (FL, OWN)}
 BROKEN = "def law(*given):\n    return spring\n"
 
 
@@ -37,7 +36,12 @@ def end_process(*_):
 
 def give(store, again=False, **more):
     return grade_class(
-        store.list_hand_ins(), EXERCISES, store.folder, open_book(store), again, **more
+        store.list_hand_ins(),
+        {name: find_exercise(name) for name in (FL, OWN)},
+        store.folder,
+        open_book(store),
+        again,
+        **more,
     )
 
 

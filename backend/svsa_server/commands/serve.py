@@ -53,7 +53,8 @@ class AnnouncedServer(uvicorn.Server):
     """A server that says where it is once it answers there.
 
     What is there by then stays to the end: Python, which would look through it for circles again
-    and again, 0.2 s a time in which nothing else goes on, leaves it alone.
+    and again, 0.2 s a time in which nothing else goes on, does so from then on only, and leaves
+    it alone.
     """
 
     announcement = ""
@@ -62,6 +63,7 @@ class AnnouncedServer(uvicorn.Server):
         """Start as uvicorn does, then print the announcement."""
         await super().startup(sockets)
         gc.freeze()
+        gc.enable()
         if self.started:
             Console(soft_wrap=True).print(self.announcement, highlight=False)
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Request, Response
+from fastapi import Body, Request, Response
 from fastapi.responses import JSONResponse
 
 from svsa.errors import StateError
@@ -12,6 +12,7 @@ from svsa_server.access.roles import Person, Role
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.classroom import find_class
 from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.routing import build_router
 from svsa_server.schemas.access import (
     AccessState,
     JoinRequest,
@@ -23,7 +24,7 @@ from svsa_server.schemas.access import (
     TokenState,
 )
 
-router = APIRouter(tags=["access"])
+router = build_router(tags=["access"])
 _COOKIE_AGE_S = 30 * 24 * 3600
 _WRONG = {401: {"model": Problem, "description": "A wrong secret, token or code"}}
 

@@ -3,7 +3,7 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Path, Request
+from fastapi import Body, Path, Request
 
 from svsa.arena.find import find_scenario
 from svsa.arena.measure import Entry, measure_law
@@ -11,11 +11,12 @@ from svsa.arena.results import Results, load_published
 from svsa.arena.seen import build_seen
 from svsa.control.installed import InstalledLaw
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
+from svsa_server.routing import build_router
 from svsa_server.schemas.arena import MeasuredRow, ScenarioRequest
 from svsa_server.schemas.session import SessionState
 from svsa_server.sessions.state import build_state
 
-router = APIRouter(prefix="/arena", tags=["arena"])
+router = build_router("/arena", tags=["arena"])
 
 
 @router.get("", responses={422: REFUSALS[422]})

@@ -3,16 +3,17 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Query, Request
+from fastapi import Query, Request
 
 from svsa.records.catalogue.runs import find_data_folder
 from svsa_server.access.audit_reading import Question, list_operations, read_audit
 from svsa_server.routes.classroom import find_class
 from svsa_server.routes.depends import BUSY, REFUSALS, Work
+from svsa_server.routing import build_router
 from svsa_server.schemas.audit import AuditPage
 
-router = APIRouter(
-    prefix="/class", tags=["class"], responses={409: REFUSALS[409], 422: REFUSALS[422]} | BUSY
+router = build_router(
+    "/class", tags=["class"], responses={409: REFUSALS[409], 422: REFUSALS[422]} | BUSY
 )
 LONGEST_WORD = 80
 Word = Annotated[str, Query(max_length=LONGEST_WORD)]

@@ -3,7 +3,7 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Body
+from fastapi import Body
 
 from svsa.bench.endurance import find_endurance
 from svsa.errors import StateError
@@ -11,13 +11,14 @@ from svsa.plant.disturbances import Load
 from svsa.session.bench import BenchSession
 from svsa.session.session import Session
 from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routing import build_router
 from svsa_server.schemas.bench import EnduranceState, HomingRequest
 from svsa_server.schemas.session import SessionState
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.turn import TurnRoute
 
-router = APIRouter(
-    prefix="/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=TurnRoute
+router = build_router(
+    "/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=TurnRoute
 )
 
 

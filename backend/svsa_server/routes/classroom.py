@@ -4,7 +4,7 @@ import asyncio
 from typing import Annotated
 
 import segno
-from fastapi import APIRouter, Path, Request
+from fastapi import Path, Request
 from starlette.datastructures import URL
 
 from svsa.errors import StateError, SvsaError
@@ -23,6 +23,7 @@ from svsa_server.access.origin import EVERYWHERE, find_outward_address
 from svsa_server.access.roles import Person, Role
 from svsa_server.config import is_loopback
 from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.routing import build_router
 from svsa_server.schemas.classroom import (
     BroadcastState,
     ClassCode,
@@ -34,7 +35,7 @@ from svsa_server.schemas.classroom import (
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
 
-router = APIRouter(prefix="/class", tags=["class"], responses={409: REFUSALS[409]})
+router = build_router("/class", tags=["class"], responses={409: REFUSALS[409]})
 _SCALE = 6
 Member = Annotated[
     str, Path(alias="person", description="Id of a person", examples=["p-0123456789ab"])

@@ -2,16 +2,17 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body
+from fastapi import Body
 
 from svsa.errors import ParameterError, Violation
 from svsa_server.control.hand import CLIENT_HEADER, Holder
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
+from svsa_server.routing import build_router
 from svsa_server.schemas.control import ControlRequest, HandoverRequest, LockRequest
 from svsa_server.schemas.session import SessionState
 from svsa_server.sessions.state import build_state
 
-router = APIRouter(prefix="/sessions/{session}/control", tags=["control"], responses=REFUSALS)
+router = build_router("/sessions/{session}/control", tags=["control"], responses=REFUSALS)
 
 
 @router.put("")

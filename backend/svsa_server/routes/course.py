@@ -5,7 +5,7 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Path, Request
+from fastapi import Body, Path, Request
 
 from svsa.course.exercise import Exercise
 from svsa.course.handin import write_hand_in
@@ -34,6 +34,7 @@ from svsa.session.bench import BenchSession
 from svsa_server.access.roles import Person
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Runs, Work
+from svsa_server.routing import build_router
 from svsa_server.schemas.course import (
     AnswerRequest,
     CourseState,
@@ -54,7 +55,7 @@ from svsa_server.sessions.bench_step import check_for_step, set_up_bench
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.turn import take_turn
 
-router = APIRouter(tags=["course"], responses=REFUSALS)
+router = build_router(tags=["course"], responses=REFUSALS)
 ExerciseName = Annotated[
     str, Path(description="Name of an exercise", examples=["feedback-linearization"])
 ]

@@ -4,7 +4,7 @@ import asyncio
 import math
 from typing import Annotated
 
-from fastapi import APIRouter, Body
+from fastapi import Body
 
 from svsa.control.gains import Gains, compute_roots
 from svsa.control.installed import get_title
@@ -13,6 +13,7 @@ from svsa.design.steady_error import SteadyError
 from svsa.errors import ParameterError
 from svsa.run.configuration import Configuration
 from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routing import build_router
 from svsa_server.schemas.design import (
     LoopNoiseState,
     Prediction,
@@ -24,7 +25,7 @@ from svsa_server.schemas.design import (
 from svsa_server.schemas.gain import Root
 from svsa_server.sessions.tried_design import read_stiffness
 
-router = APIRouter(prefix="/sessions/{session}", tags=["settings"], responses=REFUSALS)
+router = build_router("/sessions/{session}", tags=["settings"], responses=REFUSALS)
 
 
 @router.post("/predict")

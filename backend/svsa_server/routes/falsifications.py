@@ -3,7 +3,7 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Path, Request
+from fastapi import Body, Path, Request
 from fastapi.responses import Response
 
 from svsa.control.installed import get_title
@@ -22,6 +22,7 @@ from svsa_server.jobs.falsifications import (
 from svsa_server.jobs.queue import Job
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson
 from svsa_server.routes.jobs import find_jobs, list_visible
+from svsa_server.routing import build_router
 from svsa_server.schemas.falsification import (
     AdversaryState,
     FalsificationRequest,
@@ -33,7 +34,7 @@ from svsa_server.schemas.session import SessionState
 from svsa_server.sessions.state import build_state
 
 KIND = "falsification"
-router = APIRouter(prefix="/falsifications", tags=["falsifier"], responses=REFUSALS)
+router = build_router("/falsifications", tags=["falsifier"], responses=REFUSALS)
 Search = Annotated[
     str,
     Path(alias="falsification", description="Id of a search", examples=["3f2a9c01b7de"]),

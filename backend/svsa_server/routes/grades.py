@@ -3,7 +3,7 @@
 import asyncio
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Query, Request
+from fastapi import Body, Query, Request
 from fastapi.responses import HTMLResponse, Response
 
 from svsa.errors import StateError
@@ -14,6 +14,7 @@ from svsa_server.jobs.gradings import Asked, grade_all
 from svsa_server.routes.course import find_store
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.jobs import find_jobs
+from svsa_server.routing import build_router
 from svsa_server.schemas.grades import (
     GradesState,
     GradingRequest,
@@ -25,7 +26,7 @@ from svsa_server.schemas.grades import (
 from svsa_server.schemas.job import JobState, describe_job
 
 KIND = "grading"
-router = APIRouter(prefix="/grades", tags=["course"], responses=REFUSALS)
+router = build_router("/grades", tags=["course"], responses=REFUSALS)
 _CSV: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}
 }

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Depends, Request
+from fastapi import Body, Depends, Request
 
 from svsa.run.command import SetNominal, SetParameters
 from svsa.run.configuration import PROTOTYPE_FILE, parse_design
@@ -13,6 +13,7 @@ from svsa_server.routes.depends import (
     NamedSession,
     check_unchanged,
 )
+from svsa_server.routing import build_router
 from svsa_server.schemas.recording import ExcitationRequest
 from svsa_server.schemas.session import SessionState
 from svsa_server.schemas.setting import ParameterFileRequest
@@ -20,8 +21,8 @@ from svsa_server.sessions.excitation import TAG
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.turn import TurnRoute, take_turn
 
-router = APIRouter(
-    prefix="/sessions/{session}", tags=["identification"], responses=REFUSALS, route_class=TurnRoute
+router = build_router(
+    "/sessions/{session}", tags=["identification"], responses=REFUSALS, route_class=TurnRoute
 )
 
 

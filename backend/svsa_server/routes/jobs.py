@@ -2,14 +2,15 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Path, Request
+from fastapi import Path, Request
 
 from svsa_server.access.roles import Person
 from svsa_server.jobs.queue import Job, Jobs, Kind
 from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.routing import build_router
 from svsa_server.schemas.job import JobState, describe_job
 
-router = APIRouter(prefix="/jobs", tags=["jobs"], responses=REFUSALS)
+router = build_router("/jobs", tags=["jobs"], responses=REFUSALS)
 JobId = Annotated[str, Path(description="Id of a job", examples=["3f2a9c01b7de"])]
 
 

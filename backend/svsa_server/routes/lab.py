@@ -1,15 +1,16 @@
 """The lab itself: health, the laws, the paper's figures."""
 
-from fastapi import APIRouter, Request
+from fastapi import Request
 
 import svsa
 from svsa.paper import FIGURES
+from svsa_server.routing import build_router
 from svsa_server.schemas.lab import FigureState, Health
 from svsa_server.schemas.law import LawState, list_laws
 from svsa_server.sessions.laboratory import SHARED_SESSION
 from svsa_server.sessions.turn import TurnRoute
 
-router = APIRouter(tags=["lab"], route_class=TurnRoute)
+router = build_router(tags=["lab"], route_class=TurnRoute)
 
 
 @router.get("/health")

@@ -4,7 +4,7 @@ import asyncio
 from functools import partial
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Path, Request
+from fastapi import Body, Path, Request
 from fastapi.responses import StreamingResponse
 
 from svsa.arena.seeds import SUITE_VERSION
@@ -17,12 +17,13 @@ from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
 from svsa_server.routes.jobs import find_jobs
 from svsa_server.routes.run_files import PAGE, send_page
+from svsa_server.routing import build_router
 from svsa_server.runs.work import write_worst_run
 from svsa_server.schemas.job import JobState, describe_job
 from svsa_server.schemas.leaderboard import LawSubmission, LeaderboardState, SubmissionState
 
 KIND = "submission"
-router = APIRouter(prefix="/leaderboard", tags=["leaderboard"], responses=REFUSALS)
+router = build_router("/leaderboard", tags=["leaderboard"], responses=REFUSALS)
 
 
 @router.get("")

@@ -2,19 +2,20 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body
+from fastapi import Body
 
 from svsa.plant.disturbances import Load
 from svsa.run.command import ApplyLoad, RemoveLoad
 from svsa.session.session import take_loads_off
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routing import build_router
 from svsa_server.schemas.session import SessionState
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.turn import TurnRoute
 
-router = APIRouter(
-    prefix="/sessions/{session}/loads", tags=["loads"], responses=REFUSALS, route_class=TurnRoute
+router = build_router(
+    "/sessions/{session}/loads", tags=["loads"], responses=REFUSALS, route_class=TurnRoute
 )
 
 

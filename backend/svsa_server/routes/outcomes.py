@@ -2,13 +2,14 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Path, Request
+from fastapi import Path, Request
 from pydantic import BaseModel, Field
 
 from svsa_server.control.outcomes import LONGEST_NAME, Outcome, Outcomes
 from svsa_server.routes.depends import REFUSALS
+from svsa_server.routing import build_router
 
-router = APIRouter(prefix="/requests", tags=["lab"], responses={422: REFUSALS[422]})
+router = build_router("/requests", tags=["lab"], responses={422: REFUSALS[422]})
 
 
 class OutcomeState(BaseModel):

@@ -3,15 +3,16 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Request
+from fastapi import Body, Request
 
 from svsa.records.resimulation import check_simulated, read_origin
 from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
+from svsa_server.routing import build_router
 from svsa_server.schemas.recording import RecordingRequest
 from svsa_server.schemas.session import BranchRequest, SessionState
 from svsa_server.sessions.state import build_state
 
-router = APIRouter(tags=["recording"], responses=REFUSALS)
+router = build_router(tags=["recording"], responses=REFUSALS)
 
 
 @router.post("/sessions/{session}/recording", status_code=201)

@@ -4,7 +4,7 @@ import asyncio
 from typing import Annotated, Literal
 
 import numpy as np
-from fastapi import APIRouter, Body
+from fastapi import Body
 from pydantic import BaseModel, Field, computed_field
 
 from svsa.reference.preview import sample_reference
@@ -17,8 +17,9 @@ from svsa.reference.trajectories import (
     get_range,
 )
 from svsa_server.routes.depends import REFUSALS
+from svsa_server.routing import build_router
 
-router = APIRouter(prefix="/references", tags=["references"], responses={422: REFUSALS[422]})
+router = build_router("/references", tags=["references"], responses={422: REFUSALS[422]})
 
 
 class PositionSeries(BaseModel):

@@ -3,14 +3,15 @@
 from dataclasses import asdict
 from typing import Annotated
 
-from fastapi import APIRouter, Query
+from fastapi import Query
 
 from svsa.records.difference import compare_settings
-from svsa_server.routes.depends import RunId, Runs
+from svsa_server.routes.depends import REFUSALS, RunId, Runs
+from svsa_server.routing import build_router
 from svsa_server.schemas.run import RunDifference, SettingDifference
 
 MAX_OTHERS = 7
-router = APIRouter()
+router = build_router(tags=["runs"], responses=REFUSALS)
 
 
 @router.get("/runs/{run_id}/difference")

@@ -6,12 +6,13 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import IO, Annotated, Any
 
-from fastapi import APIRouter, Query
+from fastapi import Query
 from fastapi.responses import StreamingResponse
 
 from svsa.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.records.resimulation import Comparison, check_simulated
-from svsa_server.routes.depends import BUSY, RunId, Runs, Work
+from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
+from svsa_server.routing import build_router
 from svsa_server.runs.work import compare, write_export, write_replay
 from svsa_server.schemas.run import ExportName
 
@@ -24,7 +25,7 @@ _FILES = {
 PAGE: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/html": {"schema": {"type": "string"}}}, "description": "The page"}
 }
-router = APIRouter(responses=BUSY)
+router = build_router(tags=["runs"], responses=REFUSALS | BUSY)
 
 
 @router.get(

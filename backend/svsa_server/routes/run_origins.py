@@ -3,17 +3,18 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from fastapi import APIRouter, Request
+from fastapi import Request
 
 from svsa.records.catalogue.entry import RunEntry
 from svsa.records.header import BranchPoint, PlantKind
 from svsa.run.command import Command, read_command
 from svsa.run.configuration import Design
-from svsa_server.routes.depends import NamedSession, RunId, Runs
+from svsa_server.routes.depends import REFUSALS, NamedSession, RunId, Runs
+from svsa_server.routing import build_router
 from svsa_server.schemas.run import BranchOrigin, GivenCommand, RunOrigin
 from svsa_server.schemas.session import SessionRequest
 
-router = APIRouter()
+router = build_router(tags=["runs"], responses=REFUSALS)
 
 
 @router.get("/sessions/{session}/origin")

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import msgspec
 import numpy as np
-from fastapi import APIRouter, Query
+from fastapi import Query
 from fastapi.responses import Response
 
 from svsa.errors import ParameterError, Violation
@@ -15,12 +15,13 @@ from svsa.records.measured_window import trace_record
 from svsa.records.reader import Record
 from svsa.run.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.signals import PLOTTED
-from svsa_server.routes.depends import RunId, Runs
+from svsa_server.routes.depends import REFUSALS, RunId, Runs
+from svsa_server.routing import build_router
 from svsa_server.runs.lanes import build_window
 from svsa_server.schemas.run import RunMetrics, RunSamples
 
 MAX_POINTS = 20_000
-router = APIRouter()
+router = build_router(tags=["runs"], responses=REFUSALS)
 
 
 RunTime = Annotated[

@@ -3,17 +3,18 @@
 from typing import Annotated
 
 import numpy as np
-from fastapi import APIRouter, Body
+from fastapi import Body
 
 from svsa.records.decimation import decimate
 from svsa.records.header import RecordError
 from svsa.records.measured_window import find_measured_window
 from svsa.records.reader import Record
 from svsa.records.verdict import FROM_THE_FIRST, Tolerance, build_band, judge, read_channel
-from svsa_server.routes.depends import RunId, Runs
+from svsa_server.routes.depends import REFUSALS, RunId, Runs
+from svsa_server.routing import build_router
 from svsa_server.schemas.verdict import Band, RunVerdict, VerdictRequest, tell_channel
 
-router = APIRouter()
+router = build_router(tags=["runs"], responses=REFUSALS)
 EXAMPLE = {
     "other": "20260102-030405-9f8e7d6c",
     "tolerances": {"position_rad": {"absolute": 0.001}},

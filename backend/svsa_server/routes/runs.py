@@ -3,7 +3,7 @@
 import dataclasses
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Header, Query
+from fastapi import Body, Header, Query
 
 from svsa.errors import Fault
 from svsa.fault_labels import label_fault
@@ -19,9 +19,9 @@ from svsa.records.catalogue.entry import Query as RunQuery
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.measured_window import trace_record
 from svsa_server.access.roles import Role
-from svsa_server.routes import run_difference, run_files, run_origins, run_samples, run_verdict
 from svsa_server.routes.depends import CHANGED, REFUSALS, NamedPerson, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
+from svsa_server.routing import build_router
 from svsa_server.runs.lanes import build_window, list_record_stretches, name_lanes
 from svsa_server.schemas.run import (
     RunCommand,
@@ -35,12 +35,7 @@ from svsa_server.sessions.laboratory import SHARED_SESSION
 
 MAX_COMMANDS = 1000
 LONGEST_FACET = 60
-router = APIRouter(tags=["runs"], responses=REFUSALS)
-router.include_router(run_samples.router)
-router.include_router(run_files.router)
-router.include_router(run_origins.router)
-router.include_router(run_difference.router)
-router.include_router(run_verdict.router)
+router = build_router(tags=["runs"], responses=REFUSALS)
 
 
 Facet = Annotated[str | None, Query(max_length=LONGEST_FACET)]

@@ -3,7 +3,7 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Path, Request
+from fastapi import Body, Path, Request
 from fastapi.responses import Response
 
 from svsa.falsify.file import format_scenario
@@ -18,6 +18,7 @@ from svsa.falsify.scenario import LoadScenario
 from svsa_server.jobs.scenarios import run_laws
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
+from svsa_server.routing import build_router
 from svsa_server.schemas.scenario import (
     KeptScenario,
     ScenarioRuns,
@@ -28,7 +29,7 @@ from svsa_server.schemas.scenario import (
 from svsa_server.schemas.session import SessionState
 from svsa_server.sessions.state import build_state
 
-router = APIRouter(prefix="/scenarios", tags=["falsifier"], responses=REFUSALS)
+router = build_router("/scenarios", tags=["falsifier"], responses=REFUSALS)
 Name = Annotated[
     str,
     Path(

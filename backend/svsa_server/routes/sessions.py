@@ -2,12 +2,13 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Request, WebSocket
+from fastapi import Body, Request, WebSocket
 from fastapi.responses import JSONResponse
 
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
+from svsa_server.routing import build_router
 from svsa_server.schemas.session import (
     ExperimentRequest,
     SessionRequest,
@@ -21,7 +22,7 @@ from svsa_server.sessions.state import build_state
 from svsa_server.sessions.stream import stream_session
 from svsa_server.sessions.turn import TurnRoute
 
-router = APIRouter(prefix="/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
+router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
 
 
 @router.get("")

@@ -5,7 +5,7 @@ What is set already changes nothing when it is sent again: no fade, no event, no
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from fastapi import APIRouter, Body, Depends, Path
+from fastapi import Body, Depends, Path
 
 from svsa.checked import Checked
 from svsa.control.installed import check_installed, read_parameters
@@ -31,6 +31,7 @@ from svsa.run.command import (
 )
 from svsa.run.configuration import LaneSetting
 from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
+from svsa_server.routing import build_router
 from svsa_server.schemas.gain import GainsRequest
 from svsa_server.schemas.law import InstalledLane
 from svsa_server.schemas.session import SessionState
@@ -38,8 +39,8 @@ from svsa_server.schemas.setting import LanesRequest, LawRequest, build_patch
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.turn import TurnRoute
 
-router = APIRouter(
-    prefix="/sessions/{session}",
+router = build_router(
+    "/sessions/{session}",
     tags=["settings"],
     responses=REFUSALS | CHANGED,
     route_class=TurnRoute,

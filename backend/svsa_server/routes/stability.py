@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Annotated, Literal
 
 import numpy as np
-from fastapi import APIRouter, Body, Request
+from fastapi import Body, Request
 
 from svsa.control.installed import get_law
 from svsa.design.attraction import Cell, Fate, build_map, find_fates, order_cells
@@ -19,6 +19,7 @@ from svsa.design.stability import Stability, assess
 from svsa.plant.disturbances import PaperLoad
 from svsa.run.configuration import Configuration
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Work
+from svsa_server.routing import build_router
 from svsa_server.schemas.gain import Root
 from svsa_server.schemas.session import SessionState
 from svsa_server.schemas.stability import (
@@ -38,9 +39,7 @@ from svsa_server.sessions.tried_design import build_tried
 LOAD_POINTS = 250
 FAILURE_LOAD_S = 1.0
 
-router = APIRouter(
-    prefix="/sessions/{session}/design", tags=["settings"], responses=REFUSALS | BUSY
-)
+router = build_router("/sessions/{session}/design", tags=["settings"], responses=REFUSALS | BUSY)
 _POLES = {"gains": {"position_poles_rad_per_s": [-60, -60, -60, -60]}}
 Tried = Annotated[DesignRequest, Body(examples=[_POLES])]
 

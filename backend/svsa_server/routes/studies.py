@@ -3,7 +3,7 @@
 import asyncio
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Path, Query, Request
+from fastapi import Body, Path, Query, Request
 from fastapi.responses import FileResponse, Response
 
 from svsa.errors import ParameterError, StateError, Violation
@@ -29,6 +29,7 @@ from svsa_server.jobs.study_rows import read_row as find_row
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
 from svsa_server.routes.jobs import find_jobs
+from svsa_server.routing import build_router
 from svsa_server.schemas.study import (
     BuiltInStudy,
     RowReplay,
@@ -43,7 +44,7 @@ from svsa_server.schemas.study import (
     describe_study,
 )
 
-router = APIRouter(prefix="/studies", tags=["studies"], responses=REFUSALS)
+router = build_router("/studies", tags=["studies"], responses=REFUSALS)
 Study = Annotated[str, Path(description="Name of a kept study", examples=["perturbation"])]
 LONGEST_END_S = 60.0
 Row = Annotated[int, Path(ge=0, description="Number of the row")]

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Path, Query, Request
+from fastapi import Body, Path, Query, Request
 from fastapi.responses import Response
 
 from svsa.arena.search_space import build_space
@@ -16,6 +16,7 @@ from svsa_server.jobs.tunings import Asked, read_file, read_trials, search
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.jobs import find_jobs, list_visible
+from svsa_server.routing import build_router
 from svsa_server.schemas.tuning import (
     AxisState,
     FirstTrial,
@@ -25,7 +26,7 @@ from svsa_server.schemas.tuning import (
     TuningState,
 )
 
-router = APIRouter(prefix="/tunings", tags=["tuning"], responses=REFUSALS)
+router = build_router("/tunings", tags=["tuning"], responses=REFUSALS)
 TuningId = Annotated[str, Path(description="Id of a tuning", examples=["3f2a9c01b7de"])]
 _TOML = {"application/toml": {"schema": {"type": "string"}}}
 

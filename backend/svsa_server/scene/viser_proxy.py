@@ -110,9 +110,7 @@ class ViserProxy:
 
     def __init__(self, find_port: Callable[[str], Awaitable[int]]) -> None:
         self._find_port = find_port
-        self._http = httpx.AsyncClient(
-            verify=_NOBODY, trust_env=False, timeout=_CONNECT_TIMEOUT_S
-        )
+        self._http = httpx.AsyncClient(verify=_NOBODY, trust_env=False, timeout=_CONNECT_TIMEOUT_S)
         self._page: _Page | None = None
 
     @property

@@ -6,7 +6,6 @@ The first step tried is the whole period, so that none is lost on looking for it
 from functools import partial
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from svsa.benchmark.peers.peer import Peer, Solver
 from svsa.benchmark.peers.problem import Problem
@@ -40,6 +39,8 @@ def solve_exactly(problem: Problem) -> np.ndarray:
 
 def solve(problem: Problem, method: str, tolerance: float, step: float) -> np.ndarray:
     """The states at the end of each period; step: the first that is tried, and the longest, s."""
+    from scipy.integrate import solve_ivp  # what only looks at the table need not wait for it
+
     x, states = problem.x, np.empty((len(problem.forces), len(problem.x)))
     for number, force in enumerate(problem.forces):
         x = states[number] = solve_ivp(

@@ -15,7 +15,10 @@ from tests.grading.handins import LAZY
 from tests.isolation.test_attacks import isolation  # noqa: F401
 from tests.lab_in_process import run_lab_in_process
 
-OWN_LAW = find_exercise("own-law")
+
+@pytest.fixture(scope="module")
+def own_law():
+    return find_exercise("own-law")
 
 
 @pytest.fixture(scope="module")
@@ -30,15 +33,15 @@ def lab(data):
 
 
 @pytest.fixture
-def student(lab, data):
+def student(lab, data, own_law):
     shutil.rmtree(data / "course", ignore_errors=True)
-    return Student(lab, OWN_LAW)
+    return Student(lab, own_law)
 
 
 @pytest.mark.exhaustive
-def test_a_law_is_tried_and_kept_for_another_browser(student, lab):
+def test_a_law_is_tried_and_kept_for_another_browser(student, lab, own_law):
     law = student.try_law(LAZY.decode()).raise_for_status().json()["law"]
-    again = Student(lab, OWN_LAW).read()
+    again = Student(lab, own_law).read()
 
     assert law["verdict"] in ("ran", "ended")
     assert again["law"] == law
@@ -68,10 +71,10 @@ def test_what_is_no_law_s_text_and_where_none_is_asked_for_is_refused(student, l
 
 
 def test_a_law_is_handed_in_and_the_same_submission_has_the_same_grade(
-    student, data, tmp_path, monkeypatch
+    student, data, own_law, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(law_runs, "DRAWS", 2)
-    text = find_law(OWN_LAW)
+    text = find_law(own_law)
     student.answer("predict-peak", 2.8).raise_for_status()
     student.answer("why", "tuned").raise_for_status()
     student.set_up("integral").raise_for_status()
@@ -88,7 +91,7 @@ def test_a_law_is_handed_in_and_the_same_submission_has_the_same_grade(
     assert Submission.read(path).law == text.encode()
     books = [Book(tmp_path / "first"), Book(tmp_path / "second")]
     books[1].secret = books[0].secret
-    first, again = (grade_file(path, {"own-law": OWN_LAW}, data, book) for book in books)
+    first, again = (grade_file(path, {"own-law": own_law}, data, book) for book in books)
     assert first == again
     assert first.max_points == 15
     law = [one for one in first.criteria if one.step == law_runs.LAW_STEP]
