@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import json
 import time
-from collections.abc import AsyncIterator, Iterable, Iterator
+from collections.abc import AsyncIterator
 
 import httpx
 import pytest
@@ -35,21 +35,17 @@ CONTROL = SESSION + "/control"
 HELD = "Ada is in control of session lab: ask Ada, or take control."
 
 
-def list_session_routes(routes: Iterable[object]) -> Iterator[APIRoute]:
-    """The REST routes below a session, however deep a router lies in others."""
-    for route in routes:
-        inner = getattr(route, "original_router", None)
-        if inner is not None:
-            yield from list_session_routes(inner.routes)
-        elif isinstance(route, APIRoute) and "{session}" in route.path:
-            yield route
+def list_session_routes() -> list[APIRoute]:
+    """The REST routes below a session."""
+    routes = build_app().router.routes
+    return [one for one in routes if isinstance(one, APIRoute) and "{session}" in one.path]
 
 
 def list_changing() -> list[tuple[str, str]]:
     """Method and path, below a session, of all that changes something."""
     return [
         (method, route.path.partition("{session}")[2])
-        for route in list_session_routes(build_app().router.routes)
+        for route in list_session_routes()
         for method in sorted((route.methods or set()) & CHANGING)
     ]
 
@@ -72,7 +68,7 @@ async def open_app() -> AsyncIterator[httpx.AsyncClient]:
 
 
 def test_every_route_below_a_session_is_guarded() -> None:
-    routes = list(list_session_routes(build_app().router.routes))
+    routes = list_session_routes()
     assert len(routes) > 20
     assert [route.path for route in routes if not needs_session(route.dependant)] == []
     assert set(list_changing()) >= OPEN_TO_ALL, "the list of what is open names what is not there"

@@ -8,7 +8,8 @@ from svsa.course.progress import ProgressStore
 from svsa.isolation.refusal import NotIsolatedError
 from svsa_server.jobs.gradings import Asked, grade_all
 from svsa_server.jobs.progress import JobFolder, ask_to_stop
-from tests.grading.test_class_grades import EXERCISES, FL, hand_in
+from tests.course.runs import find_exercise
+from tests.grading.test_class_grades import FL, hand_in
 from tests.server.access.classroom import run_class
 
 GRADES = "/api/v1/grades"
@@ -93,6 +94,6 @@ def test_a_worker_that_is_to_stop_keeps_what_is_done(tmp_path):
     store = ProgressStore(tmp_path / "data")
     files = (hand_in(store, "p-1", "Ada"),)
     ask_to_stop(tmp_path)
-    asked = Asked(files, EXERCISES, tmp_path, tmp_path / "book", False)
+    asked = Asked(files, {FL: find_exercise(FL)}, tmp_path, tmp_path / "book", False)
     assert not grade_all(JobFolder(tmp_path), asked)
     assert not list((tmp_path / "book" / "grades").iterdir())

@@ -1,4 +1,4 @@
-"""A small server of nothing but the routes of runs, and three runs in it."""
+"""A small server of the lab's routes, which is told of nothing but runs, and three of them."""
 
 import socket
 import threading
@@ -14,9 +14,9 @@ from fastapi import FastAPI
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.writer import write_record
 from svsa.signals import CHANNEL_INDEX
+from svsa_server.app import build_routes
 from svsa_server.errors import install_error_handlers
 from svsa_server.jobs.heavy_work import HeavyWork
-from svsa_server.routes import runs
 from tests.records.records import build_header, build_samples
 
 FIRST_TICK = 1000
@@ -57,7 +57,7 @@ def app(catalogue: Catalogue) -> Iterator[FastAPI]:
     app.state.catalogue = catalogue
     app.state.heavy_work = HeavyWork(most=10)
     install_error_handlers(app)
-    app.include_router(runs.router)
+    app.router.routes.extend(build_routes())
     yield app
     app.state.heavy_work.close()
 
@@ -69,7 +69,7 @@ def client(app: FastAPI) -> Iterator[httpx.Client]:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [door]}, daemon=True)
         thread.start()
         url = f"http://127.0.0.1:{door.getsockname()[1]}"
-        with httpx.Client(base_url=url, timeout=300, trust_env=False) as client:
+        with httpx.Client(base_url=f"{url}/api/v1", timeout=300, trust_env=False) as client:
             yield client
         server.should_exit = True
         thread.join(10)
