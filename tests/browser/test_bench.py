@@ -1,74 +1,25 @@
-"""The page on a bench, which `bench_fixture` puts between the page and a simulating lab."""
+"""What the controls of a bench do, and what the page says of its state and its faults."""
 
 import re
-from collections.abc import Iterator
-from functools import partial
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Page, expect
 
-from tests.browser.bench_fixture import BENCH, FAULT, HOMED, PatchedBench
-from tests.browser.settled import find_lasting, get_box, resize, until
+from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
+from tests.browser.bench_page import (
+    expect_enabled,
+    expect_stage,
+    find_bench,
+    find_details,
+    get_page,  # noqa: F401
+    opened_once,  # noqa: F401
+    switch_off,  # noqa: F401
+)
 from tests.browser.test_page import open_page
 from tests.exhaustive import exhaust
 from tests.lab import Lab
 
 pytestmark = pytest.mark.browser
-
-BUTTONS = ("Arm", "Run", "Stop", "Clear fault")
-
-
-@pytest.fixture(scope="module")
-def opened_once(
-    browser: Browser, browser_context_args: dict, shared_lab: Lab
-) -> Iterator[PatchedBench]:
-    shared_lab.load_figure()
-    context = browser.new_context(**browser_context_args)
-    context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
-    patched = PatchedBench(context.new_page())
-    open_page(patched.page, shared_lab)
-    yield patched
-    context.close()
-
-
-@pytest.fixture
-def patched(opened_once: PatchedBench, browser_context_args: dict, still_lab: Lab) -> PatchedBench:
-    """A bench that is off, in the one page of these tests."""
-    patched, page = opened_once, opened_once.page
-    page.set_viewport_size(browser_context_args["viewport"])
-    # Nothing of a bench that runs opens the details by itself: if they are open, somebody did it.
-    patched.become(status="run", homing=HOMED)
-    expect_stage(page, "Run")
-    if find_details(page).get_attribute("aria-expanded") == "true":
-        page.reload()
-        expect_stage(page, "Run")
-    patched.become()
-    expect_stage(page, "Off")
-    return patched
-
-
-@pytest.fixture
-def page(patched: PatchedBench) -> Page:
-    return patched.page
-
-
-def find_details(page: Page) -> Locator:
-    return page.get_by_role("button", name="Details")
-
-
-def find_bench(page: Page) -> Locator:
-    return page.get_by_role("region", name="Bench", exact=True)
-
-
-def expect_enabled(page: Page, *names: str) -> None:
-    for name in BUTTONS:
-        button = find_bench(page).get_by_role("button", name=name, exact=True)
-        expect(button).to_be_enabled(enabled=name in names)
-
-
-def expect_stage(page: Page, stage: str) -> None:
-    line = page.get_by_role("list", name="State of the bench")
-    expect(line.locator("[aria-current=step]")).to_contain_text(stage)
 
 
 @pytest.mark.usefixtures("without_3d")
@@ -159,43 +110,6 @@ def test_a_quick_stop_is_latched_until_the_fault_is_cleared(
     assert patched.commands == ["quick-stop", "bench/clear"]
 
 
-@pytest.mark.parametrize("has_hold", [False, True], ids=["no switch", "dead-man's switch"])
-def test_a_fault_and_opened_details_leave_room_for_the_actuator(
-    page: Page, patched: PatchedBench, has_hold: bool
-) -> None:
-    problems = [f"Motor {motor} does not say that it is supervised." for motor in (1, 2)]
-    patched.become(status="fault", fault=FAULT, problems=problems, dead_man=has_hold)
-    expect(page.get_by_role("alert").filter(has_text="Quick stop.")).to_be_visible()
-    find_details(page).click()
-    expect(find_bench(page).get_by_text(problems[0])).to_be_visible()
-    clear = find_bench(page).get_by_role("button", name="Clear fault")
-    for height in (720, 900):
-        resize(page, 1280, height)
-        until(page, lambda: get_box(page.locator(".view"))["height"] > 150)
-        calibration = page.get_by_role("region", name="Calibration")
-        calibration.scroll_into_view_if_needed()
-        expect(calibration).to_be_in_viewport()
-        expect(clear).to_be_in_viewport(ratio=1)
-
-
-def test_a_fault_is_told_on_a_phone_with_the_details_opened(
-    page: Page, patched: PatchedBench
-) -> None:
-    resize(page, 390, 844)
-    patched.become(status="fault", fault=FAULT, problems=["Motor 1 says nothing."], dead_man=True)
-    find_details(page).click()
-    expect(find_bench(page).get_by_text("Motor 1 says nothing.")).to_be_visible()
-    page.evaluate("scrollTo(0, 0)")
-    told = page.get_by_role("alert").filter(has_text="Quick stop.").get_by_text("Quick stop.")
-    hang = page.get_by_role("button", name="Hang 3 kg")
-
-    def is_above_the_load() -> bool:
-        words = get_box(told)
-        return words["y"] + words["height"] < get_box(hang)["y"]
-
-    until(page, is_above_the_load)
-
-
 def test_why_it_does_not_arm_is_told_and_everything_else_is_in_the_details(
     page: Page, patched: PatchedBench
 ) -> None:
@@ -230,27 +144,6 @@ def test_on_a_real_bench_the_load_button_only_marks(
     assert still_lab.read()["loads"][0]["load"]["kind"] == "mass"
 
 
-def test_the_work_is_seen_without_scrolling_on_a_running_bench(
-    page: Page, patched: PatchedBench
-) -> None:
-    """Where not every plot has room, those that have are whole, and it is said how many follow."""
-    patched.become(status="run", homing=HOMED)
-    parts = [
-        find_bench(page),
-        page.get_by_role("button", name="Quick stop"),
-        page.get_by_role("button", name=re.compile("Hang 3 kg")),
-        page.locator("iframe"),
-    ]
-    last = {1280: "Stiffness", 1440: "Disturbance"}
-    below = page.get_by_role("button", name=re.compile("below"))
-    for (width, height), rest in {(1280, 720): 1, (1440, 900): 0}.items():
-        page.set_viewport_size({"width": width, "height": height})
-        plot = page.get_by_role("region", name=f"{last[width]} plot", exact=True)
-        for part in [*parts, plot]:
-            expect(part).to_be_in_viewport(ratio=1)
-        expect(below).to_have_count(rest)
-
-
 def test_what_takes_no_command_yet_offers_none(page: Page, patched: PatchedBench) -> None:
     starting = BENCH["loop"] | {"alive": False, "state": "starting", "step": "opening the bus"}
     patched.become(emulated=None, loop=starting | {"starting_s": 2.0})
@@ -283,32 +176,6 @@ def test_of_a_bench_that_was_never_opened_nobody_asks_who_stopped_it(
     drives = page.get_by_role("region", name="Drives and encoders")
     expect(drives.get_by_text(re.compile("\\d A$"))).to_have_count(0)
     expect(page.get_by_text("The bench is not open.")).to_be_visible()
-
-
-FIND_CUT = """cards => cards.filter(one => one.scrollWidth > one.clientWidth + 1)
-    .map(one => `${one.ariaLabel}: ${one.scrollWidth} px in ${one.clientWidth}`)"""
-
-
-@pytest.mark.parametrize("size", exhaust([(390, 844), (820, 1180), (1280, 720)], [(390, 844)]))
-def test_nothing_of_a_bench_is_covered_or_cut(
-    page: Page, patched: PatchedBench, size: tuple[int, int]
-) -> None:
-    page.set_viewport_size({"width": size[0], "height": size[1]})
-    patched.become(status="ramp", emulated=False, homing=HOMED, ages_s=[1000, 1000, 0.001])
-    expect(find_bench(page).get_by_text("Ramping down")).to_be_visible()
-    bar = page.get_by_role("region", name="Status", exact=True)
-    control = bar.get_by_role("button", name="Take control")
-    stop = bar.get_by_role("button", name="Quick stop")
-
-    def is_before_the_stop() -> bool:
-        box = get_box(control)
-        return box["x"] + box["width"] < get_box(stop)["x"]
-
-    until(page, is_before_the_stop)
-    find_details(page).click()
-    cards = page.locator(".bench-card")
-    expect(cards.first).to_be_visible()
-    assert find_lasting(page, partial(cards.evaluate_all, FIND_CUT)) == []
 
 
 @pytest.mark.usefixtures("without_3d")

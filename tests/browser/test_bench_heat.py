@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
-from tests.browser.test_bench import find_bench, find_details
+from tests.browser.bench_page import find_bench, find_details
 from tests.browser.test_page import open_page
 from tests.lab import Lab
 
