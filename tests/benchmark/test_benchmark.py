@@ -86,7 +86,6 @@ def test_a_run_that_ends_in_a_fault_counts_as_the_part_that_was_run(monkeypatch)
     assert batch_rates.measure_effects(figure, 8, 2.0, 1)["ideal"] == 8.0
 
 
-@pytest.mark.exhaustive
 @pytest.mark.long
 def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path

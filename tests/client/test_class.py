@@ -80,7 +80,10 @@ def test_a_script_has_sessions_streams_and_runs_of_its_own(
         assert result.name == "mine"
         assert len(list(ada.runs)) == 1
         assert list(bob.runs) == []
+        ada.session.take_control()
+        ada.session.start()  # whatever was done to it before: one at rest has nothing to stream
         assert len(next(iter(ada.session.stream(duration_s=0.1))).ticks)
+        ada.session.give_control_back()
 
 
 def test_a_token_stands_in_no_address(tokens: tuple[str, str, str, str]) -> None:

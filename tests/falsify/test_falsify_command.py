@@ -135,7 +135,6 @@ def test_a_law_that_was_asked_for_is_not_said_to_stand_in_the_file(tmp_path):
         search("--law", "nobody")
 
 
-@pytest.mark.exhaustive
 def test_what_was_kept_of_another_search_is_left_alone(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     search("--law", "fl", "--output", "one.toml", "--seed", "1")

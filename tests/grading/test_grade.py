@@ -177,7 +177,6 @@ def test_a_class_is_graded_once_and_told_as_page_and_csv(tmp_path):
     assert write_csv([grade_again.changed(student="=Eve")]).splitlines()[1].startswith("'=Eve,")
 
 
-@pytest.mark.exhaustive
 def test_many_are_graded_side_by_side_and_one_that_does_not_fit_stops_none(tmp_path):
     course, book = write_course(tmp_path / "course"), tmp_path / "class"
     files = []

@@ -182,7 +182,6 @@ def test_a_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
     assert steps["deflection: sign"].result is Result.FAIL
 
 
-@pytest.mark.exhaustive
 def test_an_uncalibrated_bench_can_be_checked(tmp_path, bus):
     path = copy_bench(
         tmp_path,

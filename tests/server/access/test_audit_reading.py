@@ -54,7 +54,6 @@ def test_the_instructor_reads_who_did_what_at_which_tick(classroom: Classroom) -
     assert [one["name"] for one in refused["lines"]] == ["Bob"]
 
 
-@pytest.mark.exhaustive
 def test_what_was_done_is_read_at_once_however_slow_the_disk_is(
     classroom: Classroom, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -36,12 +36,18 @@ async def start_and_stop(server: AnnouncedServer) -> int:
 
 
 def test_what_is_there_at_the_start_is_not_looked_through_again_and_again():
-    """Python looks through half a million objects in 0.2 s, in which no session goes on."""
+    """Python looks through half a million objects in 0.2 s, in which no session goes on; until the
+    lab answers, it looks through none.
+    """
+    there = [[one] for one in range(1000)]
     config = uvicorn.Config(answer_nothing, log_level="warning", lifespan="off")
     config.load()
     server = AnnouncedServer(config)
     server.lifespan = config.lifespan_class(config)
+    gc.disable()
     try:
-        assert asyncio.run(start_and_stop(server)) > 50_000
+        assert asyncio.run(start_and_stop(server)) >= len(there)
+        assert gc.isenabled()
     finally:
+        gc.enable()
         gc.unfreeze()

@@ -95,7 +95,6 @@ def test_a_job_is_followed_to_its_end_at_a_low_priority():
         asyncio.run(follow(jobs))
 
 
-@pytest.mark.exhaustive
 def test_one_at_a_time_of_a_kind_and_a_full_queue_is_refused():
     async def crowd(jobs):
         first, second = (jobs.start("study", "long", count, 10**6) for _ in range(2))

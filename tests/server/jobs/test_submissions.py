@@ -46,7 +46,6 @@ def test_a_board_begins_with_all_laws_missing_and_its_secret_in_the_labs_folder(
     assert (data / FOLDER / "secret").stat().st_mode & 0o077 == 0
 
 
-@pytest.mark.exhaustive
 def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
     law = "def law(*given):\n    return spring\n"
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": law})
@@ -60,7 +59,6 @@ def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
     assert lab.get(BOARD).json()["entries"] == []
 
 
-@pytest.mark.exhaustive
 def test_a_submission_is_followed_and_broken_off_and_enters_nothing(lab):
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": LAZY.decode()}).json()
     name = begun["job"]["id"]

@@ -38,7 +38,6 @@ def student(lab, data, own_law):
     return Student(lab, own_law)
 
 
-@pytest.mark.exhaustive
 def test_a_law_is_tried_and_kept_for_another_browser(student, lab, own_law):
     law = student.try_law(LAZY.decode()).raise_for_status().json()["law"]
     again = Student(lab, own_law).read()

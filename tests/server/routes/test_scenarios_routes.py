@@ -32,7 +32,6 @@ def lab():
         yield lab.client
 
 
-@pytest.mark.exhaustive
 def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
     answer = lab.post(f"{SCENARIOS}/runs", json={"scenario": BLOW, "laws": LAWS})
     told = answer.raise_for_status().json()

@@ -103,7 +103,6 @@ def test_a_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, whol
     assert file.content == (open_study("whole").folder / "rows.parquet").read_bytes()
 
 
-@pytest.mark.exhaustive
 def test_a_study_asked_for_some_metrics_keeps_those(lab):
     offered = lab.get(STUDIES).json()["metrics"]
     assert {"name": "effort_n2m2_s", "label": "effort", "unit": "N²·m²·s"} in offered

@@ -27,7 +27,6 @@ def delete(lab: httpx.Client, name: str) -> None:
     assert answer.status_code == 204
 
 
-@pytest.mark.exhaustive
 def test_one_that_is_being_run_is_cancelled_first_and_leaves_nothing(lab: httpx.Client) -> None:
     begun = lab.post(STUDIES, json={"source": "load", "runs": 20_000, "laws": ["fl"]})
     name, job = begun.json()["name"], begun.json()["job"]["id"]
