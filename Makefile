@@ -39,7 +39,7 @@ dev: .venv/installed $(PAGE)  ## the lab, and the page rebuilt as you type (on t
 bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
 	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
 
-test: .venv/installed $(PAGE)  ## each promise of the lab where it is soonest shown, and the main ways
+test: .venv/installed $(PAGE)  ## nearly every promise of the lab, where it is soonest shown, and the main ways
 	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(BY_FOUR) $(SHOWN) -m "not exhaustive and not wall_clock and (smoke or not browser)"
 	$(BIN)/pytest $(BY_TWO) -m "not exhaustive and wall_clock and smoke" $(WALL_CLOCK)

@@ -24,9 +24,12 @@ def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecuto
 @cache
 def choose_start() -> BaseContext:
     """How they begin: as copies of a process that has read once what this one had by then, in
-    a fiftieth of the time, and in memory that they share; on Windows each reads all for itself.
+    a fiftieth of the time, and in memory that they share.
+
+    Elsewhere than on Linux each reads all for itself: libraries of macOS start threads as they are
+    read, and Windows has no copies.
     """
-    if "forkserver" not in multiprocessing.get_all_start_methods():
+    if sys.platform != "linux":
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload([name for name in sys.modules if name.startswith("svsa")])
