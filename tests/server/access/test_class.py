@@ -23,7 +23,6 @@ from tests.server.access.classroom import (
     wait_for_run,
 )
 
-WHOLE_COST = True
 ADA = Person("p-1", "Ada", Role.OPERATOR)
 
 
