@@ -14,11 +14,15 @@ from unittest.mock import patch
 
 import httpx
 
+from svsa.course.file import FOLDER_VARIABLE
+from svsa.records.catalogue.runs import DATA_VARIABLE
 from svsa_server.app import build_app
 from tests.lab import Lab
 
 ADDRESS = "http://127.0.0.1"
 LONGEST_S = 300.0
+FOLDERS = {DATA_VARIABLE, FOLDER_VARIABLE}
+"""Looked up whenever a file is; the rest is read once."""
 
 
 class LoopTransport(httpx.BaseTransport):
@@ -54,7 +58,10 @@ def run_loop() -> Iterator[asyncio.AbstractEventLoop]:
 
 @contextlib.contextmanager
 def run_lab_in_process(**settings: str) -> Iterator[Lab]:
-    """Start a lab, and end it. settings: as those of `tests.lab.run_lab`."""
+    """Start a lab, and end it. settings: as those of `tests.lab.run_lab`.
+
+    It alone has them: a lab that another test starts meanwhile, as a process, reads only its own.
+    """
     if "data" not in settings:
         with (
             tempfile.TemporaryDirectory(prefix="svsa-test-") as folder,
@@ -63,9 +70,11 @@ def run_lab_in_process(**settings: str) -> Iterator[Lab]:
             yield lab
         return
     variables = {f"SVSA_{name.upper()}": value for name, value in settings.items()}
-    with run_loop() as loop, patch.dict(os.environ, variables):
-        os.environ.pop("SVSA_SECRET", None)
-        app = build_app()
+    folders = {name: variables[name] for name in variables.keys() & FOLDERS}
+    with run_loop() as loop, patch.dict(os.environ, folders):
+        with patch.dict(os.environ, variables):
+            os.environ.pop("SVSA_SECRET", None)
+            app = build_app()
         life = app.router.lifespan_context(app)
         asyncio.run_coroutine_threadsafe(life.__aenter__(), loop).result(LONGEST_S)
         try:

@@ -7,8 +7,9 @@ low priority. Who finds the queue full is told to come again.
 import asyncio
 import os
 import tempfile
+import threading
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import IO, TypeVar
@@ -37,6 +38,8 @@ class HeavyWork:
         self._most, self._workers = most, workers
         self._taken = 0
         self._pool: ProcessPoolExecutor | None = None
+        self._handing_over = threading.Lock()
+        self._is_closed = False
 
     async def run(self, job: Callable[..., T], *arguments: object) -> T:
         """What the job returns, done in a worker; raises what it raises, and `BusyError`."""
@@ -47,8 +50,8 @@ class HeavyWork:
             )
         self._taken += 1
         try:
-            return await asyncio.get_running_loop().run_in_executor(
-                self._get_pool(), job, *arguments
+            return await asyncio.wrap_future(
+                await asyncio.to_thread(self._hand_over, job, *arguments)
             )
         except BrokenProcessPool:
             self._pool = None
@@ -63,15 +66,21 @@ class HeavyWork:
             await self.run(job, folder, target)
             return target.open("rb")
 
-    def _get_pool(self) -> ProcessPoolExecutor:
-        if self._pool is None:
-            self._pool = start_workers(self._workers, _JOBS_A_WORKER)
-        return self._pool
+    def _hand_over(self, job: Callable[..., T], *arguments: object) -> Future[T]:
+        """Waits until a worker has begun where none is idle: seconds, for the first of a server."""
+        with self._handing_over:
+            if self._is_closed:
+                raise BusyError("This lab is ending: nothing is begun any more.")
+            if self._pool is None:
+                self._pool = start_workers(self._workers, _JOBS_A_WORKER)
+            return self._pool.submit(job, *arguments)
 
     def close(self) -> None:
         """End these workers, and no other's, also in the middle of a job."""
-        if self._pool is not None:
-            workers = [*(self._pool._processes or {}).values()]  # Python 3.14 has a name for it
-            self._pool.shutdown(wait=False, cancel_futures=True)
-            for worker in workers:
-                worker.terminate()
+        with self._handing_over:
+            self._is_closed = True
+            if self._pool is not None:
+                workers = [*(self._pool._processes or {}).values()]  # Python 3.14 has a name for it
+                self._pool.shutdown(wait=False, cancel_futures=True)
+                for worker in workers:
+                    worker.terminate()

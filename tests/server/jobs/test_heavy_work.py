@@ -3,11 +3,14 @@
 import asyncio
 import os
 import pickle
+import threading
 import time
 
 import pytest
 
 from svsa.errors import ParameterError, Violation
+from svsa.worker_process import start_workers
+from svsa_server.jobs import heavy_work
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError, HeavyWork
 from svsa_server.problems import TYPE_PREFIX
 from tests.lab import Lab
@@ -39,6 +42,31 @@ def test_who_finds_the_queue_full_is_told_and_the_others_are_done(work, tmp_path
         await work.run(get_process)
 
     asyncio.run(crowd())
+
+
+def test_the_server_answers_while_its_first_worker_begins(work, monkeypatch):
+    """A worker is a copy of a process that first reads for seconds, longer on a busy machine."""
+    has_answered = threading.Event()
+
+    def begin_slowly(*asked):
+        assert has_answered.wait(timeout=30), "the loop stands still until the worker has begun"
+        return start_workers(*asked)
+
+    monkeypatch.setattr(heavy_work, "start_workers", begin_slowly)
+
+    async def answer_meanwhile():
+        job = asyncio.create_task(work.run(get_process))
+        await asyncio.sleep(0.01)
+        has_answered.set()
+        await job
+
+    asyncio.run(answer_meanwhile())
+
+
+def test_a_lab_that_has_ended_begins_nothing(work):
+    work.close()
+    with pytest.raises(BusyError, match="is ending"):
+        asyncio.run(work.run(get_process))
 
 
 def test_a_refusal_comes_back_with_its_values(work):

@@ -18,11 +18,11 @@ import {
   type Trace,
 } from "../api/falsifications";
 import type { Law } from "../api/types";
+import { polling } from "../jobs/poll";
 import { isGoing } from "../jobs/progress";
 import { goTo, place } from "../runs/place";
-import { asking } from "../state/attempt";
+import { asking, telling } from "../state/attempt";
 
-const PAUSE_MS = 700;
 const PAPERS_LAW = "ndobc";
 const BASELINE = "fl";
 
@@ -89,29 +89,24 @@ export async function openLists(): Promise<void> {
   kept.value = named ?? kept.peek();
 }
 
-const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
-let round = 0;
+const poll = polling(telling(problem));
+export const { leave } = poll;
 
 /** Looks at a search, and follows it until it has ended. */
 export async function follow(id: string): Promise<void> {
-  const number = ++round;
+  leave();
   problem.value = "";
   search.value = null;
-  while (number === round && id !== "") {
-    const found = await attempt(() => readSearch(id));
-    if (number !== round) return;
-    if (found === null) return;
-    search.value = found;
-    if (!isGoing(found)) {
-      void openLists();
-      return;
-    }
-    await pause();
-  }
-}
-
-export function leave(): void {
-  round++;
+  if (id === "") return;
+  const ending = await poll.follow(
+    () => readSearch(id),
+    (found) => {
+      search.value = found;
+      return !isGoing(found);
+    },
+  );
+  if (ending === "ended") void openLists();
+  else if (ending === "refused") search.value = null;
 }
 
 export const keyOf = (one: Scenario, names: readonly Law[]): string =>

@@ -1,14 +1,13 @@
 /** One job of the server, followed until it ends. */
 import { type Signal, signal } from "@preact/signals";
 import { type Job, listJobs, readJob, stopJob } from "../api/jobs";
+import { polling } from "./poll";
 import { isGoing } from "./progress";
 
-const PAUSE_MS = 700;
-const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
-
 export interface Followed {
+  /** null while none is looked at, and where the server does not know it any more. */
   job: Signal<Job | null>;
-  /** Follows it; resolves once it has ended, or another is followed, or none. Rejects unanswered. */
+  /** Follows it; resolves once it has ended or is gone, or another is followed, or none. */
   follow: (job: Job) => Promise<void>;
   /** Takes up the one of this kind that is under way, from before the page was loaded. */
   resume: () => Promise<void>;
@@ -16,21 +15,25 @@ export interface Followed {
   cancel: () => Promise<void>;
 }
 
-/** onEnd: once a job has ended. */
-export function followJobs(kind: Job["kind"], onEnd: () => void): Followed {
+/** tell: as that of `polling`. onEnd: once a job has ended. */
+export function followJobs(
+  kind: Job["kind"],
+  tell: (error: unknown) => void,
+  onEnd: () => void,
+): Followed {
   const job = signal<Job | null>(null);
-  let round = 0;
+  const poll = polling(tell);
   const follow = async (begun: Job): Promise<void> => {
-    const number = ++round;
     job.value = begun;
-    while (isGoing(job.peek())) {
-      await pause();
-      if (number !== round) return;
-      const found = await readJob(begun.id);
-      if (number !== round) return;
-      job.value = found;
-    }
-    onEnd();
+    const ending = await poll.follow(
+      () => readJob(begun.id),
+      (found) => {
+        job.value = found;
+        return !isGoing(found);
+      },
+    );
+    if (ending === "ended") onEnd();
+    else if (ending === "refused") job.value = null;
   };
   return {
     job,
@@ -39,9 +42,7 @@ export function followJobs(kind: Job["kind"], onEnd: () => void): Followed {
       const going = (await listJobs()).find((one) => one.kind === kind && isGoing(one));
       if (going !== undefined) await follow(going);
     },
-    leave: () => {
-      round++;
-    },
+    leave: poll.leave,
     cancel: async () => {
       const now = job.peek();
       if (now !== null && isGoing(now)) job.value = await stopJob(now.id);

@@ -1,7 +1,7 @@
 /** What jobs of one kind add to: read where it is looked at, and again when one of them has ended. */
 import { type Signal, signal } from "@preact/signals";
 import type { Job } from "../api/jobs";
-import { attempting } from "../state/attempt";
+import { attempting, telling } from "../state/attempt";
 import { followJobs } from "./follow";
 
 export interface Results<T> {
@@ -28,7 +28,11 @@ export function followResults<T>(kind: Job["kind"], ask: () => Promise<T>): Resu
     const answer = await attempt(ask);
     if (answer !== null) found.value = answer;
   };
-  const { job, follow, resume, leave, cancel } = followJobs(kind, () => void read());
+  const { job, follow, resume, leave, cancel } = followJobs(
+    kind,
+    telling(problem),
+    () => void read(),
+  );
   return {
     found,
     problem,
@@ -39,9 +43,7 @@ export function followResults<T>(kind: Job["kind"], ask: () => Promise<T>): Resu
       await read();
       await attempt(resume);
     },
-    follow: async (begun) => {
-      await attempt(() => follow(begun));
-    },
+    follow,
     leave,
     cancel: async () => {
       await attempt(cancel);

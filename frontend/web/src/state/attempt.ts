@@ -16,6 +16,11 @@ export const asking =
     }
   };
 
+/** Makes what tells why there is no answer, and with null that there is one after all. */
+export const telling = (problem: Signal<string>) => (error: unknown) => {
+  problem.value = error === null ? "" : tell(error);
+};
+
 /** Makes what carries out wishes: null for one that was refused, with its reason alone told. */
 export const attempting = (problem: Signal<string>): Attempt => {
   const ask = asking(problem);

@@ -18,13 +18,13 @@ import {
   type StudyWish,
   startStudy,
 } from "../api/studies";
+import { polling, unlessRefused } from "../jobs/poll";
 import { isGoing } from "../jobs/progress";
 import { goTo, keepLook, place } from "../runs/place";
-import { asking } from "../state/attempt";
+import { asking, telling } from "../state/attempt";
 import { type Brushed, chooseAxes, readBrush, writeBrush } from "./look";
 import { NOTHING, type Rows, unpackRows } from "./rows";
 
-const PAUSE_MS = 1000;
 const GROWTH = 1.25;
 
 export const list = signal<StudyList | null>(null);
@@ -60,63 +60,60 @@ export const setBrush = (next: Brushed | null): void =>
   setLook({ brush: next === null ? "" : writeBrush(next) });
 
 const attempt = asking(problem);
+const poll = polling(telling(problem));
+export const { leave } = poll;
 
 export async function openList(): Promise<void> {
   list.value = (await attempt(listStudies)) ?? list.peek();
 }
 
-let round = 0;
-const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
-
 export const wantedColumns = (names: Readonly<Record<string, string>>): string[] => [
   ...new Set(["law", "fault", "succeeded", ...Object.values(names)].filter((name) => name !== "")),
 ];
 
-export async function fetchRows(name: string): Promise<void> {
-  const packed = await attempt(() => readRows(name, wantedColumns(axes.peek())));
-  if (packed !== null && chosenName.peek() === name) rows.value = unpackRows(packed);
+async function takeRows(name: string): Promise<void> {
+  const packed = await readRows(name, wantedColumns(axes.peek()));
+  if (chosenName.peek() === name) rows.value = unpackRows(packed);
 }
 
+export const fetchRows = (name: string) => attempt(() => takeRows(name));
+
 async function sumUp(found: Study): Promise<void> {
-  const told = await attempt(() => readSummary(found.name));
+  const told = await unlessRefused(readSummary(found.name), telling(problem));
   if (chosenName.peek() !== found.name) return;
   summary.value = told;
   if (found.study.sampling !== "sensitivity") return;
-  const shares = await readSensitivity(found.name, "succeeded").catch(() => []);
-  if (chosenName.peek() === found.name) indices.value = shares;
+  const shares = await unlessRefused(readSensitivity(found.name, "succeeded"), () => {});
+  if (chosenName.peek() === found.name) indices.value = shares ?? [];
 }
 
 /** Looks at a study, and follows it while it grows. */
 export async function follow(name: string): Promise<void> {
-  const number = ++round;
+  leave();
   problem.value = "";
   study.value = null;
   rows.value = NOTHING;
   summary.value = null;
   indices.value = [];
   picked.value = [];
+  if (name === "") return;
   let shown = 0;
-  while (number === round && name !== "") {
-    const found = await attempt(() => readStudy(name));
-    if (number !== round || found === null) return;
-    study.value = found;
-    const isEnded = !isGoing(found.job);
-    if (found.done > 0 && (isEnded || found.done > shown * GROWTH)) {
-      shown = found.done;
-      await fetchRows(name);
-      if (number !== round) return;
-    }
-    if (isEnded) {
+  await poll.follow(
+    () => readStudy(name),
+    async (found, isLeft) => {
+      study.value = found;
+      const isEnded = !isGoing(found.job);
+      if (found.done > 0 && (isEnded || found.done > shown * GROWTH)) {
+        await unlessRefused(takeRows(name), telling(problem));
+        if (isLeft()) return false;
+        shown = found.done;
+      }
+      if (!isEnded) return false;
       void openList();
       if (found.done > 0) await sumUp(found);
-      return;
-    }
-    await pause();
-  }
-}
-
-export function leave(): void {
-  round++;
+      return true;
+    },
+  );
 }
 
 /** Whether it was begun. */

@@ -10,11 +10,11 @@ import {
   type Tuning,
 } from "../api/tunings";
 import type { Law } from "../api/types";
+import { polling } from "../jobs/poll";
+import { isGoing } from "../jobs/progress";
 import { perform } from "../state/actions";
 
 export const CONTROL = "tuning.use";
-const PAUSE_MS = 700;
-const MAX_SILENT = 20;
 
 export const isOpen = signal(false);
 export const tuning = signal<Tuning | null>(null);
@@ -24,13 +24,9 @@ export const isStarting = signal(false);
 
 export const isUnderWay = computed(() => isGoing(tuning.value));
 
-function isGoing(state: Tuning | null): boolean {
-  return state?.status === "waiting" || state?.status === "running";
-}
-
-const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
-
-let followed = 0;
+const poll = polling((error) => {
+  problem.value = error;
+});
 
 function take(state: Tuning): void {
   const known = trials.peek();
@@ -39,26 +35,15 @@ function take(state: Tuning): void {
   tuning.value = state;
 }
 
-/** Asks on until it has ended; an answer that does not come is asked for again for a while. */
 async function follow(id: string): Promise<void> {
-  const number = ++followed;
-  let silent = 0;
-  while (number === followed) {
-    try {
-      const state = await readTuning(id, trials.peek().length);
-      if (number !== followed) return;
-      silent = 0;
-      problem.value = null;
+  const ending = await poll.follow(
+    () => readTuning(id, trials.peek().length),
+    (state) => {
       take(state);
-      if (!isGoing(state)) return;
-    } catch (error) {
-      if (number !== followed) return;
-      problem.value = error;
-      silent++;
-      if (silent >= MAX_SILENT) return;
-    }
-    await pause();
-  }
+      return !isGoing(state);
+    },
+  );
+  if (ending === "refused") tuning.value = null;
 }
 
 export async function start(law: Law, budget: number): Promise<void> {

@@ -150,6 +150,7 @@ describe("what the page does", () => {
     answers = {
       "POST leaderboard/submissions": [{ key: "b", job: going }],
       "GET jobs/j": [
+        going,
         { ...going, done: 4, total: 9 },
         { ...going, status: "done", done: 9, total: 9 },
       ],
@@ -200,7 +201,7 @@ describe("what the page does", () => {
       "GET jobs/j": [jobOf("running", 2), jobOf("cancelled", 2)],
     };
     const opened = openBoard();
-    await vi.advanceTimersByTimeAsync(800);
+    await vi.advanceTimersByTimeAsync(100);
     expect(job.value?.done).toBe(2);
     leave();
     await vi.runAllTimersAsync();

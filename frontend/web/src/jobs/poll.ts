@@ -1,0 +1,67 @@
+/** What grows on the server, asked for again and again until it has ended. */
+import { UnansweredError } from "../api/errors";
+
+const PAUSE_MS = 700;
+const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
+
+/** Whether it has come to its end, the server knows no more of it, or the page looks elsewhere. */
+export type Ending = "ended" | "refused" | "left";
+
+export interface Poll {
+  /**
+   * Asks until `take` returns true, also over answers that do not come; one thing at a time: what
+   * was asked for before is left. isLeft, of `take`: whether that has happened meanwhile.
+   */
+  follow: <T>(
+    ask: () => Promise<T>,
+    take: (found: T, isLeft: () => boolean) => boolean | Promise<boolean>,
+  ) => Promise<Ending>;
+  leave: () => void;
+}
+
+/** tell: why no answer came, or a refusal; null once one has come after all. */
+export function polling(tell: (error: unknown) => void): Poll {
+  let round = 0;
+  return {
+    follow: async (ask, take) => {
+      const number = ++round;
+      const isLeft = () => number !== round;
+      let isUnanswered = false;
+      for (;;) {
+        try {
+          const found = await ask();
+          if (isLeft()) return "left";
+          if (isUnanswered) tell(null);
+          isUnanswered = false;
+          const isEnded = await take(found, isLeft);
+          if (isLeft()) return "left";
+          if (isEnded) return "ended";
+        } catch (error) {
+          if (isLeft()) return "left";
+          tell(error);
+          if (!(error instanceof UnansweredError)) return "refused";
+          isUnanswered = true;
+        }
+        await pause();
+        if (isLeft()) return "left";
+      }
+    },
+    leave: () => {
+      round++;
+    },
+  };
+}
+
+/** For `take`, of what it asks for besides: null for a refusal; what is not answered is asked again. */
+export async function unlessRefused<T>(
+  asked: Promise<T>,
+  tell: (error: unknown) => void,
+): Promise<T | null> {
+  try {
+    return await asked;
+  } catch (error) {
+    if (error instanceof UnansweredError) throw error;
+    tell(error);
+    return null;
+  }
+}
