@@ -43,7 +43,7 @@ def test_its_sessions_keep_time_while_a_study_runs(size: tuple[int, float]) -> N
             assert time.monotonic() < end
             time.sleep(0.2)
         workers = list_workers(lab.process.pid)
-        assert len(workers) >= 3, "what is copied, the job, and who runs its parts"
+        assert len(workers) >= 2, "what is copied, the job, and who else runs its parts"
         assert {os.getpriority(os.PRIO_PROCESS, one) for one in workers} == {10}
         before, done = read_stretched(lab.client), lab.client.get(path).json()["done"]
         time.sleep(watched_s)
