@@ -6,6 +6,7 @@ import signal
 import sys
 import threading
 from concurrent.futures import ProcessPoolExecutor
+from functools import cache
 from multiprocessing.context import BaseContext
 
 NICENESS = 10
@@ -20,6 +21,7 @@ def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecuto
     )
 
 
+@cache
 def choose_start() -> BaseContext:
     """How they begin: as copies of a process that has read once what this one had by then, in
     a fiftieth of the time, and in memory that they share.
@@ -31,18 +33,7 @@ def choose_start() -> BaseContext:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload([name for name in list(sys.modules) if name.startswith("svsa")])
-    _begin_reading()
     return context
-
-
-def _begin_reading() -> None:
-    """The process that is copied begins, and gives way too: it reads for seconds."""
-    from multiprocessing import forkserver  # which Windows has not
-
-    forkserver.ensure_running()
-    process = forkserver._forkserver._forkserver_pid  # pyright: ignore[reportAttributeAccessIssue]
-    if os.getpriority(os.PRIO_PROCESS, process) < NICENESS:
-        os.setpriority(os.PRIO_PROCESS, process, NICENESS)
 
 
 def _begin(environment: dict[str, str]) -> None:

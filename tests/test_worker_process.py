@@ -22,16 +22,6 @@ def test_a_workers_worker_has_its_priority() -> None:
         assert pool.submit(give_way_again).result() == max(10, os.nice(0))
 
 
-def get_niceness_of_parent() -> int:
-    return os.getpriority(os.PRIO_PROCESS, os.getppid())
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="there no worker is a copy")
-def test_what_a_worker_is_a_copy_of_reads_at_a_low_priority_too() -> None:
-    with start_workers(1) as pool:
-        assert pool.submit(get_niceness_of_parent).result() >= 10
-
-
 @pytest.mark.skipif(sys.platform != "linux", reason="there each worker reads all for itself")
 def test_a_worker_has_what_was_read_when_the_first_began() -> None:
     with start_workers(1) as pool:
