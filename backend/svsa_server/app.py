@@ -71,7 +71,7 @@ from svsa_server.scene.viser_proxy import ViserProxy
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.control_log import note_settled
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
-from svsa_server.sessions.ownership import is_visible
+from svsa_server.sessions.ownership import find_owner
 from svsa_server.sessions.quota import DiskQuota
 from svsa_server.sessions.recording import Recordings, open_catalogue
 from svsa_server.sessions.turn import take_turn
@@ -122,7 +122,7 @@ def build_app(
         AccessGuard,
         door=door,
         hosts=config.host_names,
-        is_visible=is_visible,
+        find_owner=find_owner,
         rates=build_rates(config) if config.classroom else None,
     )
     if config.classroom:

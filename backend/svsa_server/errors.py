@@ -21,6 +21,7 @@ from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError
 from svsa_server.problems import (
     LONGEST_ECHO,
     ChangedError,
+    NotYoursError,
     TooManyError,
     UnknownError,
     answer_problem,
@@ -80,6 +81,10 @@ def install_error_handlers(app: FastAPI) -> None:
     @app.exception_handler(ChangedError)
     def refuse_change(_: Request, error: SvsaError) -> JSONResponse:
         return answer_problem(412, "changed", str(error))
+
+    @app.exception_handler(NotYoursError)
+    def refuse_owner(_: Request, error: NotYoursError) -> JSONResponse:
+        return answer_problem(403, "not_yours", str(error))
 
     @app.exception_handler(UnknownRunError)
     @app.exception_handler(UnknownError)

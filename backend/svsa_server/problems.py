@@ -52,6 +52,10 @@ class ChangedError(SvsaError):
     """What was to be changed has been changed meanwhile; it stays as somebody else left it."""
 
 
+class NotYoursError(SvsaError):
+    """The caller may read a thing, but not change it; nothing was changed."""
+
+
 class TooManyError(SvsaError):
     """Somebody has as many of something as each person may have; nothing was made."""
 

@@ -1,20 +1,48 @@
 """What is asked below /api/v1."""
 
+import functools
+import inspect
+from collections.abc import Callable
 from typing import Any
 
 from fastapi import APIRouter
+from fastapi.concurrency import run_in_threadpool
 from fastapi.routing import APIRoute
+
+from svsa_server.access.owned import settle_claims
 
 API = "/api/v1"
 
 
-def build_router(prefix: str = "", **given: Any) -> APIRouter:
+class OwnedRoute(APIRoute):
+    """A route that checks the owners of all ids of a request before its function is called."""
+
+    def __init__(self, path: str, endpoint: Callable[..., Any], **settings: Any) -> None:
+        super().__init__(path, _settle_first(endpoint), **settings)
+
+
+def _settle_first(do: Callable[..., Any]) -> Callable[..., Any]:
+    @functools.wraps(do)
+    async def settled(**arguments: Any) -> Any:
+        await settle_claims()
+        if inspect.iscoroutinefunction(do):
+            return await do(**arguments)
+        return await run_in_threadpool(do, **arguments)
+
+    return settled
+
+
+def build_router(
+    prefix: str = "", route_class: type[OwnedRoute] = OwnedRoute, **given: Any
+) -> APIRouter:
     """A router below /api/v1, whose operations are called as their functions are.
 
     It stands as it is and is included nowhere: FastAPI builds a route that is included a second
     time, which for all of them takes 0.4 s of every start.
     """
-    return APIRouter(prefix=API + prefix, generate_unique_id_function=get_name, **given)
+    return APIRouter(
+        prefix=API + prefix, generate_unique_id_function=get_name, route_class=route_class, **given
+    )
 
 
 def get_name(route: APIRoute) -> str:

@@ -118,6 +118,26 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
         raise StudyError(f"Study {name} cannot be read: {error}") from None
 
 
+def read_owner(name: str, root: Path | None = None) -> str | None:
+    """Return the id of the person who began a study, without building the study.
+
+    Args:
+        name: Of the study.
+        root: Folder of the studies; `find_studies_folder` if left out.
+
+    Returns:
+        The id, empty outside a class; None if there is no such study, or it cannot be read.
+    """
+    if not _NAME.fullmatch(name):
+        return None
+    try:
+        written = json.loads(((root or find_studies_folder()) / name / STUDY_FILE).read_bytes())
+    except (OSError, ValueError):
+        return None
+    owner = written.get("owner", "") if isinstance(written, dict) else None
+    return owner if isinstance(owner, str) else None
+
+
 def list_studies(root: Path | None = None) -> list[StoredStudy]:
     """Every study that was begun and can be read, by name."""
     root = root or find_studies_folder()

@@ -7,6 +7,7 @@ loopback host (a web site that points its own name at 127.0.0.1 does not get in)
 import asyncio
 from collections.abc import Awaitable, Callable
 from contextlib import AbstractContextManager
+from functools import partial
 
 from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
@@ -14,7 +15,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa_server.access.doors import REMOVED, ClassDoor, Door, read_bearer
 from svsa_server.access.origin import is_own_name, is_same_origin, read_host
-from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, Permission, find_permission
+from svsa_server.access.owned import Kind, Owner, begin_claims
+from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, find_permission
 from svsa_server.access.rates import Rates, find_kind
 from svsa_server.access.roles import EVERYBODY, Person
 from svsa_server.config import is_loopback
@@ -24,7 +26,7 @@ LONGEST_BODY_BYTES = 4 * 1024 * 1024
 _TOO_LARGE = f"A request holds at most {LONGEST_BODY_BYTES} bytes."
 PERSON = "svsa.person"
 
-Visibility = Callable[[Scope, Permission, dict[str, str], Person], Awaitable[bool]]
+FindOwner = Callable[[Scope, Kind, str], Awaitable[Owner | None]]
 
 
 class Refusal(Exception):  # noqa: N818
@@ -40,8 +42,8 @@ class Refusal(Exception):  # noqa: N818
 class AccessGuard:
     """Refuses what may not come in, and says in `scope[PERSON]` who calls.
 
-    hosts: names that it answers to besides its own. is_visible: whether what a path names may be
-    seen by who calls. rates: how often people may, in a class.
+    hosts: names that it answers to besides its own. find_owner: looks up the owner of an id that a
+    request gives (see `owned`). rates: how often people may, in a class.
     """
 
     def __init__(
@@ -49,10 +51,10 @@ class AccessGuard:
         app: ASGIApp,
         door: Door,
         hosts: frozenset[str],
-        is_visible: Visibility,
+        find_owner: FindOwner,
         rates: Rates | None = None,
     ) -> None:
-        self._app, self._door, self._hosts, self._is_visible = app, door, hosts, is_visible
+        self._app, self._door, self._hosts, self._find_owner = app, door, hosts, find_owner
         self._rates = rates
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -67,6 +69,7 @@ class AccessGuard:
             await _refuse(scope, receive, send, refusal)
             return
         person = scope[PERSON]
+        begin_claims(person, partial(self._find_owner, scope))
         if scope["type"] == "websocket" and person and isinstance(self._door, ClassDoor):
             await self._connect(scope, receive, send, self._door.people.connected(person))
         else:
@@ -114,7 +117,7 @@ class AccessGuard:
     async def _admit(self, scope: Scope) -> Person | None:
         """Who calls; None for somebody without a name, where that is allowed."""
         method = scope.get("method", WEBSOCKET)
-        permission, named = find_permission(method, find_path(scope))
+        permission = find_permission(method, find_path(scope)).permission
         headers = Headers(scope=scope)
         person = self._door.admit(headers)
         self._count(scope, person)
@@ -127,10 +130,6 @@ class AccessGuard:
         if person.role < permission.role:
             message = f"This needs the role {permission.role.word}; yours is {person.role.word}."
             raise Refusal(403, "not_allowed", message)
-        if not await self._is_visible(scope, permission, named, person):
-            kind = permission.scope.rpartition(" ")[2]
-            message = f"This {kind} belongs to who made it; only they and the instructor may."
-            raise Refusal(403, "not_yours", message)
         return person
 
     def _count(self, scope: Scope, person: Person | None) -> None:
@@ -145,6 +144,11 @@ class AccessGuard:
                 f" {wait_s} s."
             )
             raise Refusal(429, "too_many", message, {"Retry-After": str(wait_s)})
+
+
+def read_person(scope: Scope) -> Person:
+    """The caller, as the guard has proved it."""
+    return scope.get(PERSON) or EVERYBODY
 
 
 def find_path(scope: Scope) -> str:

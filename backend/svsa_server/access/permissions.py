@@ -1,29 +1,24 @@
-"""The table of permissions: who may call which route and WebSocket. What is not in it is the
-instructor's alone.
+"""The table of permissions: which role may call which route and WebSocket.
 
-`session` and `run` say that what a route's path names must be visible to who calls: a private
-session and its runs are their maker's and the instructor's, and so is a `study` that is kept, and a
-`job`, of minutes or hours. What nobody of the class made is everybody's to read.
-`own run` and `own study` ask for its maker.
+What is not in it is the instructor's alone. Whether the caller may use what a request names by id
+is checked where the id is read (see `owned`).
 """
 
 from functools import lru_cache
 from re import Pattern
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from starlette.routing import compile_path
 
 from svsa_server.access.roles import Role
 
 WEBSOCKET = "WEBSOCKET"
-Scope = Literal["", "session", "run", "own run", "job", "study", "own study"]
 
 
 class Permission(NamedTuple):
-    """The least role (None: not even a name is needed), and what of the path must be one's own."""
+    """The least role; None: anonymous calls are allowed."""
 
     role: Role | None
-    scope: Scope = ""
 
 
 ANYBODY = Permission(None)
@@ -90,21 +85,9 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         "POST /api/v1/references/csv",
         "POST /api/v1/references/position/preview",
         "POST /api/v1/references/stiffness/preview",
-    ),
-    Permission(Role.OBSERVER, "job"): (
         "GET /api/v1/jobs/{job}",
         "GET /api/v1/falsifications/{falsification}",
         "GET /api/v1/falsifications/{falsification}/file",
-    ),
-    Permission(Role.OPERATOR, "job"): (
-        "DELETE /api/v1/jobs/{job}",
-        "DELETE /api/v1/falsifications/{falsification}",
-        "POST /api/v1/falsifications/{falsification}/sessions",
-        "GET /api/v1/tunings/{tuning}",
-        "DELETE /api/v1/tunings/{tuning}",
-        "GET /api/v1/tunings/{tuning}/file",
-    ),
-    Permission(Role.OBSERVER, "session"): (
         f"GET {_SESSION}",
         f"GET {_SESSION}/stream",
         f"WEBSOCKET {_SESSION}/stream",
@@ -121,8 +104,6 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"POST {_SESSION}/design/response",
         f"POST {_SESSION}/design/stability",
         f"POST {_SESSION}/design/region",
-    ),
-    Permission(Role.OBSERVER, "run"): (
         f"GET {_RUN}",
         f"GET {_RUN}/samples",
         f"GET {_RUN}/metrics",
@@ -133,8 +114,20 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"GET {_RUN}/difference",
         f"POST {_RUN}/verdict",
         f"POST {_RUN}/compare",
+        "GET /api/v1/studies/{study}",
+        "GET /api/v1/studies/{study}/summary",
+        "GET /api/v1/studies/{study}/sensitivity",
+        "GET /api/v1/studies/{study}/rows",
+        "GET /api/v1/studies/{study}/rows.parquet",
+        "GET /api/v1/studies/{study}/rows/{row}",
     ),
     Permission(Role.OPERATOR): (
+        "DELETE /api/v1/jobs/{job}",
+        "DELETE /api/v1/falsifications/{falsification}",
+        "POST /api/v1/falsifications/{falsification}/sessions",
+        "GET /api/v1/tunings/{tuning}",
+        "DELETE /api/v1/tunings/{tuning}",
+        "GET /api/v1/tunings/{tuning}/file",
         "POST /api/v1/sessions",
         "PUT /api/v1/course/{exercise}/place",
         "PUT /api/v1/course/{exercise}/steps/{step}/answer",
@@ -151,24 +144,12 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         "POST /api/v1/scenarios/sessions",
         "PUT /api/v1/scenarios/{scenario}",
         "POST /api/v1/studies",
-    ),
-    Permission(Role.OBSERVER, "study"): (
-        "GET /api/v1/studies/{study}",
-        "GET /api/v1/studies/{study}/summary",
-        "GET /api/v1/studies/{study}/sensitivity",
-        "GET /api/v1/studies/{study}/rows",
-        "GET /api/v1/studies/{study}/rows.parquet",
-        "GET /api/v1/studies/{study}/rows/{row}",
-    ),
-    Permission(Role.OPERATOR, "study"): ("POST /api/v1/studies/{study}/rows/{row}/replay",),
-    Permission(Role.OPERATOR, "own study"): ("DELETE /api/v1/studies/{study}",),
-    Permission(Role.OPERATOR, "run"): (f"POST {_RUN}/branch",),
-    Permission(Role.OPERATOR, "own run"): (
+        "POST /api/v1/studies/{study}/rows/{row}/replay",
+        "DELETE /api/v1/studies/{study}",
+        f"POST {_RUN}/branch",
         f"PATCH {_RUN}",
         f"DELETE {_RUN}",
         f"POST {_RUN}/restore",
-    ),
-    Permission(Role.OPERATOR, "session"): (
         f"DELETE {_SESSION}",
         f"POST {_SESSION}/design/simulation",  # a private session of one's own
         f"PUT {_SESSION}/control",

@@ -7,6 +7,7 @@ from fastapi import Query, Request
 
 from svsa.records.catalogue.runs import find_data_folder
 from svsa_server.access.audit_reading import Question, list_operations, read_audit
+from svsa_server.access.owned import Owned
 from svsa_server.routes.classroom import find_class
 from svsa_server.routes.depends import BUSY, REFUSALS, Work
 from svsa_server.routing import build_router
@@ -23,7 +24,7 @@ Word = Annotated[str, Query(max_length=LONGEST_WORD)]
 async def read_audit_log(
     request: Request,
     work: Work,
-    person: Word = "",
+    person: Annotated[Word, Owned("person")] = "",
     kind: Word = "",
     refused: bool | None = None,
     until: Word = "",

@@ -20,6 +20,7 @@ from svsa.run.command import (
 from svsa.run.configuration import Configuration
 from svsa_server.access.doors import ClassDoor
 from svsa_server.access.origin import EVERYWHERE, find_outward_address
+from svsa_server.access.owned import Owned
 from svsa_server.access.roles import Person, Role
 from svsa_server.config import is_loopback
 from svsa_server.routes.depends import REFUSALS, NamedPerson
@@ -38,7 +39,9 @@ from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
 router = build_router("/class", tags=["class"], responses={409: REFUSALS[409]})
 _SCALE = 6
 Member = Annotated[
-    str, Path(alias="person", description="Id of a person", examples=["p-0123456789ab"])
+    str,
+    Owned("person"),
+    Path(alias="person", description="Id of a person", examples=["p-0123456789ab"]),
 ]
 
 

@@ -9,8 +9,9 @@ from starlette.types import Scope
 
 from svsa.errors import ParameterError
 from svsa.records.catalogue.runs import Catalogue
-from svsa_server.access.guard import PERSON
-from svsa_server.access.roles import EVERYBODY, Person
+from svsa_server.access.guard import read_person
+from svsa_server.access.owned import Owned, settle_claims
+from svsa_server.access.roles import Person
 from svsa_server.control.hand import (
     CHANGING,
     CLIENT_HEADER,
@@ -31,7 +32,7 @@ def find_asked(scope: Scope) -> tuple[str | None, str]:
 
 async def find_person(connection: HTTPConnection) -> Person:
     """Who calls, as the guard has proved it."""
-    return connection.scope.get(PERSON) or EVERYBODY
+    return read_person(connection.scope)
 
 
 NamedPerson = Annotated[Person, Depends(find_person)]
@@ -69,7 +70,9 @@ NamedClient = Annotated[str | None, Depends(find_client)]
 
 async def find_session(
     connection: HTTPConnection,
-    session: Annotated[str, Path(description="Name of the session", examples=["lab"])],
+    session: Annotated[
+        str, Owned("session"), Path(description="Name of the session", examples=["lab"])
+    ],
     client: NamedClient,
 ) -> HostedSession:
     """The session that the path names; `UnknownError` where there is none.
@@ -77,6 +80,7 @@ async def find_session(
     Every route gets its session here. Raises `HeldError` for a call that changes something
     while somebody else is in control.
     """
+    await settle_claims()
     found: HostedSession = connection.app.state.laboratory.get(session)
     now = time.monotonic()
     found.hand.hear(client, now)
@@ -119,7 +123,9 @@ def find_work(connection: HTTPConnection) -> HeavyWork:
 
 
 Work = Annotated[HeavyWork, Depends(find_work)]
-RunId = Annotated[str, Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])]
+_RUN_ID = Path(description="Id of a run", examples=["20260102-030405-9f8e7d6c"])
+RunId = Annotated[str, Owned("run"), _RUN_ID]
+ChangedRunId = Annotated[str, Owned("run", changes=True), _RUN_ID]
 
 REFUSALS: dict[int | str, dict[str, Any]] = {
     404: {"model": Problem, "description": "No such session, load or run"},

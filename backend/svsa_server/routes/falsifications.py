@@ -11,6 +11,7 @@ from svsa.errors import StateError
 from svsa.falsify.file import ADVERSARY_FOLDER, list_adversaries, read_adversary
 from svsa.falsify.scenario import LoadScenario
 from svsa.run.configuration import Lane
+from svsa_server.access.owned import Owned
 from svsa_server.jobs.falsifications import (
     Asked,
     find_file,
@@ -37,6 +38,7 @@ KIND = "falsification"
 router = build_router("/falsifications", tags=["falsifier"], responses=REFUSALS)
 Search = Annotated[
     str,
+    Owned("job"),
     Path(alias="falsification", description="Id of a search", examples=["3f2a9c01b7de"]),
 ]
 _TOML = {"application/toml": {"schema": {"type": "string"}}}

@@ -10,6 +10,7 @@ from svsa.errors import StateError
 from svsa.grading.class_grades import BOOK_FOLDER, list_grades, list_handed
 from svsa.grading.report import write_csv, write_page
 from svsa.isolation.probe import find_isolation_problem
+from svsa_server.access.owned import Owned
 from svsa_server.jobs.gradings import Asked, grade_all
 from svsa_server.routes.course import find_store
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
@@ -31,7 +32,9 @@ _CSV: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}
 }
 _POLICY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"}
-_Person = Annotated[str, Query(description="Id of a person; left out, the whole class")]
+_Person = Annotated[
+    str, Owned("person"), Query(description="Id of a person; left out, the whole class")
+]
 
 
 @router.get("")

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from fastapi import Path, Request
 
+from svsa_server.access.owned import Owned
 from svsa_server.access.roles import Person
 from svsa_server.jobs.queue import Job, Jobs, Kind
 from svsa_server.routes.depends import REFUSALS, NamedPerson
@@ -11,7 +12,7 @@ from svsa_server.routing import build_router
 from svsa_server.schemas.job import JobState, describe_job
 
 router = build_router("/jobs", tags=["jobs"], responses=REFUSALS)
-JobId = Annotated[str, Path(description="Id of a job", examples=["3f2a9c01b7de"])]
+JobId = Annotated[str, Owned("job"), Path(description="Id of a job", examples=["3f2a9c01b7de"])]
 
 
 @router.get("")

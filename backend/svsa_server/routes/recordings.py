@@ -6,7 +6,7 @@ from typing import Annotated
 from fastapi import Body, Request
 
 from svsa.records.resimulation import check_simulated, read_origin
-from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
+from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession, RunId
 from svsa_server.routing import build_router
 from svsa_server.schemas.recording import RecordingRequest
 from svsa_server.schemas.session import BranchRequest, SessionState
@@ -40,7 +40,7 @@ async def stop_recording(hosted: NamedSession) -> SessionState:
 @router.post("/runs/{run_id}/branch", status_code=201)
 async def branch_run(
     request: Request,
-    run_id: str,
+    run_id: RunId,
     person: NamedPerson,
     wanted: Annotated[BranchRequest, Body(examples=[{"tick": 5000}])],
 ) -> SessionState:

@@ -6,6 +6,7 @@ from typing import Annotated
 from fastapi import Query
 
 from svsa.records.difference import compare_settings
+from svsa_server.access.owned import Owned
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routing import build_router
 from svsa_server.schemas.run import RunDifference, SettingDifference
@@ -19,7 +20,7 @@ def read_difference(
     runs: Runs,
     run_id: RunId,
     other: Annotated[
-        list[str],
+        list[Annotated[str, Owned("run")]],
         Query(min_length=1, max_length=MAX_OTHERS, description="Ids of the runs beside it"),
     ],
 ) -> RunDifference:

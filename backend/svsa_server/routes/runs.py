@@ -19,7 +19,7 @@ from svsa.records.catalogue.entry import Query as RunQuery
 from svsa.records.catalogue.runs import Catalogue
 from svsa.records.measured_window import trace_record
 from svsa_server.access.roles import Role
-from svsa_server.routes.depends import CHANGED, REFUSALS, NamedPerson, RunId, Runs
+from svsa_server.routes.depends import CHANGED, REFUSALS, ChangedRunId, NamedPerson, RunId, Runs
 from svsa_server.routes.run_origins import name_origin
 from svsa_server.routing import build_router
 from svsa_server.runs.lanes import build_window, list_record_stretches, name_lanes
@@ -118,7 +118,7 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
 @router.patch("/runs/{run_id}", responses=CHANGED)
 def change_run(
     runs: Runs,
-    run_id: RunId,
+    run_id: ChangedRunId,
     patch: Annotated[RunPatch, Body(examples=[{"name": "Group 3", "tags": ["class"]}])],
     if_match: Annotated[
         str | None,
@@ -134,13 +134,13 @@ def change_run(
 
 
 @router.delete("/runs/{run_id}")
-def delete_run(runs: Runs, run_id: RunId) -> RunSummary:
+def delete_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
     """Put a run into the trash, from which `restore` takes it back."""
     return RunSummary(**_tell(runs, runs.delete(run_id)))
 
 
 @router.post("/runs/{run_id}/restore")
-def restore_run(runs: Runs, run_id: RunId) -> RunSummary:
+def restore_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
     """Take a run out of the trash."""
     return RunSummary(**_tell(runs, runs.restore(run_id)))
 

@@ -17,11 +17,13 @@ from svsa.study.store import (
     keep_study,
     list_studies,
     open_study,
+    read_owner,
 )
 from svsa.study.store import delete_study as discard
 from svsa.study.summary import SUCCEEDED
 from svsa.study.tables import tell_metric
 from svsa.study.work import build_schema
+from svsa_server.access.owned import Owned
 from svsa_server.jobs.queue import Job
 from svsa_server.jobs.studies import decide, replay, run, summarize
 from svsa_server.jobs.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
@@ -45,7 +47,9 @@ from svsa_server.schemas.study import (
 )
 
 router = build_router("/studies", tags=["studies"], responses=REFUSALS)
-Study = Annotated[str, Path(description="Name of a kept study", examples=["perturbation"])]
+_NAME = Path(description="Name of a kept study", examples=["perturbation"])
+Study = Annotated[str, Owned("study"), _NAME]
+ChangedStudy = Annotated[str, Owned("study", changes=True), _NAME]
 LONGEST_END_S = 60.0
 Row = Annotated[int, Path(ge=0, description="Number of the row")]
 Wanted = Annotated[StudyRequest, Body(examples=[{"source": "load", "runs": 256}])]
@@ -88,8 +92,9 @@ async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> 
     In a class it is one's own and the instructor's, with every run of its rows.
     """
     name, study = await asyncio.to_thread(wanted.build, person)
-    if is_kept(name) and not person.may_change(open_study(name).owner):
-        raise StudyError(f"Study {name} was begun by somebody else: give yours another name.")
+    owner = await asyncio.to_thread(read_owner, name)
+    if owner is not None and not person.may_change(owner):
+        raise StudyError(f"The name {name} is taken by another study: give yours another name.")
     await request.app.state.quota.check(person.id)
     jobs = find_jobs(request)
     jobs.check_room("study")
@@ -107,7 +112,7 @@ def read_study(request: Request, study: Study) -> StudyState:
 
 
 @router.delete("/{study}", status_code=204)
-async def delete_study(request: Request, study: Study) -> None:
+async def delete_study(request: Request, study: ChangedStudy) -> None:
     """Delete a study with all its rows, for good; one that is being run is cancelled first.
 
     Runs that were recorded of its rows stay.

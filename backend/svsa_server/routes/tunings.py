@@ -10,10 +10,9 @@ from svsa.arena.training import DURATION_S, TRAINING
 from svsa.control.installed import get_title, has_own_parameters
 from svsa.errors import StateError
 from svsa.run.configuration import Design, Lane
-from svsa_server.access.roles import Person
+from svsa_server.access.owned import Owned
 from svsa_server.jobs.queue import Job
 from svsa_server.jobs.tunings import Asked, read_file, read_trials, search
-from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.jobs import find_jobs, list_visible
 from svsa_server.routing import build_router
@@ -27,7 +26,9 @@ from svsa_server.schemas.tuning import (
 )
 
 router = build_router("/tunings", tags=["tuning"], responses=REFUSALS)
-TuningId = Annotated[str, Path(description="Id of a tuning", examples=["3f2a9c01b7de"])]
+TuningId = Annotated[
+    str, Owned("job"), Path(description="Id of a tuning", examples=["3f2a9c01b7de"])
+]
 _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 
@@ -48,7 +49,7 @@ async def start_tuning(
     It takes about a second a candidate, and makes no live session late.
     """
     build_space(wanted.law, wanted.held)
-    present = _find_present(request, person, wanted)
+    present = _find_present(request, wanted)
     asked = Asked(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
     title, jobs = get_title(wanted.law), find_jobs(request)
     return _build(jobs.start("tuning", title, search, asked, person.id), 0)
@@ -88,12 +89,10 @@ def read_tuned_file(request: Request, tuning: TuningId) -> Response:
     return Response(text, media_type="application/toml", headers=named)
 
 
-def _find_present(request: Request, person: Person, wanted: TuningRequest) -> Design:
+def _find_present(request: Request, wanted: TuningRequest) -> Design:
     if wanted.session is None:
         return request.app.state.design
     hosted = request.app.state.laboratory.get(wanted.session)
-    if not person.may_see(hosted.owner):
-        raise UnknownError(f"There is no session {wanted.session!r} of yours.")
     configuration = hosted.session.run.configuration
     return Design(**{name: getattr(configuration, name) for name in Design.model_fields})
 

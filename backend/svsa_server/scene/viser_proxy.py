@@ -26,6 +26,7 @@ from websockets.typing import Subprotocol
 
 from svsa.errors import SvsaError
 from svsa_server.access.origin import is_same_origin
+from svsa_server.access.owned import check_owned
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
@@ -167,6 +168,7 @@ class ViserProxy:
         return Response(answer.content, answer.status_code, headers=headers)
 
     async def _fetch(self, request: Request, path: str) -> httpx.Response:
+        await check_owned("session", request.path_params["session"])
         port = await self._find_port(request.path_params["session"])
         address = httpx.URL(scheme="http", host="127.0.0.1", port=port, path=path)
         return await self._http.get(address, headers={"Accept-Encoding": "identity"})
@@ -178,6 +180,7 @@ class ViserProxy:
             await websocket.close(1008)
             return
         try:
+            await check_owned("session", websocket.path_params["session"])
             port = await self._find_port(websocket.path_params["session"])
             viser = await websockets.connect(
                 f"ws://127.0.0.1:{port}/",

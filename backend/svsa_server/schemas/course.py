@@ -13,6 +13,7 @@ from svsa.course.progress import ExerciseProgress, find_done, find_missing
 from svsa.course.steps import Experiment, Explain, HandInStep, Predict, Step
 from svsa.course.text import render_text
 from svsa.grading.law_runs import POINTS
+from svsa_server.access.owned import Owned
 
 
 class SetupRequest(Checked):
@@ -37,7 +38,7 @@ class PlaceRequest(Checked):
 class RunRequest(Checked):
     """The run that is to be judged."""
 
-    run_id: Annotated[str, Field(min_length=1, max_length=80)] = quantity(
+    run_id: Annotated[str, Field(min_length=1, max_length=80), Owned("run")] = quantity(
         "", "Id of a recorded run"
     )
 

@@ -12,12 +12,13 @@ from svsa.errors import ParameterError, Violation
 from svsa.study.file import list_built_in, parse_study, read_study
 from svsa.study.metrics import METRICS, Metric
 from svsa.study.setting_name import SettingName, name_variation
-from svsa.study.store import StoredStudy, count_done, is_kept, open_study
+from svsa.study.store import StoredStudy, count_done, is_kept, open_study, read_owner
 from svsa.study.study import MAX_LAWS, MAX_RUNS, Study
 from svsa.study.success import Success
 from svsa.study.summary import SUCCEEDED
 from svsa.study.tables import tell_metric
 from svsa.study.work import build_schema
+from svsa_server.access.owned import Owned
 from svsa_server.access.roles import Person
 from svsa_server.jobs.queue import Job
 from svsa_server.jobs.studies import MAX_ROWS
@@ -32,7 +33,9 @@ StudyName = Annotated[str, Field(min_length=1, max_length=64)]
 class StudyRequest(Checked):
     """A study to be run: a built-in or a kept one, or a text; and what is otherwise than there."""
 
-    source: StudyName | None = quantity("", "Name of a built-in or a kept study", default=None)
+    source: Annotated[StudyName, Owned("study source")] | None = quantity(
+        "", "Name of a built-in or a kept study", default=None
+    )
     text: Annotated[str, Field(max_length=LONGEST_TEXT)] | None = quantity(
         "", "A study as TOML, in place of a source", default=None
     )
@@ -56,8 +59,8 @@ class StudyRequest(Checked):
     def build(self, person: Person) -> tuple[str, Study]:
         """The name to keep it by, and the study; raises `ParameterError`.
 
-        person: who asks, from whom what others keep is hidden. Where none is given the name is the
-        source's, with a number if somebody else has that.
+        person: who asks. Where none is given the name is the source's, with a number if somebody
+        else has that.
         """
         asked = ("runs", "laws", "metrics", "success")
         changes = {name: one for name in asked if (one := getattr(self, name)) is not None}
@@ -65,7 +68,7 @@ class StudyRequest(Checked):
             name, study = self.name or OWN_NAME, parse_study(self.text, **changes)
         else:
             source = str(self.source)
-            study = _find(source, person).changed(**changes)
+            study = _find(source).changed(**changes)
             name = self.name or source
         if self.name is None:
             name = _find_free(name, person)
@@ -75,11 +78,11 @@ class StudyRequest(Checked):
         return name, study
 
 
-def _find(source: str, person: Person) -> Study:
+def _find(source: str) -> Study:
     if source in list_built_in():
         return read_study(source)[1]
-    if is_kept(source) and person.may_see((stored := open_study(source)).owner):
-        return stored.study
+    if is_kept(source):
+        return open_study(source).study
     bound = "a kept study, or one of " + ", ".join(list_built_in())
     raise ParameterError(Violation("source", source, "", bound))
 
@@ -88,7 +91,8 @@ def _find_free(name: str, person: Person) -> str:
     """The name, or with the first number under which nobody else keeps a study."""
     numbered = (f"{name}-{number}" for number in itertools.count(2))
     for one in itertools.chain([name], numbered):
-        if not is_kept(one) or person.may_change(open_study(one).owner):
+        owner = read_owner(one)
+        if owner is None or person.may_change(owner):
             return one
     raise AssertionError(name)
 

@@ -8,6 +8,7 @@ from svsa.arena.tune import BUDGET, Stage
 from svsa.checked import Checked, Number, Whole, quantity
 from svsa.control.installed import InstalledLaw
 from svsa.run.configuration import Lane
+from svsa_server.access.owned import Owned
 from svsa_server.jobs.queue import Status
 
 MAX_BUDGET = 2000
@@ -22,7 +23,7 @@ class TuningRequest(Checked):
     held: dict[str, Number] = quantity(
         "", "Parameters of the law that are set and not searched", default={}
     )
-    session: str | None = quantity(
+    session: Annotated[str, Owned("session")] | None = quantity(
         "", "Session whose design it begins from; left out, the lab's", default=None
     )
 

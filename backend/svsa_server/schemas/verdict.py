@@ -9,6 +9,7 @@ from pydantic import BaseModel, Field
 
 from svsa.checked import Checked, quantity
 from svsa.records.verdict import EXACT, ChannelVerdict, Tolerance
+from svsa_server.access.owned import Owned
 
 MAX_TOLERANCES = 100
 MAX_POINTS = 20_000
@@ -17,7 +18,9 @@ MAX_POINTS = 20_000
 class VerdictRequest(Checked):
     """Against which run a run is judged, and by how much each channel may differ."""
 
-    other: str = quantity("", "Id of the run that it should be", min_length=1, max_length=200)
+    other: Annotated[str, Owned("run")] = quantity(
+        "", "Id of the run that it should be", min_length=1, max_length=200
+    )
     tolerances: dict[str, Tolerance] = quantity(
         "", "By channel", default_factory=dict, max_length=MAX_TOLERANCES
     )

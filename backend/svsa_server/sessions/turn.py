@@ -13,8 +13,9 @@ import time
 from collections.abc import Callable
 from typing import Any, ParamSpec, TypeVar
 
-from fastapi.routing import APIRoute
 from greenlet import getcurrent, greenlet
+
+from svsa_server.routing import OwnedRoute
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -48,7 +49,7 @@ def let_pass(seconds: float) -> None:
         time.sleep(seconds)
 
 
-class TurnRoute(APIRoute):
+class TurnRoute(OwnedRoute):
     """A route whose plain function is taken as a turn: it may wait for a bench."""
 
     def __init__(self, path: str, endpoint: Callable[..., Any], **settings: Any) -> None:

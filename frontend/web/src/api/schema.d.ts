@@ -13972,6 +13972,7 @@ export interface operations {
             query?: never;
             header?: never;
             path: {
+                /** @description Id of a run */
                 run_id: string;
             };
             cookie?: never;
