@@ -20,7 +20,7 @@ from svsa.session.session import Session
 from svsa_server.access.audit import AuditLog, Auditor
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.doors import ClassDoor, Door, OpenDoor, SecretDoor
-from svsa_server.access.guard import AccessGuard
+from svsa_server.access.guard import AccessGuard, read_person
 from svsa_server.access.memberships import FILE, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.rates import Rates
@@ -117,7 +117,11 @@ def build_app(
     app.state.course_progress = ProgressStore(find_data_folder())
     app.state.lti = open_lti(config)
     app.state.outcomes = Outcomes()
-    app.add_middleware(OutcomeKeeper, outcomes=app.state.outcomes)
+    app.add_middleware(
+        OutcomeKeeper,
+        outcomes=app.state.outcomes,
+        read_person_id=lambda scope: read_person(scope).id,
+    )
     app.add_middleware(
         AccessGuard,
         door=door,

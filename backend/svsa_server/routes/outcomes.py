@@ -6,7 +6,7 @@ from fastapi import Path, Request
 from pydantic import BaseModel, Field
 
 from svsa_server.control.outcomes import LONGEST_NAME, Outcome, Outcomes
-from svsa_server.routes.depends import REFUSALS
+from svsa_server.routes.depends import REFUSALS, NamedPerson
 from svsa_server.routing import build_router
 
 router = build_router("/requests", tags=["lab"], responses={422: REFUSALS[422]})
@@ -26,6 +26,7 @@ class OutcomeState(BaseModel):
 @router.get("/{request_name}")
 async def read_outcome(
     request: Request,
+    person: NamedPerson,
     request_name: Annotated[
         str,
         Path(
@@ -35,7 +36,7 @@ async def read_outcome(
         ),
     ],
 ) -> OutcomeState:
-    """Whether a request whose answer did not come was carried out."""
+    """Whether a request of one's own whose answer did not come was carried out."""
     outcomes: Outcomes = request.app.state.outcomes
-    outcome, status = outcomes.find(request_name)
+    outcome, status = outcomes.find(person.id, request_name)
     return OutcomeState(outcome=outcome, status=status, age_s=outcomes.age_s)

@@ -215,6 +215,15 @@ def connect(room: Classroom, browser: httpx.Client, path: str, name: str = "") -
     return f"{first['status']} {sent[1]['body'].decode()}".replace(name or path, "ID")
 
 
+def test_the_outcome_of_a_request_is_for_its_sender_only(things: Things) -> None:
+    outcomes = "/api/v1/requests/"
+    things.ada.post(SHARED + "/pause", headers={"SVSA-Request": SECRET}).raise_for_status()
+    assert things.ada.get(outcomes + SECRET).json()["outcome"] == "carried_out"
+    for role in (Role.OBSERVER, Role.OPERATOR):
+        found = [things.others[role].get(outcomes + name).json() for name in (SECRET, "none")]
+        assert [(one["outcome"], one["status"]) for one in found] == [("unknown", None)] * 2
+
+
 def test_control_is_handed_to_another_person_as_to_nobody(things: Things) -> None:
     found = [
         describe(

@@ -61,10 +61,10 @@ def test_what_never_came_and_what_only_reads_are_unknown(lab: Lab) -> None:
 def test_only_the_last_requests_are_kept() -> None:
     outcomes = Outcomes()
     for number in range(MAX_KEPT + 1):
-        outcomes.note(str(number), 200)
-    assert outcomes.find("0") == ("unknown", None)
-    assert outcomes.find("1") == ("carried_out", 200)
-    outcomes.note("1", None)
-    assert outcomes.find("1") == ("pending", None)
-    outcomes.note("1", 500)
-    assert outcomes.find("1") == ("refused", 500)
+        outcomes.note("p-1", str(number), 200)
+    assert outcomes.find("p-1", "0") == ("unknown", None)
+    assert outcomes.find("p-1", "1") == ("carried_out", 200)
+    outcomes.note("p-1", "1", None)
+    assert outcomes.find("p-1", "1") == ("pending", None)
+    outcomes.note("p-1", "1", 500)
+    assert outcomes.find("p-1", "1") == ("refused", 500)

@@ -2604,7 +2604,7 @@ export interface paths {
         };
         /**
          * Read Outcome
-         * @description Whether a request whose answer did not come was carried out.
+         * @description Whether a request of one's own whose answer did not come was carried out.
          */
         get: operations["read_outcome"];
         put?: never;
