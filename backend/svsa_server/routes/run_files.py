@@ -72,8 +72,9 @@ async def compare_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
 
 
 def send_page(file: IO[bytes]) -> StreamingResponse:
-    """A replay's page, to be looked at in place."""
-    return _send(file, "text/html", {"Cache-Control": f"private, max-age={REPLAY_AGE_S}"})
+    """A replay's page, to be looked at in place; a browser keeps it for the person who got it."""
+    kept = {"Cache-Control": f"private, max-age={REPLAY_AGE_S}", "Vary": "Cookie, Authorization"}
+    return _send(file, "text/html", kept)
 
 
 def _send(file: IO[bytes], media_type: str, headers: Mapping[str, str]) -> StreamingResponse:

@@ -186,7 +186,12 @@ def download_rows(study: Study) -> FileResponse:
     table = stored.folder / TABLE_FILE
     if not table.exists():
         raise StateError(f"Study {study} has no table yet: it is made when a job of it ends.")
-    return FileResponse(table, media_type=next(iter(_PARQUET)), filename=f"{study}.parquet")
+    # A browser that several people use must ask again: the file has a date and would be kept.
+    asked_again = {"Cache-Control": "no-cache"}
+    media_type = next(iter(_PARQUET))
+    return FileResponse(
+        table, media_type=media_type, filename=f"{study}.parquet", headers=asked_again
+    )
 
 
 @router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY)

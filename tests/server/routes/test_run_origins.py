@@ -75,4 +75,6 @@ def test_the_replay_is_a_page_to_look_at_in_place(lab: Lab) -> None:
     answer = lab.client.get(f"/api/v1/runs/{run}/replay?t=1.5").raise_for_status()
     assert answer.headers["content-type"].startswith("text/html")
     assert "content-disposition" not in answer.headers
+    assert answer.headers["cache-control"].startswith("private")
+    assert answer.headers["vary"] == "Cookie, Authorization"
     assert lab.client.get("/api/v1/runs/no-such-run/replay").status_code == 404

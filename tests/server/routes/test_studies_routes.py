@@ -101,6 +101,7 @@ def test_a_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, whol
     assert 0 < sum(ended) < 48
     file = lab.get(f"{STUDIES}/whole/rows.parquet")
     assert file.content == (open_study("whole").folder / "rows.parquet").read_bytes()
+    assert file.headers["cache-control"] == "no-cache"
 
 
 def test_a_study_asked_for_some_metrics_keeps_those(lab):
