@@ -59,8 +59,8 @@ class StudyRequest(Checked):
     def build(self, person: Person) -> tuple[str, Study]:
         """The name to keep it by, and the study; raises `ParameterError`.
 
-        person: who asks. Where none is given the name is the source's, with a number if somebody
-        else has that.
+        person: the caller. Without a name in the request it is the source's, with a number if
+        another person's study has that one.
         """
         asked = ("runs", "laws", "metrics", "success")
         changes = {name: one for name in asked if (one := getattr(self, name)) is not None}
