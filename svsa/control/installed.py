@@ -62,7 +62,6 @@ LawName = Annotated[str, AfterValidator(_check_name)]
 InstalledLaw = Annotated[LawName, AfterValidator(check_installed)]
 
 
-@cache
 def get_law(name: str) -> Law:
     """A law by its name.
 
@@ -71,16 +70,29 @@ def get_law(name: str) -> Law:
     """
     if name not in _find_entries():
         raise ParameterError(Violation("law", name, "", _say_installed()))
+    law = _load_law(name)
+    if isinstance(law, str):
+        raise LawError(law)
+    return law
+
+
+@cache
+def _load_law(name: str) -> Law | str:
+    """Import a law once in a process; return why it does not work where it does not.
+
+    A failed import is kept too: a second attempt takes as long as the first, and a bench's loop
+    that reads a law's name has no time for one.
+    """
     entry = _find_entries()[name]
     package = entry.dist.name if entry.dist else entry.module
     try:
         law = entry.load()
     except Exception as error:
         told = f"{type(error).__name__}: {error}"
-        raise LawError(f"The law {name} of the package {package} does not load: {told}") from error
+        return f"The law {name} of the package {package} does not load: {told}"
     if not isinstance(law, Law) or law.name != name:
         found = f"the law {law.name}" if isinstance(law, Law) else f"a {type(law).__name__}"
-        raise LawError(f"The package {package} announces the law {name}, but brings {found}.")
+        return f"The package {package} announces the law {name}, but brings {found}."
     return law
 
 

@@ -59,10 +59,22 @@ def install(monkeypatch):
         for name, value in values.items():
             entry = EntryPoint(name, f"{__name__}:{value}", installed.GROUP)
             monkeypatch.setitem(installed._find_entries(), name, entry)
-            get_law.cache_clear()
+            installed._load_law.cache_clear()
 
     yield announce
-    get_law.cache_clear()
+    installed._load_law.cache_clear()
+
+
+def test_a_law_that_does_not_load_is_imported_once(monkeypatch, install):
+    """A second attempt takes as long as the first, and a bench's loop has no time for it."""
+    install(absent="ABSENT")
+    tried = []
+    load = EntryPoint.load
+    monkeypatch.setattr(EntryPoint, "load", lambda entry: tried.append(entry.name) or load(entry))
+    for _ in range(2):
+        with pytest.raises(LawError, match=r"The law absent .* does not load: AttributeError"):
+            get_law("absent")
+    assert tried == ["absent"]
 
 
 def test_the_paper_s_laws_come_through_the_door_that_everybody_s_come_through():

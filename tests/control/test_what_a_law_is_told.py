@@ -11,7 +11,6 @@ import svsa
 from svsa.compilation import compiled
 from svsa.control import installed
 from svsa.control.call import build_call
-from svsa.control.installed import get_law
 from svsa.control.law import Law
 from svsa.isolation.confinement import leave_open
 from svsa.isolation.process import LawProcess
@@ -99,9 +98,9 @@ def _install(monkeypatch):
     for law in ("HEAR", "HEAR_BRANCHING"):
         entry = EntryPoint(law.lower(), f"{__name__}:{law}", installed.GROUP)
         monkeypatch.setitem(installed._find_entries(), law.lower(), entry)
-    get_law.cache_clear()
+    installed._load_law.cache_clear()
     yield
-    get_law.cache_clear()
+    installed._load_law.cache_clear()
 
 
 def build(law="hear", effects=svsa.RIG, **changes):

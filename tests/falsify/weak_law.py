@@ -49,4 +49,4 @@ def install(patch) -> None:
     """Announce it as an installed package would."""
     entry = EntryPoint("weak", f"{__name__}:WEAK", installed.GROUP)
     patch.setitem(installed._find_entries(), "weak", entry)
-    installed.get_law.cache_clear()
+    installed._load_law.cache_clear()
