@@ -1,7 +1,8 @@
 """What a control law is: all that the lab knows of one, said by the law itself."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
@@ -106,10 +107,45 @@ class Law:
 
         Raises `LawError` where the law's own code fails at it.
         """
-        is_own = self.estimate == "own"
+        return self.bind_packed(pack(setting.nominal), self.pack_constants(parameters, setting))
+
+    def pack_constants(self, parameters: LawParameters, setting: Setting) -> np.ndarray:
+        """Compute the constants of `control`, without compiling anything of the law.
+
+        Args:
+            parameters: Of this law.
+            setting: What the law is set into.
+
+        Returns:
+            One packed record, shape (1,).
+
+        Raises:
+            LawError: If the law's `build` fails.
+        """
+        with self._blame():
+            return pack(self.build(parameters, setting))
+
+    def bind_packed(self, nominal: np.ndarray, constants: np.ndarray) -> BoundLaw:
+        """Bind the law to packed constants; compile it if their layout is new.
+
+        Args:
+            nominal: The nominal model, packed, shape (1,).
+            constants: As `pack_constants` returns them.
+
+        Returns:
+            The law as the compiled loop calls it.
+
+        Raises:
+            LawError: If the law does not compile.
+        """
+        with self._blame():
+            return bind(self.control, nominal, constants, self._start, self.estimate == "own")
+
+    @contextmanager
+    def _blame(self) -> Iterator[None]:
+        """Report an error in the law's own code as `LawError` with the law's name."""
         try:
-            constants = pack(self.build(parameters, setting))
-            return bind(self.control, pack(setting.nominal), constants, self._start, is_own)
+            yield
         except SvsaError:
             raise
         except Exception as error:

@@ -1,7 +1,8 @@
 """A lane of a configuration as constants of the compiled loop."""
 
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 from svsa.control.call import BoundLaw
 from svsa.control.installed import get_law
@@ -15,6 +16,9 @@ from svsa.observer.disturbance import compute_shares
 from svsa.plant.effects import build_bench
 from svsa.reference.trajectories import compute_start_value
 from svsa.run.configuration import Configuration, Lane
+
+Bind: TypeAlias = Callable[[Configuration, Lane, Blocks], BoundLaw]
+"""Binds the law of one lane among its blocks, as `bind_law` does."""
 
 
 def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: int = 1) -> Blocks:

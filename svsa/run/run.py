@@ -26,7 +26,7 @@ from svsa.reference.trajectories import (
     get_range,
 )
 from svsa.reference.transition import Stack, build_stack, push_trajectory
-from svsa.run.blocks import bind_law, build_blocks, compute_start_ratio
+from svsa.run.blocks import Bind, bind_law, build_blocks, compute_start_ratio
 from svsa.run.configuration import MAX_LOADS, Configuration, Lane, LaneSetting
 from svsa.run.fault import build_fault
 from svsa.run.loads import Loads, give_load
@@ -49,8 +49,8 @@ class Run:
     `configuration` is the present one; a change takes effect at the next tick. The run
     starts at x = 0 with the μ0 that makes σ(0) = σ_d(0); with a `start`, from there, and the
     references fade in from q and σ as they are. steps: Runge–Kutta steps a period.
-    controller: one's own in plain Python, in place of the first lane's law. `blocks`, `laws` (one
-    a lane) and `inputs` are what the compiled loop is given.
+    controller: one's own in plain Python, in place of the first lane's law. bind: binds the law of
+    a lane. `blocks`, `laws` (one a lane) and `inputs` are what the compiled loop is given.
     """
 
     def __init__(
@@ -59,10 +59,12 @@ class Run:
         steps: int = 1,
         controller: Controller | None = None,
         start: Start | None = None,
+        bind: Bind = bind_law,
     ) -> None:
         check_laws(configuration)
         self.configuration = configuration
         self.steps = steps
+        self._bind = bind
         self._controller = controller
         self.tick = 0
         self.fault: Fault | None = None
@@ -247,7 +249,7 @@ class Run:
     def _connect(self, c: Configuration) -> None:
         """What the loop is given under a configuration; a law that fails at it changes nothing."""
         blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
-        self.laws = [bind_law(c, lane, own) for lane, own in zip(c.lanes, blocks, strict=True)]
+        self.laws = [self._bind(c, lane, own) for lane, own in zip(c.lanes, blocks, strict=True)]
         self.configuration, self.blocks = c, blocks
         self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
 

@@ -16,8 +16,9 @@ from svsa.bench.realtime.launch import (
     keep_quiet,
 )
 from svsa.bench.realtime.loss import Loss, find_loss, is_supervised
+from svsa.bench.realtime.prepared_laws import UnpreparedLawError, compute_constants
 from svsa.errors import StateError
-from svsa.run.configuration import Configuration
+from svsa.run.configuration import MAX_LANES, Configuration
 
 UNKNOWN_S = 0.25
 """So long after the last tick it may not be known yet who stops the drives."""
@@ -112,8 +113,16 @@ class SupervisedLoop:
             )
 
     def ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
-        """Have the loop do it, and rest until it answers."""
+        """Have the loop do it, and rest until it answers.
+
+        Constants of a law that the loop lacks are computed here: it has no time for it.
+        """
         self.check_started()
+        for _ in range(MAX_LANES):
+            try:
+                return self.processes.request(wanted, argument)
+            except UnpreparedLawError as lacking:
+                self.processes.request("prepare", compute_constants(lacking.wanted))
         return self.processes.request(wanted, argument)
 
     def take_states(self) -> list[dict[str, Any]]:

@@ -13,6 +13,7 @@ from svsa.bench.file import read_bench
 from svsa.bench.realtime.configuration import build_bench_configuration
 from svsa.bench.realtime.link import Link
 from svsa.bench.realtime.memory import LoopMemory
+from svsa.bench.realtime.prepared_laws import PreparedLaws
 from svsa.bench.realtime.process import LoopProcess
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.bench.safety.machine import BenchStatus
@@ -48,7 +49,14 @@ def told() -> Told:
         link = Link(theirs)
         try:
             process = LoopProcess(
-                bench.loop, bench.plant, bench._clock, 1.0, Link(ours), memory, beats
+                bench.loop,
+                bench.plant,
+                bench._clock,
+                1.0,
+                Link(ours),
+                memory,
+                beats,
+                PreparedLaws(),
             )
             assert [motor.winding.heat for motor in bench.plant.motors] == LEFT_HEAT
             return hang_paper_load(bench, process, memory, link)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from svsa.bench.file import read_bench
 from svsa.bench.realtime.link import LinkClosedError, build_links
 from svsa.bench.realtime.memory import LoopMemory
+from svsa.bench.realtime.prepared_laws import UnpreparedLawError
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.run.configuration import Configuration
@@ -250,4 +251,6 @@ def _check(answer: dict[str, Any]) -> dict[str, Any]:
         return answer
     if "violations" in answer:
         raise ParameterError(*(Violation(**violation) for violation in answer["violations"]))
+    if "unprepared" in answer:
+        raise UnpreparedLawError(answer["unprepared"])
     raise StateError(answer["refused"])

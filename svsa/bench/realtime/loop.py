@@ -26,6 +26,7 @@ from svsa.loop.measured import (
     publish_and_predict,
 )
 from svsa.packed import pack, view_field
+from svsa.run.blocks import Bind, bind_law
 from svsa.run.command import Command
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run, Start
@@ -88,7 +89,7 @@ class BenchLoop:
 
     plant: open. actuation: from a torque that is decided to one that acts. mu0: lever ratio at the
     zero marks. configuration: its references, law, gains and observer are used; see
-    `build_bench_configuration`.
+    `build_bench_configuration`. bind: binds the law of a lane.
     """
 
     def __init__(
@@ -98,12 +99,13 @@ class BenchLoop:
         mu0: float,
         configuration: Configuration,
         sink: SampleSink,
+        bind: Bind = bind_law,
     ) -> None:
         self.plant, self.sink = plant, sink
         self.number = 0
         self.reading: Reading | None = None
-        self._actuation, self._mu0 = actuation, mu0
-        self.run = Run(configuration, start=Start(self._mu0, AT_REST))
+        self._actuation, self._mu0, self._bind = actuation, mu0, bind
+        self.run = Run(configuration, start=Start(self._mu0, AT_REST), bind=bind)
         self._scratch = np.empty(len(CHANNELS))
         self._carried = _NOTHING.copy()
         self._known, self._estimate, self._asked, self._expected, self._measured, self._ages = (
@@ -127,7 +129,7 @@ class BenchLoop:
             raise StateError("The bench is moving: stop it before another run is loaded.")
         x = State(*self._known.tolist())
         near = x if abs(x.q) <= FARTHEST_RAD else AT_REST
-        self.run = Run(configuration, start=Start(self._mu0, near))
+        self.run = Run(configuration, start=Start(self._mu0, near), bind=self._bind)
 
     def start(self, now: float) -> Start:
         """Begin a run at tick 0 from where the bench stands; raises `StateError`.
@@ -147,7 +149,7 @@ class BenchLoop:
         self.plant.start(now)
         still = known._replace(dq=0.0, dtheta1=0.0, dtheta2=0.0)
         start = Start(self._mu0, still)
-        self.run = Run(self.run.configuration, start=start)
+        self.run = Run(self.run.configuration, start=start, bind=self._bind)
         self._estimate[:] = UNDISTURBED
         self.number += 1
         self.sink.begin_run(self.number)

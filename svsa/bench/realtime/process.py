@@ -21,6 +21,8 @@ from svsa.bench.realtime.configuration import build_guard, read_actuation
 from svsa.bench.realtime.link import Link, LinkClosedError
 from svsa.bench.realtime.loop import MOVING, STATUSES, BenchLoop
 from svsa.bench.realtime.memory import LoopMemory, add_to_histogram
+from svsa.bench.realtime.prepared_laws import PreparedLaws, UnpreparedLawError
+from svsa.bench.realtime.warm_up import warm_up
 from svsa.bench.safety.heartbeat import Heartbeats
 from svsa.bench.safety.machine import BenchStatus
 from svsa.bench.schedule import LOOP_PRIORITY, request_real_time
@@ -46,8 +48,9 @@ class LoopProcess:
         link: Link,
         memory: LoopMemory,
         beats: Heartbeats,
+        laws: PreparedLaws,
     ) -> None:
-        self._loop, self._plant, self._clock = loop, plant, clock
+        self._loop, self._plant, self._clock, self._laws = loop, plant, clock, laws
         self._link: Link | None = link
         self._fields, self._beats, self._server_s = memory.fields, beats, server_s
         self._told: tuple[Any, ...] = ()
@@ -123,6 +126,8 @@ class LoopProcess:
         except ParameterError as error:
             violations = [dataclasses.asdict(violation) for violation in error.violations]
             return {"refused": str(error), "violations": violations}
+        except UnpreparedLawError as error:
+            return {"refused": str(error), "unprepared": error.wanted}
         except SvsaError as error:
             return {"refused": str(error)}
 
@@ -133,6 +138,8 @@ class LoopProcess:
                 return {"tick": loop.change(read_command(argument))}
             case "load":
                 loop.load(Configuration(**argument))
+            case "prepare":
+                self._laws.add(argument)
             case "arm":
                 gc.collect()
                 self._beats.beat("loop")
@@ -214,18 +221,24 @@ def main(arguments: list[str]) -> int:
     try:
         (first,) = link.receive(FIRST_MESSAGE_S)
         tell("loading the compiled loop")
-        with watch_compilation(tell.count_function):
-            loop = BenchLoop(
-                plant,
-                read_actuation(bench),
-                bench.home.lever_ratio,
-                Configuration(**first["configuration"]),
-                memory,
-            )
-            loop.warm_up()
+        laws = PreparedLaws()
+        try:
+            with watch_compilation(tell.count_function):
+                loop = BenchLoop(
+                    plant,
+                    read_actuation(bench),
+                    bench.home.lever_ratio,
+                    Configuration(**first["configuration"]),
+                    memory,
+                    laws.bind,
+                )
+                warm_up(loop, laws, tell)
+        except SvsaError as error:
+            link.send({"event": "failed", "message": str(error)})
+            return 1
         tell("asking for real time")
         link.send({"event": "ready", "notes": request_real_time(LOOP_PRIORITY)})
-        LoopProcess(loop, plant, clock, bench.safety.server_s, link, memory, beats).run()
+        LoopProcess(loop, plant, clock, bench.safety.server_s, link, memory, beats, laws).run()
     except LinkClosedError:
         pass
     except ClockError as error:

@@ -41,7 +41,7 @@ def test_the_first_tick_is_due_after_that() -> None:
     memory = LoopMemory.create()
     try:
         nobody: Any = None
-        process = LoopProcess(loop, plant, clock, 1.0, nobody, memory, nobody)
+        process = LoopProcess(loop, plant, clock, 1.0, nobody, memory, nobody, nobody)
         process._ending = True
         process.run()
     finally:

@@ -1,0 +1,71 @@
+"""The first use of each law on a bench against the clock: the loop goes on meanwhile."""
+
+import contextlib
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from svsa.bench.homing import STEPS
+from svsa.bench.safety.machine import BenchStatus
+from svsa.control.installed import list_law_names
+from svsa.paper import get_figure
+from svsa.reference.trajectories import ConstantPosition
+from svsa.rig.launch import start_rig
+from svsa.run.command import SetLaw
+from svsa.session.bench import BenchSession
+from tests.hardware.live_bench import IDLE_S, write_bench
+
+MISSED = 60
+"""Ticks of all 19 laws together: they were 300. A busy machine takes some itself."""
+STALL_S = 0.02
+WAKE_S = 1.0 / 60.0
+PATIENCE_S = 30.0
+
+pytestmark = pytest.mark.wall_clock(stall_s=STALL_S)
+
+
+def wake_until(session: BenchSession, status: BenchStatus) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while session.bench_status is not status:
+        assert session.fault is None, session.fault
+        assert time.monotonic() < end, session.bench_status
+        session.wake(time.monotonic())
+        time.sleep(WAKE_S)
+
+
+@contextlib.contextmanager
+def open_bench(folder: Path) -> Iterator[BenchSession]:
+    figure = get_figure("4a").build_configuration(load=False)
+    with start_rig(False, IDLE_S, "--real-time") as rig:
+        path = write_bench(folder, rig, lockstep=False)
+        session = BenchSession("lab", path, figure.changed(position=ConstantPosition()))
+        try:
+            session.open()
+            session.watched = True
+            session.arm()
+            wake_until(session, BenchStatus.READY)
+            for step in STEPS:
+                session.confirm_home(step.name, "a test")
+            yield session
+        finally:
+            session.close()
+
+
+@pytest.mark.parametrize("status", [BenchStatus.READY, BenchStatus.RUN])
+def test_the_first_use_of_each_law_makes_no_tick_late(status: BenchStatus, tmp_path: Path) -> None:
+    with open_bench(tmp_path) as session:
+        if status is BenchStatus.RUN:
+            session.start()
+            wake_until(session, BenchStatus.RUN)
+        fields = session.loop.memory.fields
+        missed = {}
+        for law in list_law_names():
+            before = int(fields["skipped"])
+            session.change(SetLaw(argument=law))
+            session.wake(time.monotonic())
+            missed[law] = int(fields["skipped"]) - before
+        assert session.fault is None
+        assert session.bench_status is status
+    assert sum(missed.values()) < MISSED, missed
