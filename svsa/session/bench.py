@@ -7,7 +7,7 @@ from typing import Any
 
 from svsa.bench.calibration import find_calibration, list_problems
 from svsa.bench.file import read_bench
-from svsa.bench.realtime.configuration import build_bench_configuration
+from svsa.bench.realtime.configuration import build_bench_configuration, check_loads
 from svsa.bench.realtime.launch import Rest, Teller, keep_quiet
 from svsa.bench.safety.machine import MOVING, BenchStatus
 from svsa.errors import Fault, StateError
@@ -134,6 +134,7 @@ class BenchSession:
         self._load(build_bench_configuration(self.bench, configuration))
 
     def _load(self, configuration: Configuration) -> None:
+        check_loads(configuration.loads)
         self._ask("load", configuration.model_dump(mode="json"))
         self._hands.hang(())
         self.journal.stop_recording()

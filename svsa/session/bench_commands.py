@@ -3,10 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
-from svsa.bench.realtime.configuration import check_takes_no_time
+from svsa.bench.realtime.configuration import check_loads, check_takes_no_time
 from svsa.bench.realtime.launch import Rest
 from svsa.errors import StateError
-from svsa.run.command import Command, SetLane, SetPosition, SetRivals, SetStiffness
+from svsa.run.command import ApplyLoad, Command, SetLane, SetPosition, SetRivals, SetStiffness
 from svsa.run.configuration import Configuration, Lane
 from svsa.session.bench_run import TWIN
 from svsa.session.journal import Journal
@@ -38,6 +38,8 @@ class BenchCommands:
     def change(self, command: Command) -> None:
         """Give the run a command."""
         self._journal.check(command)
+        if isinstance(command, ApplyLoad):
+            check_loads((command.argument,))
         self._journal.enter(self._give(self._complete(command)))
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:

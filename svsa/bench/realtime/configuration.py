@@ -1,16 +1,20 @@
 """What a bench runs on: the references and gains of a configuration, the bench's own design."""
 
+from collections.abc import Iterable
+
 from svsa.bench.file import BenchFile
 from svsa.bench.safety.guard import Guard
 from svsa.errors import StateError
 from svsa.loop.measured import Actuation
 from svsa.model.domain import build_domain
 from svsa.model.dynamics import build_actuator
+from svsa.plant.disturbances import Load, SeriesLoad
 from svsa.plant.effects import CurrentLag, Effects, Encoders, StateEstimation
 from svsa.reference.trajectories import Trajectory
 from svsa.run.configuration import Configuration, Design, Lane, load_prototype, read_design
 
 MAX_POINTS_IN_MOTION = 200
+MAX_LOAD_POINTS = 1000
 
 
 def read_bench_design(bench: BenchFile) -> Design:
@@ -70,6 +74,26 @@ def check_takes_no_time(reference: Trajectory) -> None:
             f"The reference has {len(curve.breaks)} points, and a bench that moves takes one of"
             f" {MAX_POINTS_IN_MOTION} at most: stop it, set the reference, and run it again."
         )
+
+
+def check_loads(loads: Iterable[Load]) -> None:
+    """Check that the loop of a bench can read these loads while it ticks.
+
+    A series of 1000 points takes it 1.5 ms, one of 20 000 points 30 ms, and its message is longer
+    than the link to the loop holds.
+
+    Args:
+        loads: That are applied or planned.
+
+    Raises:
+        StateError: If a series has more than `MAX_LOAD_POINTS` points.
+    """
+    for load in loads:
+        if isinstance(load, SeriesLoad) and len(load.time_s) > MAX_LOAD_POINTS:
+            raise StateError(
+                f"The load has {len(load.time_s)} points, and a bench takes one of"
+                f" {MAX_LOAD_POINTS} at most: use fewer points, or several loads one after another."
+            )
 
 
 def build_guard(bench: BenchFile) -> Guard:

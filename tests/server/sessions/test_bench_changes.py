@@ -7,11 +7,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from svsa.bench.realtime.configuration import MAX_LOAD_POINTS
 from svsa.bench.realtime.loss import Loss
 from svsa.bench.safety.machine import BenchStatus
 from svsa.control.gains import Gains
 from svsa.errors import Fault, StateError
-from svsa.run.command import SetLane, SetLaw, SetPosition, SetRivals, Stop
+from svsa.plant.disturbances import SeriesLoad
+from svsa.run.command import ApplyLoad, SetLane, SetLaw, SetPosition, SetRivals, Stop
 from svsa.run.configuration import Lane
 from svsa.session.bench import BenchSession
 from svsa.signals import CHANNELS
@@ -31,6 +33,27 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
     made.open()
     yield made
     made.close()
+
+
+@pytest.mark.parametrize("points", [MAX_LOAD_POINTS, MAX_LOAD_POINTS + 1])
+def test_a_series_load_that_takes_the_loop_too_long_is_refused(
+    session: BenchSession, points: int
+) -> None:
+    """Applied and planned; the loop gets nothing of one that is refused."""
+    times, torques = tuple(1e-3 * i for i in range(points)), ((0.1, 0.0, 0.0),) * points
+    load = SeriesLoad(time_s=times, torque_nm=torques)
+    planned = session.run.configuration.changed(loads=(load,))
+    assert isinstance(session.loop.processes, Processes)
+    told = session.loop.processes.told
+    for give in (lambda: session.change(ApplyLoad(argument=load)), lambda: session.load(planned)):
+        before = len(told)
+        if points <= MAX_LOAD_POINTS:
+            give()
+            assert len(told) == before + 1
+            continue
+        with pytest.raises(StateError, match="has 1001 points, and a bench takes one of 1000"):
+            give()
+        assert len(told) == before
 
 
 def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> None:
