@@ -12,6 +12,8 @@ import sys
 import time
 from typing import Any
 
+from pydantic_core import to_jsonable_python
+
 from svsa.bench.calibration import find_calibration
 from svsa.bench.can_plant import CanPlant
 from svsa.bench.clock import BenchClock, ClockError
@@ -124,7 +126,8 @@ class LoopProcess:
                 raise SvsaError("The command came too late, and was not carried out.")
             return self._do(message["do"], message.get("argument"))
         except ParameterError as error:
-            violations = [dataclasses.asdict(violation) for violation in error.violations]
+            # A refused value may be an object of ours, which JSON cannot hold.
+            violations = to_jsonable_python(error.violations, fallback=repr)
             return {"refused": str(error), "violations": violations}
         except UnpreparedLawError as error:
             return {"refused": str(error), "unprepared": error.wanted}

@@ -1,0 +1,41 @@
+"""A command that the loop of a bench refuses: the server gets the reason, and the loop goes on."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from svsa.bench.realtime.launch import _check
+from svsa.bench.realtime.memory import LoopMemory
+from svsa.errors import ParameterError
+from tests.hardware.realtime.first_uses import Rehearsal
+from tests.hardware.wired_bench import WiredBench
+
+REFUSED = [
+    ("rivals", [{"law": "fl"}] * 4, "rivals"),
+    ("lane", {"lane": 4, "setting": {"law": "fl"}}, "lane"),
+    ("position", {"kind": "constant", "position_rad": 1e9}, "position_rad"),
+    ("law", "no_law", "law"),
+]
+
+
+@pytest.fixture(scope="module")
+def rehearsal() -> Iterator[Rehearsal]:
+    memory = LoopMemory.create()
+    with WiredBench() as wired:
+        yield Rehearsal(wired, memory)
+    memory.close()
+
+
+@pytest.mark.parametrize(("kind", "argument", "name"), REFUSED)
+def test_the_refused_value_reaches_the_server(
+    rehearsal: Rehearsal, kind: str, argument: object, name: str
+) -> None:
+    """Whatever the value is: four lanes are objects, which JSON does not hold as they are."""
+    before = rehearsal.loop.run.configuration
+    answer = rehearsal.ask("change", {"tick": 0, "kind": kind, "argument": argument})
+    with pytest.raises(ParameterError) as raised:
+        _check(answer)
+    (violation,) = raised.value.violations
+    assert name in violation.name
+    assert violation.bound in answer["refused"]
+    assert rehearsal.loop.run.configuration == before
