@@ -9,11 +9,12 @@ import pytest
 
 from svsa.bench.homing import STEPS
 from svsa.bench.safety.machine import BenchStatus
-from svsa.control.installed import list_law_names
+from svsa.control.installed import PAPERS_LAW, list_law_names
 from svsa.paper import get_figure
 from svsa.reference.trajectories import ConstantPosition
 from svsa.rig.launch import start_rig
 from svsa.run.command import SetLaw
+from svsa.run.run import Run
 from svsa.session.bench import BenchSession
 from tests.hardware.live_bench import IDLE_S, write_bench
 
@@ -38,6 +39,8 @@ def wake_until(session: BenchSession, status: BenchStatus) -> None:
 @contextlib.contextmanager
 def open_bench(folder: Path) -> Iterator[BenchSession]:
     figure = get_figure("4a").build_configuration(load=False)
+    for law in list_law_names():  # as `svsa serve` does, so that its twin does not wait for them
+        Run(figure.changed(law=law))
     with start_rig(False, IDLE_S, "--real-time") as rig:
         path = write_bench(folder, rig, lockstep=False)
         session = BenchSession("lab", path, figure.changed(position=ConstantPosition()))
@@ -55,6 +58,7 @@ def open_bench(folder: Path) -> Iterator[BenchSession]:
 
 @pytest.mark.parametrize("status", [BenchStatus.READY, BenchStatus.RUN])
 def test_the_first_use_of_each_law_makes_no_tick_late(status: BenchStatus, tmp_path: Path) -> None:
+    """Each for some ms: with the late feedback of a busy machine some would vibrate."""
     with open_bench(tmp_path) as session:
         if status is BenchStatus.RUN:
             session.start()
@@ -63,8 +67,9 @@ def test_the_first_use_of_each_law_makes_no_tick_late(status: BenchStatus, tmp_p
         missed = {}
         for law in list_law_names():
             before = int(fields["skipped"])
-            session.change(SetLaw(argument=law))
-            session.wake(time.monotonic())
+            for other in (law, PAPERS_LAW):
+                session.change(SetLaw(argument=other))
+                session.wake(time.monotonic())
             missed[law] = int(fields["skipped"]) - before
         assert session.fault is None
         assert session.bench_status is status
