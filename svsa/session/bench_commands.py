@@ -1,5 +1,6 @@
 """How a command reaches the loop of a bench, and from which tick on it holds."""
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +13,8 @@ from svsa.session.bench_run import TWIN
 from svsa.session.journal import Journal
 
 CHANGING_S = 0.001
+LONGEST_CHANGES_S = 10.0
+"""A command waits for so long for the loop to answer to those before it."""
 
 Ask = Callable[[str, object], dict[str, Any]]
 """Have the loop do something; its answer."""
@@ -43,7 +46,10 @@ class BenchCommands:
         self._journal.enter(self._give(self._complete(command)))
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`change`, once the loop has answered to every change before; unless all is so already."""
+        """`change`, once the loop has answered to every change before; unless all is so already.
+
+        Raises `StateError` where it has not answered to all of them within `LONGEST_CHANGES_S`.
+        """
         self._wait()
         configuration = self._journal.run.configuration
         command = self._complete(build(configuration))
@@ -51,7 +57,13 @@ class BenchCommands:
             self.change(command)
 
     def _wait(self) -> None:
+        end = time.monotonic() + LONGEST_CHANGES_S
         while self.is_pending:
+            if time.monotonic() > end:
+                raise StateError(
+                    f"The change was not made: the loop of the bench has {self._pending} earlier"
+                    f" changes to answer, for more than {LONGEST_CHANGES_S:g} s. Send it again."
+                )
             self._rest(CHANGING_S)
 
     def _complete(self, command: Command) -> Command:
@@ -77,5 +89,6 @@ class BenchCommands:
             tick = self._ask("change", command.to_json())["tick"]
         finally:
             self._pending -= 1
+        # Another run may have begun meanwhile, whose samples are not those up to this tick.
         self._journal.advance(tick - self._journal.run.tick)
-        return command.at(tick)
+        return command.at(self._journal.run.tick)

@@ -161,13 +161,18 @@ class Journal:
         self.version += 1
 
     def advance(self, ticks: int) -> None:
-        """Run `ticks` ticks, in stretches that end where a load comes or goes."""
+        """Run `ticks` ticks, in stretches that end where a load comes or goes.
+
+        A bench may have fewer samples than expected: the run then stays at its last one.
+        """
         end = self.run.tick + ticks
         while self.run.tick < end and self.run.fault is None:
             self._log_loads()
             stretch = min(self._find_next_edge(), end) - self.run.tick
             samples = self.history.get_free_rows(len(self.run.lanes), stretch)
             first, done = self.run.tick, self.run.advance(samples)
+            if not done and self.run.fault is None:
+                return
             self.history.commit(done)
             if self.recorder is not None:
                 self.recorder.write_samples(first, samples[:, :done].transpose(1, 0, 2))

@@ -12,6 +12,7 @@ from svsa.loop.lane import AT_REST
 from svsa.paper import get_figure
 from svsa.run.run import Start
 from svsa.session.bench_run import TWIN, BenchRun
+from svsa.session.journal import Journal
 from svsa.signals import CHANNEL_INDEX, CHANNELS
 from tests.hardware.wired_bench import RIG_BENCH
 from tests.session.loop_ticks import write
@@ -56,3 +57,29 @@ def test_a_loop_that_stood_still_for_longer_than_the_ring_leaves_nothing_old_in_
     rows = np.zeros((CAPACITY_TICKS, len(CHANNELS)))
     memory.read(10 + CAPACITY_TICKS, rows)
     assert np.isnan(rows).all()
+
+
+class CountedMemory(LoopMemory):
+    """Fails a test that asks for samples again and again."""
+
+    counted = 0
+
+    def count(self, number: int) -> int:
+        self.counted += 1
+        assert self.counted < 100, "it is asked without end"
+        return super().count(number)
+
+
+def test_samples_that_never_come_are_not_waited_for() -> None:
+    memory = CountedMemory.create()
+    try:
+        memory.begin_run(1)
+        write(memory, 0, 10)
+        journal = Journal(build_run(memory), is_bench=True)
+        journal.advance(30)
+        assert (journal.run.tick, journal.history.end_tick) == (10, 10)
+        write(memory, 10, 5)
+        journal.advance(30)
+        assert (journal.run.tick, journal.history.end_tick) == (15, 15)
+    finally:
+        memory.close()

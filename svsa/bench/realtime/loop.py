@@ -184,23 +184,24 @@ class BenchLoop:
         """One period. now: time of the plant's clock, s. missed: ticks lost before it.
 
         A run's time goes on with that of the world: a tick that was missed has its number, and
-        no sample. Tick 0 is the first that a run has, and finds the bench as `start` did.
+        no sample. Tick 0 is the first that a run has, and finds the bench as `start` did. Where
+        nothing was measured the run does not go on: the server waits for every tick of a run.
         """
         plant = self.plant
         begins = not self.run.tick and plant.status in MOVING
         if missed and self._is_known and not begins:
             pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, missed)
-        if missed and not begins and plant.status in MOVING:
-            self.sink.skip(self.run.tick, missed)
-            self.run.tick += missed
         reading = self.reading = plant.read(now, State(*self._expected.tolist()))
         measurement = reading.measurement
         if measurement is None:
             self._forget()
             plant.write(now, NO_TORQUE, AT_REST, UNDISTURBED, missed)
             return
-        known, estimate, asked = self._decide(measurement, reading.ages_s)
         moving = plant.status in MOVING
+        if missed and not begins and moving:
+            self.sink.skip(self.run.tick, missed)
+            self.run.tick += missed
+        known, estimate, asked = self._decide(measurement, reading.ages_s)
         sent = plant.write(now, asked if moving else NO_TORQUE, known, estimate, missed)
         tick = self.run.tick
         row = self.sink.get_row(tick) if moving else self._scratch

@@ -9,6 +9,7 @@ from svsa.bench.realtime.sample_array import SampleArray
 from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
 from svsa.paper import get_figure
+from svsa.run.command import SetLaw
 from svsa.signals import State
 from tests.hardware.wired_bench import WiredBench
 
@@ -91,6 +92,19 @@ def test_a_fault_after_missed_ticks_has_the_time_of_the_run() -> None:
         assert bench.plant.fault.code == "missed_ticks"
         assert bench.plant.fault.tick == MOVING_TICKS + 25
         assert loop.run.tick == MOVING_TICKS + 26
+
+
+def test_ticks_that_end_in_silence_are_none_that_the_server_would_wait_for() -> None:
+    """The supervisor has reset the drives meanwhile: nothing is measured, and the run has ended."""
+    with WiredBench() as bench:
+        loop = begin(bench)
+        assert isinstance(loop.sink, SampleArray)
+        bench.drive(loop, MOVING_TICKS)
+        bench.clock.mute = True
+        bench.skip(100 * bench.bench.timing.period_s)
+        bench.drive(loop, missed=100)
+        assert bench.plant.fault is not None
+        assert loop.change(SetLaw(argument="fl")) == loop.sink.done == MOVING_TICKS
 
 
 def test_what_is_missed_before_the_first_tick_is_not_of_the_run() -> None:

@@ -15,6 +15,7 @@ from svsa.errors import Fault, StateError
 from svsa.plant.disturbances import SeriesLoad
 from svsa.run.command import ApplyLoad, SetLane, SetLaw, SetPosition, SetRivals, Stop
 from svsa.run.configuration import Lane
+from svsa.session import bench_commands
 from svsa.session.bench import BenchSession
 from svsa.signals import CHANNELS
 from svsa_server.routes import settings
@@ -177,6 +178,28 @@ def run_and_stop(session: BenchSession) -> None:
         say(session, status)
         session.wake(0.0)
     assert session.run.tick == 100
+
+
+def test_a_change_at_a_tick_without_a_sample_is_entered_at_the_last_one(
+    session: BenchSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another run of the loop has begun meanwhile: its samples are not those of this one."""
+    begin_run(session, 50)
+    monkeypatch.setattr(session.loop.processes, "request", lambda *_: {"tick": 60})
+    session.change(SetLaw(argument="fl"))
+    assert [(command.kind, command.tick) for command in session.journal.commands] == [("law", 50)]
+    assert session.run.configuration.law == "fl"
+
+
+def test_a_change_waits_a_bounded_time_for_those_before_it(
+    session: BenchSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bench_commands, "LONGEST_CHANGES_S", 0.1)
+    monkeypatch.setattr(session._commands, "_pending", 1)
+    for command in (SetLaw(argument="fl"), SetRivals(argument=(Lane(law="fl"),))):
+        with pytest.raises(StateError, match=r"1 earlier changes.*Send it again"):
+            session.set(command)
+    assert session.journal.commands == []
 
 
 def test_a_run_that_is_reset_is_not_read_again(session: BenchSession) -> None:
