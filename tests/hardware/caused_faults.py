@@ -74,6 +74,13 @@ def intrude(b: Bench) -> None:
     bus.shutdown()
 
 
+def be_late(b: Bench) -> None:
+    """The supervisor resets the drives while the loop is stopped for 0.1 s."""
+    b.beats.stops += 1
+    intrude(b)
+    b.miss(100)
+
+
 CASES = {
     **{f"no frames of {n}": Case(inject(DropFrames(node=n)), {"stale_feedback"}) for n in NODES},
     "frames of motor2 30 ms late": Case(
@@ -103,6 +110,7 @@ CASES = {
     },
     "error frames": Case(inject(BusErrors(count=20)), {"bus_error"}),
     "a stranger resets the drives": Case(intrude, {"foreign_command"}),
+    "a late loop": Case(be_late, {"loop_late"}),
     "ticks missed": Case(lambda b: b.miss(20), {"missed_ticks"}),
     "no supervisor": Case(lose_supervisor, {"supervisor_lost"}),
     "quick stop": Case(quick_stop, {"quick_stop"}),
@@ -130,6 +138,7 @@ def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
     assert fault.message
     assert bool(fault.values) is (fault.code not in WITHOUT_VALUES)
     assert all(math.isfinite(value) for value in fault.values.values())
+    assert b.loop.run.tick == b.sink.done, "the server waits for a sample of every tick"
     b.plant.quick_stop(b.now(), "a second cause")
     b.rig.control.fault(BusErrors())
     b.watch(30)

@@ -12,6 +12,7 @@ from tests.rig.in_process_rig import InProcessRig
 FIGURE = get_figure("4a").build_configuration(load=False)
 MOVING_TICKS = 500
 LONGEST_TICKS = 700
+KEPT_TICKS = 2 * (MOVING_TICKS + LONGEST_TICKS)
 
 
 class RigBeats:
@@ -36,7 +37,7 @@ class Bench(LockstepBench):
     def __init__(self, rig: RunningRig | InProcessRig, **safety: Any) -> None:
         bench, self.beats = connect_bench(rig), RigBeats()
         bench = bench.changed(safety=bench.safety.changed(**safety))
-        super().__init__(rig, FIGURE, 1, bench, self.beats)  # pyright: ignore[reportArgumentType]
+        super().__init__(rig, FIGURE, KEPT_TICKS, bench, self.beats)  # pyright: ignore[reportArgumentType]
         self.beats.now = self.now
         self.fastest, self.farthest = {"dq": 0.0, "dtheta1": 0.0, "dtheta2": 0.0}, 0.0
         self.last_current_s = 0.0
