@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import httpx
 
+PROGRAM = "from svsa.cli import main; main()"
 START_TIMEOUT_S = 300.0
 END_TIMEOUT_S = 60.0
 PATIENCE_S = 120.0
@@ -68,17 +69,23 @@ class Lab(NamedTuple):
 
 @contextlib.contextmanager
 def run_lab(
-    *arguments: str, secret: str | None = None, port: int = 0, **settings: str
+    *arguments: str,
+    secret: str | None = None,
+    port: int = 0,
+    program: str = PROGRAM,
+    **settings: str,
 ) -> Iterator[Lab]:
     """Start a lab, wait until it says where it is, and stop it at the end.
 
-    settings: SVSA_… variables, in small letters; runs go to a folder of their own unless
-    `data` names one.
+    program: Python code that runs `svsa`. settings: SVSA_… variables, in small letters; runs go to
+    a folder of their own unless `data` names one.
     """
     if "data" not in settings:
         with (
             tempfile.TemporaryDirectory(prefix="svsa-test-") as folder,
-            run_lab(*arguments, secret=secret, port=port, data=folder, **settings) as lab,
+            run_lab(
+                *arguments, secret=secret, port=port, program=program, data=folder, **settings
+            ) as lab,
         ):
             yield lab
         return
@@ -87,7 +94,7 @@ def run_lab(
     environment |= {f"SVSA_{name.upper()}": value for name, value in settings.items()}
     if secret is not None:
         environment["SVSA_SECRET"] = secret
-    command = [sys.executable, "-c", "from svsa.cli import main; main()", "serve"]
+    command = [sys.executable, "-c", program, "serve"]
     process = subprocess.Popen(
         [*command, "--port", str(port), *arguments],
         env=environment,

@@ -27,6 +27,7 @@ TITLES = {
     "study": "It does not fit the study as it is",
     "storage": "It cannot be stored",
     "busy": "Too much is being made already",
+    "silent": "The sessions do not respond",
     "websocket": "This is a WebSocket",
     "wrong_secret": "The secret is wrong",
     "secret_needed": "The secret is needed",

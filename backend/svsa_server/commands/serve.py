@@ -1,7 +1,9 @@
 """Listen, say where, and serve until told to stop."""
 
 import gc
+import os
 import socket
+import threading
 from pathlib import Path
 
 import uvicorn
@@ -24,6 +26,10 @@ SEND_BUFFER_BYTES = 64 * 1024
 KEPT_S = 15
 """A connection is kept silent for so long: httpx uses one again within 5 s, and what it asks on one
 that is closed just then is lost."""
+
+
+LONGEST_EXIT_S = 10.0
+"""After the sessions are closed: a thread that computes may still be waited for."""
 
 
 class ListenError(SvsaError):
@@ -106,12 +112,14 @@ def run_server(
     prepare((PAPERS_LAW, BASELINE) if bench is None else None)
     keys, told = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
+    from svsa_server.responsive import ResponsiveApp
     from svsa_server.sessions.laboratory import build_shared_session
 
     shared = build_shared_session(bench, design)
+    lab = ResponsiveApp(build_app(config, shared, keys, chosen), shared)
     server = AnnouncedServer(
         uvicorn.Config(
-            build_app(config, shared, keys, chosen),
+            lab,
             log_level="warning",
             http=BoundHttp,
             ws=BoundWebSocket,
@@ -127,10 +135,22 @@ def run_server(
     server.announcement = describe_address(host, chosen, listener.getsockname()[1])
     if keys is not None:
         server.announcement += f"\n{describe_class(told)}"
-    with compile_laws(), watch_keyboard(shared.stop_from_keyboard) as watched:
-        if watched and bench:
-            server.announcement += f"\n{HINT}"
-        server.run(sockets=[listener])
+    try:
+        with compile_laws(), watch_keyboard(shared.stop_from_keyboard) as watched:
+            if watched and bench:
+                server.announcement += f"\n{HINT}"
+            server.run(sockets=[listener])
+    finally:
+        _bound_exit(lab.is_stuck)
+
+
+def _bound_exit(is_stuck: bool) -> None:
+    """Have the process end, also if one of its threads never does."""
+    if is_stuck:
+        os._exit(1)
+    exiting = threading.Timer(LONGEST_EXIT_S, os._exit, (1,))
+    exiting.daemon = True
+    exiting.start()
 
 
 def describe_class(told: ToldOnce | None) -> str:

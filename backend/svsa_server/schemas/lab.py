@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from pydantic import BaseModel
+from pydantic import BaseModel, Field
 
 from svsa.reference.trajectories import PositionReference, StiffnessReference
 
@@ -22,3 +22,6 @@ class Health(BaseModel):
 
     status: Literal["ok"] = "ok"
     version: str
+    sessions_silent_s: float = Field(
+        default=0.0, description="For how long no session has responded, s; 0 while they do"
+    )

@@ -4702,6 +4702,12 @@ export interface components {
             status: "ok";
             /** Version */
             version: string;
+            /**
+             * Sessions Silent S
+             * @description For how long no session has responded, s; 0 while they do
+             * @default 0
+             */
+            sessions_silent_s: number;
         };
         /**
          * Hello

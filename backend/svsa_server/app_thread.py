@@ -1,0 +1,109 @@
+"""An ASGI application in a thread and an event loop of its own.
+
+Sessions compute in the event loop that serves them, so that nothing changes them while a route
+reads them. A session that blocks this event loop blocks no other one: the event loop that owns
+the connections runs in the main thread, and can still answer and end the server.
+"""
+
+import asyncio
+import contextlib
+import threading
+import time
+from collections.abc import Coroutine
+from typing import Any
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+BEAT_S = 0.1
+STOP_S = 2.0
+"""The thread has this time to cancel the tasks that are left, and to end."""
+
+
+class Crossing:
+    """The messages of one call of the application, passed from one event loop to the other.
+
+    Made in the event loop of the connection. `has_answered`: a message was sent to the client.
+
+    Args:
+        receive: of the connection.
+        send: of the connection.
+    """
+
+    def __init__(self, receive: Receive, send: Send) -> None:
+        self._receive, self._send = receive, send
+        self._outer = asyncio.get_running_loop()
+        self._is_over = self.has_answered = False
+
+    def end(self) -> None:
+        """Pass no more messages: another answer is sent instead of the application's."""
+        self._is_over = True
+
+    async def receive(self) -> Message:
+        """Return the next message of the client; called by the application."""
+        return await self._cross(self._receive_outside())
+
+    async def send(self, message: Message) -> None:
+        """Send a message to the client; called by the application."""
+        await self._cross(self._send_outside(message))
+
+    async def _cross(self, call: Coroutine[Any, Any, Any]) -> Any:
+        return await asyncio.wrap_future(asyncio.run_coroutine_threadsafe(call, self._outer))
+
+    async def _receive_outside(self) -> Message:
+        return {"type": "http.disconnect"} if self._is_over else await self._receive()
+
+    async def _send_outside(self, message: Message) -> None:
+        if not self._is_over:
+            self.has_answered = True
+            await self._send(message)
+
+
+class AppThread:
+    """Runs an ASGI application from `start` until `stop`."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+        self._loop = asyncio.new_event_loop()
+        self._beat_s = time.monotonic()
+        self._thread = threading.Thread(target=self._run, name="sessions", daemon=True)
+
+    @property
+    def silence_s(self) -> float:
+        """Time since the event loop of the application last ran, s; up to `BEAT_S` when idle."""
+        return time.monotonic() - self._beat_s
+
+    def start(self) -> None:
+        """Start the thread."""
+        self._thread.start()
+
+    def call(self, scope: Scope, crossing: Crossing) -> asyncio.Future[None]:
+        """Call the application in its event loop; to cancel the future cancels the call."""
+        call = self._call(scope, crossing)
+        return asyncio.wrap_future(asyncio.run_coroutine_threadsafe(call, self._loop))
+
+    async def _call(self, scope: Scope, crossing: Crossing) -> None:
+        await self._app(scope, crossing.receive, crossing.send)
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        self._beat()
+        self._loop.run_forever()
+
+    def _beat(self) -> None:
+        self._beat_s = time.monotonic()
+        self._loop.call_later(BEAT_S, self._beat)
+
+    async def stop(self) -> None:
+        """Cancel the calls that are left, and end the thread within `STOP_S`."""
+        left = asyncio.run_coroutine_threadsafe(_cancel_others(), self._loop)
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(asyncio.wrap_future(left), STOP_S)
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        await asyncio.to_thread(self._thread.join, STOP_S)
+
+
+async def _cancel_others() -> None:
+    others = asyncio.all_tasks() - {asyncio.current_task()}
+    for task in others:
+        task.cancel()
+    await asyncio.gather(*others, return_exceptions=True)

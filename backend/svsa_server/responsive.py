@@ -1,0 +1,156 @@
+"""The server around the application: it answers and ends even if a session blocks all sessions.
+
+While the sessions respond, every call is passed to them. If they are silent, this event loop
+answers: health and the quick stop almost at once, everything else with 503.
+"""
+
+import asyncio
+import logging
+import math
+import time
+
+from fastapi import FastAPI
+from fastapi.responses import JSONResponse, Response
+from starlette.types import Message, Receive, Scope, Send
+
+import svsa
+from svsa.session.bench import BenchSession
+from svsa.session.session import Session
+from svsa_server.access.guard import AccessGuard, find_path
+from svsa_server.access.permissions import Permission
+from svsa_server.access.roles import Person
+from svsa_server.app_thread import AppThread, Crossing
+from svsa_server.problems import answer_problem
+from svsa_server.routing import API
+from svsa_server.schemas.lab import Health
+from svsa_server.sessions.laboratory import SHARED_SESSION
+
+LOOK_S = 0.1
+STOP_SILENT_S = 0.5
+"""Health and the quick stop wait no longer than this for sessions that are silent."""
+SILENT_S = 10.0
+"""Every other request: to compile a control law takes seconds in which no session runs."""
+END_SILENT_S = 5.0
+LONGEST_END_S = 60.0
+"""The server ends after this time even if its sessions are not closed by then."""
+
+HEALTH = f"{API}/health"
+_LAB_STOPS = {f"{API}/{stop}" for stop in ("quick-stop", "emergency-stop")}
+_SESSION_STOPS = {
+    f"{API}/sessions/{SHARED_SESSION}/{stop}" for stop in ("quick-stop", "emergency-stop")
+}
+_log = logging.getLogger("svsa")
+
+
+class ResponsiveApp:
+    """The application of a lab, in a thread of its own, and what is answered in its place.
+
+    `is_stuck`: the server has ended without closing its sessions, because they were silent.
+
+    Args:
+        app: the lab, as `build_app` makes it.
+        shared: its shared session; the quick stop reaches a bench through shared memory.
+    """
+
+    def __init__(self, app: FastAPI, shared: Session) -> None:
+        self._thread, self._shared = AppThread(app), shared
+        self._guard = AccessGuard(
+            self._answer, app.state.door, app.state.config.host_names, _see_all
+        )
+        self.is_stuck = False
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one call of the ASGI server."""
+        serve = self._live if scope["type"] == "lifespan" else self._serve
+        await serve(scope, receive, send)
+
+    async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
+        crossing = Crossing(receive, send)
+        asked = self._thread.call(scope, crossing)
+        longest_s = STOP_SILENT_S if _is_urgent(scope) else SILENT_S
+        try:
+            while not asked.done():
+                await asyncio.wait({asked}, timeout=LOOK_S)
+                is_stream = scope["type"] == "websocket"
+                is_silent = self._thread.silence_s > longest_s
+                if is_silent and not asked.done() and (is_stream or not crossing.has_answered):
+                    break
+        except asyncio.CancelledError:
+            asked.cancel()
+            raise
+        if asked.done():
+            asked.result()
+            return
+        crossing.end()
+        if crossing.has_answered:
+            asked.cancel()
+            await send({"type": "websocket.close", "code": 1013, "reason": "not responding"})
+        elif _is_urgent(scope):
+            await self._guard(scope, receive, send)
+        else:
+            await self._answer(scope, receive, send)
+
+    async def _answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        await self._choose_answer(find_path(scope))(scope, receive, send)
+
+    def _choose_answer(self, path: str) -> Response:
+        silent_s = self._thread.silence_s
+        if path == HEALTH:
+            health = Health(version=svsa.__version__, sessions_silent_s=round(silent_s, 1))
+            return JSONResponse(health.model_dump(mode="json"))
+        detail = (
+            f"The sessions of this lab have not responded for {silent_s:.1f} s: one of them blocks"
+            " all others. It is not known whether the request has an effect. Restart the server"
+            " if this persists."
+        )
+        if path in _LAB_STOPS | _SESSION_STOPS and isinstance(self._shared, BenchSession):
+            self._shared.stop_from_keyboard()
+            _log.warning("A quick stop was passed to the loop of the bench. %s", detail)
+            if path in _LAB_STOPS:
+                return Response(status_code=204)
+            detail = f"The quick stop was passed to the loop of the bench. {detail}"
+        headers = {"Retry-After": str(math.ceil(SILENT_S))}
+        return answer_problem(503, "silent", detail, headers)
+
+    async def _live(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Start the application, and end it within `LONGEST_END_S`, also if it is blocked."""
+        ending_s = math.inf
+
+        async def receive_ending() -> Message:
+            nonlocal ending_s
+            message = await receive()
+            if message["type"] == "lifespan.shutdown":
+                ending_s = time.monotonic()
+            return message
+
+        self._thread.start()
+        lived = self._thread.call(scope, Crossing(receive_ending, send))
+        while not lived.done():
+            await asyncio.wait({lived}, timeout=LOOK_S)
+            ends_for_s = time.monotonic() - ending_s
+            is_silent = ends_for_s > 0.0 and self._thread.silence_s > END_SILENT_S
+            if not lived.done() and (is_silent or ends_for_s > LONGEST_END_S):
+                self.is_stuck = True
+                message = (
+                    "The server ends without closing its sessions: they have not responded for"
+                    f" {self._thread.silence_s:.1f} s. A bench ramps to zero torque."
+                )
+                await send({"type": "lifespan.shutdown.failed", "message": message})
+                return
+        lived.result()
+        await self._thread.stop()
+
+
+def _is_urgent(scope: Scope) -> bool:
+    """Whether the sessions are waited for only shortly: for health and the quick stop."""
+    path, method = find_path(scope), scope.get("method")
+    if path == HEALTH:
+        return method in ("GET", "HEAD")
+    return method == "POST" and path in _LAB_STOPS | _SESSION_STOPS
+
+
+async def _see_all(
+    scope: Scope, permission: Permission, named: dict[str, str], person: Person
+) -> bool:
+    """Everybody who may see a session may see the shared one."""
+    return True
