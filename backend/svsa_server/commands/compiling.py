@@ -9,6 +9,7 @@ from typing import Any
 from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_law, is_usable, list_law_names
 
+END_S = 2.0
 _LOWEST_PRIORITY = 19
 _COMPILE = (
     f"import os; os.nice({_LOWEST_PRIORITY}); from svsa.cli import main; main()",
@@ -39,4 +40,8 @@ def compile_laws() -> Iterator[None]:
         yield
     finally:
         process.terminate()
-        process.wait()
+        try:
+            process.wait(END_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()

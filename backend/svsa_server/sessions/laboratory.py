@@ -29,6 +29,7 @@ from svsa_server.sessions.turn import let_pass
 
 WAKE_PERIOD_S = 1.0 / 60.0
 HANDS_S = 0.005
+LONGEST_HANDS_S = 5.0
 BURST_S = 0.5 * WAKE_PERIOD_S
 SHARED_SESSION = "lab"
 
@@ -207,7 +208,13 @@ class RigHands(Hands):
     def set_to_marks(self) -> None:
         """Set the mechanism to its zero marks; time passes until it stands there."""
         done = self._thread.submit(self._tell, RigControl.home)
+        end = time.monotonic() + LONGEST_HANDS_S
         while not done.done():
+            if time.monotonic() > end:
+                raise StateError(
+                    "The emulated rig was not set to its marks: it has not answered within"
+                    f" {LONGEST_HANDS_S:g} s. Restart the rig, then arm again."
+                )
             let_pass(HANDS_S)
 
     def _tell(self, say: Callable[[RigControl], object]) -> None:

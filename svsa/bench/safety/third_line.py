@@ -25,6 +25,8 @@ STILL = 5.0
 LOOKS = 5
 """So often in a row both stand still: this process was awake, and they were not."""
 RETRY_S = 0.05
+STOP_S = 10.0
+"""A bus that is being opened cannot be interrupted: `stop` waits no longer for it."""
 
 
 class Intervention(NamedTuple):
@@ -60,7 +62,8 @@ class ThirdLine:
     def stop(self, rest: Callable[[float], None] = time.sleep) -> None:
         """Watch no more, and let go of the bus; `rest` lets time pass until that is done."""
         self._ended.set()
-        while self._thread.is_alive():
+        end = time.monotonic() + STOP_S
+        while self._thread.is_alive() and time.monotonic() < end:
             rest(PERIOD_S)
 
     def _watch(self) -> None:

@@ -1,5 +1,6 @@
 """The third line: needed where loop and supervisor are both gone, and what it says of it."""
 
+import threading
 import time
 import types
 from collections.abc import Callable, Iterator
@@ -158,3 +159,25 @@ def test_a_loop_that_ended_in_order_is_lost_and_has_left_nothing_behind(watched:
     assert (loss.code, loss.stopped_by) == ("loop_lost", None)
     assert "in order" in loss.message
     assert "Nobody" not in loss.message
+
+
+def test_a_bus_that_is_being_opened_without_end_is_not_waited_for(
+    watched: Watched, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    released = threading.Event()
+
+    def open_later(_: Any) -> Bus:
+        released.wait(PATIENCE_S)
+        return watched.bus
+
+    monkeypatch.setattr(third_line, "open_bus", open_later)
+    monkeypatch.setattr(third_line, "STOP_S", 0.05)
+    watched.beats.beat("loop")
+    watched.loop.kill()
+    watched.supervisor.kill()
+    time.sleep(0.3)
+    watched.line.stop()
+    assert watched.line._thread.is_alive()
+    released.set()
+    watched.line._thread.join(PATIENCE_S)
+    assert not watched.bus.is_open

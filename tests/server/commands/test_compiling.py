@@ -1,5 +1,6 @@
 """Laws that nobody has used yet are compiled beside the server."""
 
+import signal
 import subprocess
 import sys
 
@@ -7,6 +8,7 @@ import pytest
 
 from svsa_server.commands import compiling
 from svsa_server.commands.compiling import compile_laws
+from tests.server.sessions.bench_lab import wait_until
 
 WAIT = "import time; time.sleep(600)"
 
@@ -38,6 +40,21 @@ def test_what_compiles_ends_with_the_server(started, monkeypatch):
         assert process.args == [sys.executable, "-c", WAIT]
         assert process.poll() is None
     assert process.poll() is not None
+
+
+IGNORE = "import pathlib, signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); "
+
+
+def test_what_compiles_and_does_not_end_is_killed(started, monkeypatch, tmp_path):
+    ready = tmp_path / "ready"
+    program = f"{IGNORE}pathlib.Path({str(ready)!r}).touch(); {WAIT}"
+    monkeypatch.setattr(compiling, "is_compiled_before", lambda control: False)
+    monkeypatch.setattr(compiling, "_COMPILE", (program,))
+    monkeypatch.setattr(compiling, "END_S", 0.1)
+    with compile_laws():
+        (process,) = started
+        wait_until(ready.exists)
+    assert process.poll() == -signal.SIGKILL
 
 
 @pytest.mark.exhaustive

@@ -1,6 +1,7 @@
 """A command that waits for a bench: it comes to its end in order, and holds up nobody."""
 
 import asyncio
+import threading
 import time
 import types
 from collections.abc import Iterator
@@ -13,9 +14,12 @@ from svsa.bench.file import read_bench
 from svsa.bench.realtime import launch
 from svsa.bench.realtime.launch import BenchError, BenchProcesses
 from svsa.bench.realtime.link import Link, build_links
+from svsa.errors import StateError
 from svsa.paper import get_figure
 from svsa.session import supervised_loop
 from svsa.session.supervised_loop import SupervisedLoop
+from svsa_server.sessions import laboratory
+from svsa_server.sessions.laboratory import RigHands
 from svsa_server.sessions.turn import let_pass, take_turn
 from tests.hardware.wired_bench import RIG_BENCH
 
@@ -82,6 +86,19 @@ def test_outside_of_a_turn_time_passes_for_all() -> None:
     begin = time.monotonic()
     let_pass(0.02)
     assert time.monotonic() - begin >= 0.02
+
+
+def test_a_rig_that_does_not_answer_is_waited_for_in_a_bounded_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(laboratory, "LONGEST_HANDS_S", 0.05)
+    hands, answered = RigHands(1), threading.Event()
+    hands._thread.submit(answered.wait, LONG_S)
+    try:
+        with pytest.raises(StateError, match="not set to its marks"):
+            take_beside(hands.set_to_marks)
+    finally:
+        answered.set()
 
 
 @pytest.fixture
