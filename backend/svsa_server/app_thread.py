@@ -10,9 +10,12 @@ import contextlib
 import threading
 import time
 from collections.abc import Coroutine
-from typing import Any
+from concurrent.futures import Future
+from typing import Any, TypeVar
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+T = TypeVar("T")
 
 BEAT_S = 0.1
 STOP_S = 2.0
@@ -33,6 +36,7 @@ class Crossing:
         self._receive, self._send = receive, send
         self._outer = asyncio.get_running_loop()
         self._is_over = self.has_answered = False
+        self._sending: Future[None] | None = None
 
     def end(self) -> None:
         """Pass no more messages: another answer is sent instead of the application's."""
@@ -40,14 +44,27 @@ class Crossing:
 
     async def receive(self) -> Message:
         """Return the next message of the client; called by the application."""
-        return await self._cross(self._receive_outside())
+        return await asyncio.wrap_future(self._cross(self._receive_outside()))
 
     async def send(self, message: Message) -> None:
-        """Send a message to the client; called by the application."""
-        await self._cross(self._send_outside(message))
+        """Send a message to the client, once the one before was taken; called by the application.
 
-    async def _cross(self, call: Coroutine[Any, Any, Any]) -> Any:
-        return await asyncio.wrap_future(asyncio.run_coroutine_threadsafe(call, self._outer))
+        To wait for this one, too, would wake the event loop of the application for every message.
+        """
+        await self.finish()
+        self._sending = self._cross(self._send_outside(message))
+
+    async def finish(self) -> None:
+        """Wait until the last message was taken; raises what its `send` raises."""
+        if self._sending is not None:
+            sending, self._sending = self._sending, None
+            if sending.done():
+                sending.result()
+            else:
+                await asyncio.wrap_future(sending)
+
+    def _cross(self, call: Coroutine[Any, Any, T]) -> Future[T]:
+        return asyncio.run_coroutine_threadsafe(call, self._outer)
 
     async def _receive_outside(self) -> Message:
         return {"type": "http.disconnect"} if self._is_over else await self._receive()
@@ -83,6 +100,7 @@ class AppThread:
 
     async def _call(self, scope: Scope, crossing: Crossing) -> None:
         await self._app(scope, crossing.receive, crossing.send)
+        await crossing.finish()
 
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)

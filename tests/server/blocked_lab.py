@@ -6,17 +6,19 @@ import svsa.cli
 from svsa.session.bench import BenchSession
 from svsa.session.simulated import SimulatedSession
 
-BLOCKING = 0.123
-"""A session that gets this speed computes without end, as an error of the program would."""
+BLOCKING, BLOCKING_WAKE = 0.123, 0.124
+"""A session that gets this speed computes without end, at once or from its next wake on."""
 PROGRAM = "from tests.server.blocked_lab import main; main()"
 
 
-def block(session: Any, factor: float) -> None:
-    while factor == BLOCKING:
-        pass
+def block(session: Any, number: float) -> None:
+    if number != BLOCKING_WAKE:
+        while True:
+            pass
+    SimulatedSession.wake = BenchSession.wake = block
 
 
 def main() -> None:
-    """Run `svsa` with sessions that can be blocked."""
+    """Run `svsa` with sessions that are blocked by a speed."""
     SimulatedSession.set_speed = BenchSession.set_speed = block
     svsa.cli.main()

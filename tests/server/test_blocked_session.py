@@ -15,20 +15,20 @@ from svsa_server.responsive import SILENT_S
 from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
 from tests.hardware.safety.survivors import LOAD
 from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
-from tests.server.blocked_lab import BLOCKING, PROGRAM
+from tests.server.blocked_lab import BLOCKING, BLOCKING_WAKE, PROGRAM
 from tests.server.sessions.bench_lab import BenchLab, wait_until
 
 STOP = "/api/v1/quick-stop"
 
 
 @contextlib.contextmanager
-def blocked(lab: Lab) -> Iterator[list[httpx.Response]]:
+def blocked(lab: Lab, factor: float = BLOCKING) -> Iterator[list[httpx.Response]]:
     """The shared session computes without end; yields what its request is answered."""
     answers: list[httpx.Response] = []
 
     def ask() -> None:
         with httpx.Client(base_url=lab.url, timeout=PATIENCE_S, trust_env=False) as client:
-            answers.append(client.put(lab.session + "/speed", json={"factor": BLOCKING}))
+            answers.append(client.put(lab.session + "/speed", json={"factor": factor}))
 
     thread = threading.Thread(target=ask)
     thread.start()
@@ -72,8 +72,8 @@ def test_every_request_is_answered_while_a_session_blocks() -> None:
 
 def test_sigterm_ends_a_server_whose_session_blocks() -> None:
     with run_lab(program=PROGRAM) as lab:
-        with blocked(lab):
-            pass
+        with blocked(lab, BLOCKING_WAKE):
+            assert lab.client.post(STOP).status_code == 503
         assert end_blocked(lab, signal.SIGTERM) == -signal.SIGTERM
 
 
