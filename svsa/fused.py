@@ -22,6 +22,7 @@ from numba.core.postproc import PostProcessor
 from numba.core.untyped_passes import IRProcessing
 from numba.extending import intrinsic, overload
 
+from svsa.boxing import replace_boxing
 from svsa.simd.number import INLINED, VECTOR, Vector, call_vector
 
 
@@ -147,10 +148,14 @@ _SUMS = (operator.add, operator.sub)
 
 
 class FusingCompiler(CompilerBase):
-    """The compiler of numba with products fused into the sums that they are part of."""
+    """The compiler of numba with products fused into the sums that they are part of.
+
+    What it compiles returns to Python as `svsa.boxing` has it.
+    """
 
     def define_pipelines(self) -> list[Any]:
         """The passes of numba, and the fusing right after a function is read."""
+        replace_boxing()
         passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
         passes.add_pass_after(_FuseProducts, IRProcessing)
         passes.finalize()

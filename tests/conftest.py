@@ -33,6 +33,7 @@ ORDER = (
         "isolation",
         "loop",
         "run",
+        "interruption",
     ),
     *("session", "records", "export", "design", "identification", "result", "paper", "benchmark"),
     *(

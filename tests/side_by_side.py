@@ -23,6 +23,7 @@ LONGEST = (
     *("test_studies", "test_design", "test_script", "test_life", "test_view"),
     *("test_falsifier", "test_layout", "test_bench", "test_control", "test_accessibility"),
     *("test_plots", "test_replay", "test_lti", "test_safety", "test_grades", "test_memory"),
+    "test_compiled_calls",
 )
 """They begin, so that no process is left with one of them while the others are done."""
 
