@@ -7,8 +7,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from svsa.control.installed import get_law
-from svsa.loop.lane import build_lane_state
+from svsa.loop.lane import LaneState, build_lane_state
 from svsa.loop.loop import advance
+from svsa.loop.slices import advance_in_slices
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
 from svsa.run.configuration import Configuration
 from svsa.run.run import Run
@@ -85,12 +86,17 @@ def find_fates(
     blocks, law, period = run.blocks[0], run.laws[0], run.period_s
     samples = np.empty((round(DURATION_S / period), len(CHANNELS)))
     column = CHANNEL_INDEX["position_error_rad"]
+
+    def follow(lane: LaneState, first: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
+        return advance(blocks, law, run.inputs, lane, first, rows)
+
     last = round(LAST_S / period)
     for cell in cells:
         q, dq = float(starts.positions[cell.column]), float(starts.velocities[cell.row])
         memory = get_law(configuration.law).start_memory()
         lane = build_lane_state(memory, State(q, dq, q, dq, 0.0, 0.0))
-        _, done, _ = advance(blocks, law, run.inputs, lane, 0, samples)
+        kind = law.function, blocks.steps
+        _, done, _ = advance_in_slices(follow, kind, lane, 0, samples)
         if done < len(samples):
             yield cell, Fate("fault", done * period)
             continue

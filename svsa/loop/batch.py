@@ -20,17 +20,24 @@ from svsa.control.call import BoundLaw, is_measuring
 from svsa.control.law import Law
 from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
-from svsa.loop.batch_inputs import group, join_inputs, pick_inputs, read_first_reference
+from svsa.loop.batch_inputs import (
+    group,
+    join_inputs,
+    pick_inputs,
+    read_first_reference,
+    slice_inputs,
+)
 from svsa.loop.batch_law import compute_one_by_one, compute_side_by_side, find_addresses
 from svsa.loop.lane import Blocks, Inputs, LaneState, build_lane_state
 from svsa.loop.loop import act, move
-from svsa.loop.tally import SUMMARY, build_window, measure, start_tally
+from svsa.loop.slices import cut
+from svsa.loop.tally import SUMMARY, Tally, build_window, measure, start_tally
 from svsa.model.domain import INSIDE, NOT_FINITE, check_domain
 from svsa.model.dynamics import compute_internal_torque
 from svsa.packed import pack_all
 from svsa.signals import Disturbance, State, Torque
 from svsa.simd.choice import choose, some
-from svsa.simd.memory import store
+from svsa.simd.memory import load, store
 from svsa.simd.number import WIDTH
 from svsa.simd.record import (
     Column,
@@ -40,6 +47,11 @@ from svsa.simd.record import (
     build_record,
     lay_out_record,
 )
+
+_TALLY = slice(2, 2 + len(Tally._fields))
+"""Where it is in `SUMMARY`."""
+_GROUPS_AT_ONCE = 128
+"""Of which the reached state is kept between two slices."""
 
 
 class Start(NamedTuple):
@@ -132,12 +144,21 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
 def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
     """Run so many ticks from the start; an array (runs,) of `SUMMARY`.
 
-    begin: the tick at which measuring begins. Does not hold the GIL.
+    begin: the tick at which measuring begins. Does not hold the GIL, and handles signals between
+    slices.
     """
     names = SUMMARY.names or ()
     results = np.zeros((len(batch.rows), len(names), WIDTH))
+    results[:, 1] = ticks
+    results[:, _TALLY] = np.array(start_tally(0.0))[:, None]
     advance = _specialize(batch.control, batch.memory, batch.layout)
-    advance(batch.rows, batch.memories.copy(), batch.inputs, ticks, begin, results)
+    start: Any = batch.layout.start
+    for first in range(0, len(batch.rows), _GROUPS_AT_ONCE):
+        part = slice(first, first + _GROUPS_AT_ONCE)
+        rows, memories = batch.rows[part].copy(), batch.memories[part].copy()
+        given, found = slice_inputs(batch.inputs, part), results[part]
+        for tick, stop in cut((advance, len(rows)), ticks):
+            advance(rows, memories, given, tick, stop, begin, ticks, start.x.q.row, found)
     columns = results.transpose(1, 0, 2).reshape(len(names), -1)
     summaries = np.empty(batch.runs, dtype=SUMMARY)
     for name, column in zip(names, columns, strict=True):
@@ -159,6 +180,7 @@ def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     return specialize(advance_groups, name, compute=compute, read=build_reader(layout), view=view)
 
 
+read_tally = build_reader(Tally._make(map(Column, range(_TALLY.start, _TALLY.stop))))
 compute: Any = None
 read: Any = None
 view: Any = None
@@ -169,22 +191,30 @@ def advance_groups(
     rows: np.ndarray,
     memories: np.ndarray,
     inputs: Inputs,
-    ticks: int,
+    first: int,
+    stop: int,
     begin: int,
+    end: int,
+    start_row: int,
     results: np.ndarray,
 ) -> None:
-    """Run every group. rows, memories: see `Batch`. results: (groups, fields, 8), written."""
+    """Run every group from the tick `first` to before `stop`.
+
+    rows, memories: see `Batch`; written, so that the next call goes on at `stop`. begin, end: of
+    what is measured. start_row: where `Start` begins in the rows. results: (groups, fields, 8), of
+    the ticks before `first`; written.
+    """
     for i in range(rows.shape[0]):
         blocks, constants, start = read(rows[i])
         memory, given = view(memories[i]), pick_inputs(inputs, i)
         x, known, estimate = start.x, start.known, start.estimate
         lane = LaneState(x, known, estimate, start.torque, start.applied, start.asked, memory)
-        nothing = choose(lane.x.q < math.inf, 0.0, 0.0)
-        runs, left = nothing == 0.0, False
-        code, ended, tally = nothing, nothing + ticks, start_tally(nothing)
+        code, ended = load(results[i], 0), load(results[i], 1)
+        runs, tally = code == 0.0, read_tally(results[i])
+        left = some(code != 0.0)
         F = compute_internal_torque(blocks.nominal, lane.known)
-        window = build_window(begin, ticks, blocks.period)
-        for tick in range(ticks):
+        window = build_window(begin, end, blocks.period)
+        for tick in range(first, stop if some(runs) else first):
             reference = read_first_reference(given, tick * blocks.period)
             found = check_domain(blocks.domain, blocks.plant, lane.x)
             asked = compute(
@@ -214,9 +244,15 @@ def advance_groups(
             tally = measure(tally, runs, window, blocks, reference, lane.x, action.made, tick)
             reached, F = move(blocks, given, lane, F, action, tick)
             lane = hold(runs, reached, lane) if left else reached
-        write(results[i], 0, (code, ended))
-        write(results[i], 2, tally)
-        write(results[i], 2 + len(tally), lane.x)
+        row = write(results[i], 0, (code, ended))
+        row = write(results[i], row, tally)
+        write(results[i], row, lane.x)
+        row = write(rows[i], start_row, lane.x)
+        row = write(rows[i], row, lane.known)
+        row = write(rows[i], row, lane.estimate)
+        row = write(rows[i], row, lane.torque)
+        row = write(rows[i], row, lane.applied)
+        write(rows[i], row, lane.asked)
 
 
 @compiled
@@ -234,7 +270,8 @@ def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
 
 
 @compiled
-def write(rows: np.ndarray, first: int, values: tuple[float, ...]) -> None:
-    """Write a tuple of vectors into rows (n, 8) from `first` on."""
+def write(rows: np.ndarray, first: int, values: tuple[float, ...]) -> int:
+    """Write a tuple of vectors into rows (n, 8) from `first` on; returns the row after them."""
     for i in range(len(values)):
         store(rows, first + i, values[i])
+    return first + len(values)

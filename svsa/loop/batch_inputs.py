@@ -60,6 +60,16 @@ def _join(parts: Sequence[Stack] | Sequence[LoadTable], kind: int, first: int) -
     return [table, *(np.concatenate(arrays) for arrays in zip(*pointed, strict=True))]
 
 
+def slice_inputs(inputs: Inputs, groups: slice) -> Inputs:
+    """The `Inputs` of some groups of runs (see `join_inputs`)."""
+    p, s, loads = inputs.position, inputs.stiffness, inputs.loads
+    return Inputs(
+        p._replace(rows=p.rows[groups]),
+        s._replace(rows=s.rows[groups]),
+        loads._replace(rows=loads.rows[groups]),
+    )
+
+
 @compiled
 def pick_inputs(inputs: Inputs, group: int) -> Inputs:
     """The `Inputs` of one group of runs, borrowed, of those of all (see `join_inputs`)."""

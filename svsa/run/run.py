@@ -11,6 +11,7 @@ from svsa.control.parameters import LawParameters
 from svsa.errors import Fault, ParameterError, StateError
 from svsa.loop.lane import AT_REST, Inputs, LaneState, build_lane_state
 from svsa.loop.loop import advance
+from svsa.loop.slices import advance_in_slices
 from svsa.loop.stepwise import Controller, advance_stepwise
 from svsa.model.domain import INSIDE
 from svsa.model.lever import compute_lever_ratio
@@ -132,10 +133,16 @@ class Run:
 
     def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
         """One lane from the present tick on; the first comes last, so that it is asked once."""
-        blocks, lane = self.blocks[number], self.lanes[number]
-        if number == 0 and self._controller is not None:
-            return advance_stepwise(blocks, self.inputs, lane, self.tick, rows, self._controller)
-        return advance(blocks, self.laws[number], self.inputs, lane, self.tick, rows)
+        blocks, inputs, law = self.blocks[number], self.inputs, self.laws[number]
+        own = self._controller if number == 0 else None
+
+        def run(lane: LaneState, first: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
+            if own is not None:
+                return advance_stepwise(blocks, inputs, lane, first, rows, own)
+            return advance(blocks, law, inputs, lane, first, rows)
+
+        kind = law.function if own is None else "own", blocks.steps
+        return advance_in_slices(run, kind, self.lanes[number], self.tick, rows)
 
     def set_position(self, reference: PositionReference) -> None:
         """Fade over to this position reference, from now on."""
