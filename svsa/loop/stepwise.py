@@ -17,6 +17,7 @@ from svsa.compilation import compiled
 from svsa.control.call import BoundLaw, bind
 from svsa.errors import ParameterError, Violation
 from svsa.isolation.asking import SIGNATURE, find_named
+from svsa.loop.held_signals import hold_signals
 from svsa.loop.lane import (
     AT_REST,
     NO_REFERENCE,
@@ -121,6 +122,7 @@ def advance_stepwise(
         nonlocal tick
         words = (ctypes.c_double * _WORDS).from_address(address)
         try:
+            held.handle()
             time = tick * blocks.period
             given = Reference(*words[:8]), State(*words[8:14]), Disturbance(*words[14:17])
             torque, positions = Torque(*words[17:19]), Positions(*words[19:22])
@@ -137,7 +139,8 @@ def advance_stepwise(
     nominal, constants, told = pack(blocks.nominal), pack(_Address(address)), pack(_ZEROS)
     law: BoundLaw = bind(_compute_asked, nominal, constants, told, False)
     begun = lane._replace(memory=told.view(np.float64))
-    ended, done, code = advance(blocks, law, inputs, begun, first, samples)
+    with hold_signals() as held:
+        ended, done, code = advance(blocks, law, inputs, begun, first, samples)
     if raised:
         raise raised[0]
     return ended._replace(memory=lane.memory), done, code

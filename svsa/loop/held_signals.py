@@ -1,0 +1,51 @@
+"""Signals that wait during a compiled call that calls Python functions.
+
+Python runs the handler of a signal in such a function. An exception that the handler raises cannot
+pass through the compiled call: ctypes prints it and drops it.
+"""
+
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+
+class HeldSignals:
+    """Signals that have arrived and wait for their handlers."""
+
+    def __init__(self) -> None:
+        self.handlers: dict[int, Callable[[int, FrameType | None], Any]] = {}
+        self._waiting: list[tuple[int, FrameType | None]] = []
+
+    def hold(self, number: int, frame: FrameType | None) -> None:
+        """Let a signal wait; the handler of all signals for the time being."""
+        self._waiting.append((number, frame))
+
+    def handle(self) -> None:
+        """Call the handlers of the signals that wait; raises what they raise."""
+        while self._waiting:
+            number, frame = self._waiting.pop(0)
+            self.handlers[number](number, frame)
+
+
+@contextmanager
+def hold_signals() -> Iterator[HeldSignals]:
+    """Hold the signals that have a handler in Python until `handle`, at the latest to the end.
+
+    Python runs handlers in the main thread only: in another thread there is nothing to hold.
+    """
+    held = HeldSignals()
+    if threading.current_thread() is threading.main_thread():
+        for number in signal.valid_signals():
+            if callable(handler := signal.getsignal(number)):
+                held.handlers[number] = handler
+    try:
+        for number in held.handlers:
+            signal.signal(number, held.hold)
+        yield held
+    finally:
+        for number, handler in held.handlers.items():
+            signal.signal(number, handler)
+        held.handle()
