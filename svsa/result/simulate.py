@@ -9,16 +9,19 @@ import numpy as np
 from svsa.checked import check_number
 from svsa.errors import ParameterError, Violation
 from svsa.loop.stepwise import Controller
+from svsa.result.progress import Follow, follow_progress
 from svsa.result.result import Result, build_results
 from svsa.run.change import Change, build_commands
 from svsa.run.configuration import Configuration, Design, read_design
 from svsa.run.figure import DURATION_S, get_figure
-from svsa.run.replay import play
+from svsa.run.replay import STRETCH_TICKS, play
 from svsa.run.run import Run
 from svsa.signals import CHANNELS
 
 MAX_TICKS = 5_000_000
 MAX_STEPS = 1000
+_OWN_STRETCH_TICKS = 1_000
+"""From one progress to the next with a function as controller, which takes longer."""
 
 
 def simulate(
@@ -29,6 +32,7 @@ def simulate(
     steps: int = 1,
     commands: Sequence[Change] = (),
     parameters: Design | Path | str | None = None,
+    progress: Follow | None = None,
     **changes: Any,
 ) -> Result:
     """Simulate a run from rest and return everything that happened.
@@ -38,12 +42,13 @@ def simulate(
     as `State`, ŵ as `Disturbance` → (u1, u2) in N·m; measured and applied where it names them.
     duration_s: s. steps: Runge–Kutta steps a control period. commands: what is changed while it
     runs, such as `svsa.Change(at_s=5.0, law="fl")`. parameters: a parameter file, such as
-    `svsa identify` writes, or its `Design`, instead of the experiment's own. changes: fields of
-    the configuration to replace, e.g. position, stiffness, loads, gains, observer, limits,
-    actuator, nominal, rivals, effects, seed.
+    `svsa identify` writes, or its `Design`, instead of the experiment's own. progress: called with
+    the share that is done, 0 to 1; without it, a run of more than a second shows a bar if standard
+    error is a terminal. changes: fields of the configuration to replace, e.g. position, stiffness,
+    loads, gains, observer, limits, actuator, nominal, rivals, effects, seed.
 
-    Raises `ParameterError` for a value out of range. A run that leaves the domain of the
-    model ends early: see `Result.fault`.
+    Raises `ParameterError` for a value out of range, `KeyboardInterrupt` at Ctrl-C. A run that
+    leaves the domain of the model ends early: see `Result.fault`.
     """
     if isinstance(experiment, Configuration):
         configuration = experiment
@@ -66,7 +71,9 @@ def simulate(
     run = Run(configuration, steps, own)
     ticks = round(duration_s / period)
     samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
-    for _ in play(run, given, ticks, samples):
-        pass
+    stretch = STRETCH_TICKS if own is None else _OWN_STRETCH_TICKS
+    with follow_progress("Simulating", progress) as follow:
+        for reached, _ in play(run, given, ticks, samples, stretch):
+            follow(reached.tick / ticks)
     laws = ["own" if own else configuration.law, *(lane.law for lane in configuration.rivals)]
     return build_results(configuration, samples[:, : run.tick], laws, run.fault, given)

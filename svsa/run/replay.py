@@ -22,19 +22,24 @@ def replay(
 
 
 def play(
-    run: Run, commands: Iterable[Command], end_tick: int, room: np.ndarray | None = None
+    run: Run,
+    commands: Iterable[Command],
+    end_tick: int,
+    room: np.ndarray | None = None,
+    stretch_ticks: int = STRETCH_TICKS,
 ) -> Iterator[tuple[Run, np.ndarray]]:
     """Go on with a run, each command given at its tick.
 
     Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
     until `end_tick` or the run's fault. Same configuration and commands: same bits. room:
-    (lanes, ticks, channels), where the samples are to stand one after the other.
+    (lanes, ticks, channels), where the samples are to stand one after the other. stretch_ticks: at
+    most, of a stretch.
     """
     later, first = list(commands), run.tick
     while True:
         while later and later[0].tick <= run.tick:
             later.pop(0).apply(run)
-        end = min([end_tick, run.tick + STRETCH_TICKS, *(command.tick for command in later[:1])])
+        end = min([end_tick, run.tick + stretch_ticks, *(command.tick for command in later[:1])])
         if run.fault is not None or run.tick >= end:
             return
         if room is None:
