@@ -33,6 +33,7 @@ from svsa.grading.cli import grade_command
 from svsa.identification.cli import identify
 from svsa.leaderboard.cli import leaderboard_command, submit_command
 from svsa.result.cli import compare
+from svsa.result.progress import hide_progress
 from svsa.rig.cli import rig
 from svsa.study.cli import study
 
@@ -206,11 +207,16 @@ def main() -> None:
     """Entry point: errors of this project are one clear line, not a traceback."""
     for entry in entry_points(group="svsa.commands"):
         app.command(entry.name)(entry.load())
+    hide_progress()  # of single runs: the commands have bars
     try:
         app()
     except (SvsaError, OSError) as error:
         _messages.print(f"[bold red]Error:[/] {escape(str(error))}", highlight=False)
         raise SystemExit(1) from None
+    except SystemExit as ended:
+        if ended.__context__ and isinstance(ended.__context__.__cause__, KeyboardInterrupt):
+            _messages.print("Interrupted.")  # typer ends with 130 and says nothing
+        raise
 
 
 _POSITION = ("rms 1–5 s", "peak 5–7 s", "rms 8–20 s", "recovery")

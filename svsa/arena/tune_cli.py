@@ -12,6 +12,8 @@ from rich.table import Table
 from svsa.control.installed import check_installed, get_title
 from svsa.errors import ParameterError, Violation
 
+INTERRUPTED = 130
+
 if TYPE_CHECKING:
     from svsa.arena.tune import Trial, Tuned
 
@@ -36,7 +38,7 @@ def tune(
 ) -> None:
     """Tune a law on the five training runs. Ctrl-C ends the search and keeps the best so far."""
     from svsa.arena.tune import tune as search
-    from svsa.arena.tuned_file import describe_tuned, format_tuned
+    from svsa.arena.tuned_file import describe_tuned
     from svsa.run.configuration import read_design
 
     check_installed(law)
@@ -63,13 +65,21 @@ def tune(
         )
     if as_json:
         typer.echo(json.dumps(describe_tuned(tuned), indent=2))
-        return
-    path = output or Path(f"{law}.toml")
+    else:
+        _save(tuned, output or Path(f"{law}.toml"))
+    if not tuned.is_complete:
+        raise typer.Exit(INTERRUPTED)
+
+
+def _save(tuned: "Tuned", path: Path) -> None:
+    """Write the parameter file and print what was found."""
+    from svsa.arena.tuned_file import format_tuned
+
     path.write_text(format_tuned(tuned), encoding="utf-8")
     console = Console()
     console.print(_build_value_table(tuned), _build_cost_table(tuned), highlight=False)
     if not tuned.is_complete:
-        console.print(f"Broken off after {len(tuned.trials) - 1} of {budget} candidates.")
+        console.print(f"Broken off after {len(tuned.trials) - 1} of {tuned.budget} candidates.")
     console.print(f"Parameter file: {path}", highlight=False)
 
 
