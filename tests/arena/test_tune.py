@@ -94,6 +94,17 @@ def test_ctrl_c_keeps_the_best():
     assert tuned.best == min(tuned.trials, key=lambda trial: trial.cost)
 
 
+def test_ctrl_c_at_the_command_saves_the_best_and_exits_with_130(tmp_path, monkeypatch):
+    def stop_early(law, on_trial, **given):
+        return tune(law, **(given | SHORT | {"is_cancelled": lambda: True}))
+
+    monkeypatch.setattr("svsa.arena.tune.tune", stop_early)
+    found = CliRunner().invoke(app, ["tune", "pd", "--output", str(tmp_path / "pd.toml")])
+    assert found.exit_code == 130
+    assert "Broken off after 0 of" in found.stdout
+    assert (tmp_path / "pd.toml").exists()
+
+
 def test_every_law_is_searched_within_what_it_declares():
     """Poles from 20 to 80 rad/s, the observer of the load from 20 to 150, for all alike."""
     for law in list_law_names():
