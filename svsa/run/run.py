@@ -21,11 +21,7 @@ from svsa.parameters import ActuatorParameters
 from svsa.plant.disturbances import Load, ScheduledLoad, build_load_table
 from svsa.plant.effects import Effects
 from svsa.reference.sine import ConstantPosition, ConstantStiffness
-from svsa.reference.trajectories import (
-    PositionReference,
-    StiffnessReference,
-    get_range,
-)
+from svsa.reference.trajectories import PositionReference, StiffnessReference, get_range
 from svsa.reference.transition import Stack, build_stack, push_trajectory
 from svsa.run.blocks import Bind, bind_law, build_blocks, compute_start_ratio
 from svsa.run.configuration import MAX_LOADS, Configuration, Lane, LaneSetting
@@ -134,14 +130,14 @@ class Run:
     def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
         """One lane from the present tick on; the first comes last, so that it is asked once."""
         blocks, inputs, law = self.blocks[number], self.inputs, self.laws[number]
-        own = self._controller if number == 0 else None
+        own = None if number else self._controller
+        kind = law.function if own is None else "own", blocks.steps
 
         def run(lane: LaneState, first: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
-            if own is not None:
-                return advance_stepwise(blocks, inputs, lane, first, rows, own)
-            return advance(blocks, law, inputs, lane, first, rows)
+            if own is None:
+                return advance(blocks, law, inputs, lane, first, rows)
+            return advance_stepwise(blocks, inputs, lane, first, rows, own)
 
-        kind = law.function if own is None else "own", blocks.steps
         return advance_in_slices(run, kind, self.lanes[number], self.tick, rows)
 
     def set_position(self, reference: PositionReference) -> None:
