@@ -17,8 +17,7 @@ import svsa
 from svsa.session.bench import BenchSession
 from svsa.session.session import Session
 from svsa_server.access.guard import AccessGuard, find_path
-from svsa_server.access.permissions import Permission
-from svsa_server.access.roles import Person
+from svsa_server.access.owned import Kind, Owner
 from svsa_server.app_thread import AppThread, Crossing
 from svsa_server.problems import answer_problem
 from svsa_server.routing import API
@@ -54,9 +53,8 @@ class ResponsiveApp:
 
     def __init__(self, app: FastAPI, shared: Session) -> None:
         self._thread, self._shared = AppThread(app), shared
-        self._guard = AccessGuard(
-            self._answer, app.state.door, app.state.config.host_names, _see_all
-        )
+        door, hosts = app.state.door, app.state.config.host_names
+        self._guard = AccessGuard(self._answer, door, hosts, _find_owner)
         self.is_stuck = False
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -149,8 +147,6 @@ def _is_urgent(scope: Scope) -> bool:
     return method == "POST" and path in _LAB_STOPS | _SESSION_STOPS
 
 
-async def _see_all(
-    scope: Scope, permission: Permission, named: dict[str, str], person: Person
-) -> bool:
-    """Everybody who may see a session may see the shared one."""
-    return True
+async def _find_owner(scope: Scope, kind: Kind, name: str) -> Owner:
+    """The quick stop names the shared session only, which everybody sees."""
+    return Owner("", is_shown=True)
