@@ -15,7 +15,7 @@ BY_FOUR := -n 4 $(SIDE_BY_SIDE)
 BY_TWO := -n 2 $(SIDE_BY_SIDE)
 # A search at less depth than `make test-all`'s (tests/conftest.py).
 SHOWN := --hypothesis-profile=shown
-SERVED := package rig hardware scene server client browser
+SERVED := package hardware scene server client browser
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 WALL_CLOCK = $$(grep -rl --include='test_*.py' 'mark\.wall_clock' tests)
 export PYTHONDONTWRITEBYTECODE =
@@ -37,7 +37,7 @@ dev: .venv/installed $(PAGE)  ## the lab, and the page rebuilt as you type (on t
 	@$(BIN)/svsa serve --port 8000 & $(WEB) run dev
 
 bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
-	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/rig/bench.toml
+	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/hardware/emulator/bench.toml
 
 test: .venv/installed $(PAGE)  ## nearly every promise of the lab, where it is soonest shown, and the main ways
 	@$(COMPILE_AND_TEST_PAGE)
@@ -90,8 +90,8 @@ screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
 
 arena: .venv/installed  ## every law measured, and what is written of them: after a change of one
-	$(BIN)/svsa arena run --save svsa/arena/results.json
-	$(BIN)/svsa arena bench ndobc_s ndobc_w --save svsa/arena/bench_results.json
+	$(BIN)/svsa arena run --save svsa/evaluation/ranking/results.json
+	$(BIN)/svsa arena bench ndobc_s ndobc_w --save svsa/evaluation/ranking/bench_results.json
 	$(BIN)/svsa arena publish
 
 bench: .venv/installed  ## what the loop costs, beside a C loop of the same work

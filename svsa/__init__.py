@@ -11,14 +11,28 @@ Units are SI; every name ends in its unit.
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from svsa import paper
+from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.control.gains import Gains
+from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
-from svsa.extras import MissingExtraError
-from svsa.observer.disturbance import ObserverBandwidth
-from svsa.paper.reproduce import reproduce
-from svsa.parameters import ActuatorParameters, Limits
-from svsa.plant.disturbances import (
+from svsa.evaluation.reproduction import reproduce
+from svsa.inputs.extras import MissingExtraError
+from svsa.inputs.release import __version__ as __version__
+from svsa.runs import paper
+from svsa.runs.change import Change
+from svsa.runs.configuration import (
+    Configuration,
+    Design,
+    Lane,
+    load_prototype,
+    read_design,
+    write_design,
+)
+from svsa.runs.result.channels import ChannelName
+from svsa.runs.result.result import Result
+from svsa.runs.result.simulate import simulate
+from svsa.simulation.plant.effects import IDEAL, RIG, Effects
+from svsa.simulation.plant.loads import (
     ConstantLoad,
     MassLoad,
     PaperLoad,
@@ -27,43 +41,36 @@ from svsa.plant.disturbances import (
     SeriesLoad,
     SineLoad,
 )
-from svsa.plant.effects import IDEAL, RIG, Effects
-from svsa.reference.chirp import ChirpPosition, ChirpStiffness
-from svsa.reference.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
-from svsa.reference.preview import sample_reference
-from svsa.reference.series import SeriesPosition, SeriesStiffness
-from svsa.reference.series_csv import read_series
-from svsa.reference.sine import ConstantPosition, ConstantStiffness, SinePosition, SineStiffness
-from svsa.reference.steps import StepsPosition, StepsStiffness
-from svsa.release import __version__ as __version__
-from svsa.result.channels import ChannelName
-from svsa.result.result import Result
-from svsa.result.simulate import simulate
-from svsa.run.change import Change
-from svsa.run.configuration import (
-    Configuration,
-    Design,
-    Lane,
-    load_prototype,
-    read_design,
-    write_design,
+from svsa.simulation.reference.chirp import ChirpPosition, ChirpStiffness
+from svsa.simulation.reference.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
+from svsa.simulation.reference.preview import sample_reference
+from svsa.simulation.reference.series import SeriesPosition, SeriesStiffness
+from svsa.simulation.reference.series_csv import read_series
+from svsa.simulation.reference.sine import (
+    ConstantPosition,
+    ConstantStiffness,
+    SinePosition,
+    SineStiffness,
 )
+from svsa.simulation.reference.steps import StepsPosition, StepsStiffness
 
 if TYPE_CHECKING:
     from svsa import design, falsify
-    from svsa.arena.tune import tune
     from svsa.client import connect, connect_async
-    from svsa.records.catalogue.runs import Catalogue
-    from svsa.result.recorded import export_run, open_run, resimulate, runs
+    from svsa.evaluation.tuning.tuner import tune
+    from svsa.runs.records.catalogue.runs import Catalogue
+    from svsa.runs.result.recorded import export_run, list_runs, open_run, resimulate
 
 _LATE = {
-    "design": "svsa.design",
-    "falsify": "svsa.falsify",
+    "design": "svsa.analysis.design",
+    "falsify": "svsa.evaluation.falsifier",
     "connect": "svsa.client",
     "connect_async": "svsa.client",
-    "Catalogue": "svsa.records.catalogue.runs",
-    "tune": "svsa.arena.tune",
-    **dict.fromkeys(("export_run", "open_run", "resimulate", "runs"), "svsa.result.recorded"),
+    "Catalogue": "svsa.runs.records.catalogue.runs",
+    "tune": "svsa.evaluation.tuning.tuner",
+    **dict.fromkeys(
+        ("export_run", "open_run", "resimulate", "list_runs"), "svsa.runs.result.recorded"
+    ),
 }
 
 
@@ -122,6 +129,7 @@ __all__ = [
     "design",
     "export_run",
     "falsify",
+    "list_runs",
     "load_prototype",
     "open_run",
     "paper",
@@ -129,7 +137,6 @@ __all__ = [
     "read_series",
     "reproduce",
     "resimulate",
-    "runs",
     "sample_reference",
     "simulate",
     "tune",

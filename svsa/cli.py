@@ -17,28 +17,28 @@ from rich.progress import Progress
 from rich.table import Table
 
 import svsa
-from svsa.arena.against_cli import against
-from svsa.arena.bench_cli import bench as arena_bench
-from svsa.arena.cli import arena
-from svsa.arena.tune_cli import tune
-from svsa.bench.cli import bench_check, bench_home
-from svsa.compilation import is_compiled_before
+from svsa.analysis.design.cli import stability
+from svsa.analysis.identification.cli import identify
 from svsa.control.installed import get_title
-from svsa.course.cli import course
-from svsa.design.cli import stability
 from svsa.errors import SvsaError
-from svsa.extras import DISTRIBUTION, list_missing, require_extra
-from svsa.falsify.cli import falsify
-from svsa.grading.cli import grade_command
-from svsa.identification.cli import identify
-from svsa.leaderboard.cli import leaderboard_command, submit_command
-from svsa.result.cli import compare
-from svsa.result.progress import hide_progress
-from svsa.rig.cli import rig
-from svsa.study.cli import study
+from svsa.evaluation.falsifier.cli import falsify
+from svsa.evaluation.ranking.against_cli import against
+from svsa.evaluation.ranking.bench_cli import bench as arena_bench
+from svsa.evaluation.ranking.cli import arena
+from svsa.evaluation.studies.cli import study
+from svsa.evaluation.tuning.cli import tune
+from svsa.hardware.cli import bench_check, bench_home
+from svsa.hardware.emulator.cli import rig
+from svsa.inputs.extras import DISTRIBUTION, list_missing, require_extra
+from svsa.numerics.compilation import is_compiled_before
+from svsa.runs.result.cli import compare
+from svsa.runs.result.progress import hide_progress
+from svsa.teaching.course.cli import course
+from svsa.teaching.grading.cli import grade_command
+from svsa.teaching.leaderboard.cli import leaderboard_command, submit_command
 
 if TYPE_CHECKING:
-    from svsa.paper.reproduce import Reproduction
+    from svsa.evaluation.reproduction import Reproduction
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -78,8 +78,8 @@ def reproduce(
     ] = False,
 ) -> None:
     """Run the paper's figures with FL and NDOBC: 4A, 4B, 5 simulated, 6A, 6B, 7 through CAN."""
-    from svsa.paper import FIGURES
-    from svsa.paper.reproduce import reproduce as run_figures
+    from svsa.evaluation.reproduction import reproduce as run_figures
+    from svsa.runs.paper import FIGURES
 
     if not as_json:
         require_extra("plot")
@@ -93,7 +93,7 @@ def reproduce(
         print(json.dumps({"runs": rows}, indent=2))
         return
     Console().print(*_build_tables(runs))
-    from svsa.paper.pictures import save_figures
+    from svsa.evaluation.reproduction_pictures import save_figures
 
     with _messages.status("Drawing …"):
         paths = save_figures(runs, output)
@@ -130,8 +130,8 @@ def measure_costs(
     ] = True,
 ) -> None:
     """Measure what the loop costs, beside a C loop of the same work (CPU time)."""
-    from svsa.benchmark.bench_tick import TickCost, measure_laws
-    from svsa.benchmark.benchmark import measure, measure_start
+    from svsa.evaluation.timing.bench_tick import TickCost, measure_laws
+    from svsa.evaluation.timing.benchmark import measure, measure_start
 
     prepare(None if laws else PAPERS_LAWS)
     with _messages.status("Measuring …"):
@@ -141,8 +141,8 @@ def measure_costs(
         )
     if not laws and costs["ratio_to_c"] is None:
         _messages.print(
-            "No C loop to compare with: it needs a C compiler (cc) and tests/bench/loop.c of the"
-            " source tree, which an installed package has not. Ratios are null."
+            "No C loop to compare with: it needs a C compiler (cc) and tests/benchmarks/loop.c of"
+            " the source tree, which an installed package has not. Ratios are null."
         )
     if not laws and (missing := list_missing("peers")):
         _messages.print(f"No peers: {', '.join(missing)}, of the extra `{DISTRIBUTION}[peers]`.")
@@ -167,8 +167,8 @@ def measure_costs(
 def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) -> None:
     """Print the frames of a bench as a DBC file, which CAN tools read to decode a capture."""
     require_extra("bench")
-    from svsa.bench.drives.dbc import describe_bench
-    from svsa.bench.file import read_bench
+    from svsa.hardware.drives.dbc import describe_bench
+    from svsa.hardware.file import read_bench
 
     print(describe_bench(read_bench(file)))
 
@@ -185,8 +185,8 @@ def prepare(laws: Iterable[str] | None = None) -> None:
     laws: all that are installed if left out. One that does not work is named, and the others go on.
     """
     from svsa.control.installed import LawError, list_law_names
-    from svsa.loop.loop import advance
-    from svsa.result.simulate import simulate
+    from svsa.runs.result.simulate import simulate
+    from svsa.simulation.loop.loop import advance
 
     names = list_law_names() if laws is None else tuple(laws)
     if is_compiled_before(advance):

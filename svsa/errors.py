@@ -10,9 +10,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Self
 
-from svsa.written_number import write_number
-
 _LONGEST_NUMBER = 8
+DIGITS_WRITTEN_OUT = 12
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_NARROW = "\N{NARROW NO-BREAK SPACE}"
 
 
 class SvsaError(Exception):
@@ -114,3 +115,20 @@ def _shorten(value: Any, longest: int = 80) -> str:
     else:
         text = repr(value)
     return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def settle_number(value: float, digits: int) -> float:
+    """The number with so many digits: where machines differ in the last one, the same."""
+    return float(f"{value:.{digits}g}")
+
+
+def write_number(value: float) -> str:
+    """The number to six digits, in groups of three where it is large."""
+    text = f"{value:g}"
+    digits, _, exponent = text.partition("e")
+    if not exponent:
+        return text
+    power = int(exponent)
+    if 0 < power < DIGITS_WRITTEN_OUT:
+        return f"{float(text):,.0f}".replace(",", _NARROW)
+    return f"{digits} × 10{str(power).translate(_RAISED)}"

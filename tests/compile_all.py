@@ -12,19 +12,19 @@ import sys
 from collections.abc import Iterable
 
 import svsa
-from svsa.benchmark.peers.comparison import measure_peers
+from svsa.analysis.design.prediction import predict
+from svsa.analysis.identification.identify import identify
 from svsa.cli import prepare
 from svsa.control.installed import list_law_names
-from svsa.design.prediction import predict
-from svsa.identification.identify import identify
-from svsa.paper import FIGURES
-from svsa.plant.disturbances import ConstantLoad
-from svsa.result.bench_run import LockstepBench
-from svsa.run.batch import run_configurations
-from tests.identification.excited_run import build_configuration, build_run, play
-from tests.paper.golden import GENERIC
-from tests.rig.in_process_rig import start_in_process
-from tests.session.sessions import EVERY_EFFECT, SHOWN_IN_BATCHES
+from svsa.evaluation.timing.peers.comparison import measure_peers
+from svsa.hardware.emulator.experiment import LockstepBench
+from svsa.runs.batch import run_configurations
+from svsa.runs.paper import FIGURES
+from svsa.simulation.plant.loads import ConstantLoad
+from tests.analysis.identification.excited_run import build_configuration, build_run, play
+from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.runs.paper.golden import GENERIC
+from tests.runs.session.sessions import EVERY_EFFECT, SHOWN_IN_BATCHES
 
 TICKS, STIFFNESS = 10, 15.0
 BATCHES, EXHAUSTIVE = "batches", "--exhaustive"
@@ -34,7 +34,7 @@ def main() -> None:
     """On two cores: the loop and what goes through it here, what shares nothing with it beside."""
     beside = [start("tests.compile_all", BATCHES, *sys.argv[1:])]
     if EXHAUSTIVE in sys.argv:
-        beside.append(start("tests.paper.golden", "--figures", **GENERIC))
+        beside.append(start("tests.runs.paper.golden", "--figures", **GENERIC))
     prepare()
     compile_bench()
     compile_identification()

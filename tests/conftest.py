@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from xdist.remote import Producer
 
-from svsa.compilation import watch_compilation
+from svsa.numerics.compilation import watch_compilation
 from tests.lab import Lab, run_lab
 from tests.run_anew import RunAnew
 from tests.side_by_side import SideBySide
@@ -21,35 +21,8 @@ settings.register_profile("shown", SEARCHED, max_examples=25)
 TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
-    *(
-        "package",
-        "",
-        "simd",
-        "model",
-        "reference",
-        "control",
-        "observer",
-        "plant",
-        "isolation",
-        "loop",
-        "run",
-        "interruption",
-    ),
-    *("session", "records", "export", "design", "identification", "result", "paper", "benchmark"),
-    *(
-        "arena",
-        "study",
-        "falsify",
-        "course",
-        "grading",
-        "leaderboard",
-        "rig",
-        "hardware",
-        "scene",
-        "server",
-        "client",
-    ),
-    "browser",
+    *("package", "", "inputs", "numerics", "actuators", "control", "simulation", "runs"),
+    *("analysis", "evaluation", "teaching", "hardware", "scene", "server", "client", "browser"),
 )
 """Of the folders; what stands in none is \"\"."""
 

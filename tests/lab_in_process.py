@@ -14,8 +14,8 @@ from unittest.mock import patch
 
 import httpx
 
-from svsa.course.file import FOLDER_VARIABLE
-from svsa.records.catalogue.runs import DATA_VARIABLE
+from svsa.runs.records.catalogue.runs import DATA_VARIABLE
+from svsa.teaching.course.file import FOLDER_VARIABLE
 from svsa_server.app import build_app
 from tests.lab import Lab
 

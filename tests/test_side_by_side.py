@@ -7,7 +7,11 @@ import pytest
 from tests.side_by_side import OTHERS_EACH, WORTH, SideBySide
 
 PAGES = ["tests/browser/test_arena.py", "tests/browser/test_life.py", "tests/browser/test_view.py"]
-OTHERS = ["tests/model/test_spring.py", "tests/study/test_cluster.py", "tests/run/test_batch.py"]
+OTHERS = [
+    "tests/actuators/test_spring.py",
+    "tests/evaluation/studies/test_cluster.py",
+    "tests/runs/test_batch.py",
+]
 
 
 class Process:
@@ -57,7 +61,7 @@ def test_every_module_is_done_once_and_none_after_a_browser_but_a_browser(proces
 
 def test_one_half_begins_with_browsers_and_each_with_its_longest() -> None:
     computing, showing = share(PAGES + OTHERS, 2)
-    assert (computing[0], showing[0]) == ("tests/study/test_cluster.py", PAGES[1])
+    assert (computing[0], showing[0]) == ("tests/evaluation/studies/test_cluster.py", PAGES[1])
     assert showing == [PAGES[1], PAGES[2], PAGES[0]]
 
 

@@ -10,71 +10,56 @@ from fastapi import FastAPI
 from starlette.routing import BaseRoute
 
 import svsa
-from svsa.course.file import read_course
-from svsa.course.progress import ProgressStore
 from svsa.errors import ParameterError, Violation
-from svsa.extras import require_extra
-from svsa.records.catalogue.runs import find_data_folder
-from svsa.run.configuration import load_prototype, read_design
-from svsa.session.session import Session
+from svsa.inputs.extras import require_extra
+from svsa.runs.configuration import load_prototype, read_design
+from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.runs.session.session import Session
+from svsa.teaching.course.file import read_course
+from svsa.teaching.course.progress import ProgressStore
 from svsa_server.access.audit import AuditLog, Auditor
+from svsa_server.access.authentication import ClassDoor, Door, OpenDoor, SecretDoor
 from svsa_server.access.class_keys import ClassKeys
-from svsa_server.access.doors import ClassDoor, Door, OpenDoor, SecretDoor
 from svsa_server.access.guard import AccessGuard, read_person
 from svsa_server.access.memberships import FILE, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.rates import Rates
 from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.config import Settings
-from svsa_server.control.outcomes import OutcomeKeeper, Outcomes
-from svsa_server.control.queue import ControlQueue
 from svsa_server.errors import install_error_handlers
 from svsa_server.jobs.heavy_work import HeavyWork
 from svsa_server.jobs.queue import Jobs
+from svsa_server.leases.outcomes import OutcomeKeeper, Outcomes
+from svsa_server.leases.queue import ControlQueue
 from svsa_server.openapi import install_openapi
 from svsa_server.page import build_page_routes
-from svsa_server.routes import (
-    access,
-    arena,
-    audit,
-    bench,
-    classroom,
-    control,
-    course,
+from svsa_server.routes.access import access, audit, classroom
+from svsa_server.routes.evaluation import falsifications, jobs, ranking, scenarios, studies, tunings
+from svsa_server.routes.hardware import bench
+from svsa_server.routes.lab import (
     design,
-    falsifications,
-    grades,
     identification,
-    jobs,
     lab,
-    leaderboard,
+    lease,
     loads,
-    lti,
     outcomes,
     recordings,
     references,
-    run_difference,
-    run_files,
-    run_origins,
-    run_samples,
-    run_verdict,
-    runs,
-    scenarios,
     sessions,
     settings,
     stability,
-    studies,
-    tunings,
 )
+from svsa_server.routes.runs import difference, files, origins, runs, samples, verdict
+from svsa_server.routes.teaching import course, grades, leaderboard, lti
 from svsa_server.scene.scenes import Scenes
 from svsa_server.scene.viser_proxy import ViserProxy
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.control_log import note_settled
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
+from svsa_server.sessions.lock import take_turn
 from svsa_server.sessions.ownership import find_owner
 from svsa_server.sessions.quota import DiskQuota
 from svsa_server.sessions.recording import Recordings, open_catalogue
-from svsa_server.sessions.turn import take_turn
 
 if TYPE_CHECKING:
     from svsa_server.lti.tool import LtiTool
@@ -147,7 +132,7 @@ def build_routes() -> list[BaseRoute]:
         classroom,
         audit,
         sessions,
-        control,
+        lease,
         bench,
         settings,
         design,
@@ -158,18 +143,18 @@ def build_routes() -> list[BaseRoute]:
         course,
         grades,
         references,
-        run_samples,
-        run_files,
-        run_origins,
-        run_difference,
-        run_verdict,
+        samples,
+        files,
+        origins,
+        difference,
+        verdict,
         runs,
         jobs,
         tunings,
         studies,
         falsifications,
         scenarios,
-        arena,
+        ranking,
         leaderboard,
         outcomes,
         lti,

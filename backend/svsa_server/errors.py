@@ -11,13 +11,13 @@ from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
 from svsa.errors import ParameterError, SecurityError, StateError, SvsaError
-from svsa.explanation import explain_problems
-from svsa.isolation.refusal import NotIsolatedError
-from svsa.records.catalogue.entry import CatalogueError, ChangedRunError, UnknownRunError
-from svsa.records.header import RecordError
-from svsa.study.store import StudyError
-from svsa_server.control.hand import HeldError
+from svsa.evaluation.studies.store import StudyError
+from svsa.inputs.explanation import explain_problems
+from svsa.runs.records.catalogue.entry import CatalogueError, ChangedRunError, UnknownRunError
+from svsa.runs.records.header import RecordError
+from svsa.teaching.isolation.refusal import NotIsolatedError
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError
+from svsa_server.leases.lease import HeldError
 from svsa_server.problems import (
     LONGEST_ECHO,
     ChangedError,

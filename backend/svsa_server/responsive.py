@@ -14,14 +14,14 @@ from fastapi.responses import JSONResponse, Response
 from starlette.types import Message, Receive, Scope, Send
 
 import svsa
-from svsa.session.bench import BenchSession
-from svsa.session.session import Session
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.session.session import Session
 from svsa_server.access.guard import AccessGuard, find_path
 from svsa_server.access.owned import Kind, Owner
 from svsa_server.app_thread import AppThread, Crossing
 from svsa_server.problems import answer_problem
 from svsa_server.routing import API
-from svsa_server.schemas.lab import Health
+from svsa_server.schemas.lab.lab import Health
 from svsa_server.sessions.laboratory import SHARED_SESSION
 
 LOOK_S = 0.1

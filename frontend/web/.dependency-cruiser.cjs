@@ -1,48 +1,49 @@
-/** The page's rooms, from top to bottom: a room imports what lies below it, and nothing else. */
-const ROOMS = [
+/** The page's folders, from top to bottom: a folder imports what lies below it, and nothing else. */
+const FOLDERS = [
   ["main"],
-  ["debug", "docs", "replay"],
+  ["debug", "docs", "runs/replay"],
   ["layout"],
-  ["arena", "classroom", "falsifier", "grades", "leaderboard", "learning", "studies"],
-  ["keys"],
-  ["runs"],
-  ["controls", "control", "safety", "scene", "script"],
-  ["tuning"],
-  ["bench", "design", "plots"],
-  ["equations"],
-  ["jobs", "widgets"],
-  ["state"],
-  ["stream"],
-  ["api"],
-  ["quantities"],
-  ["units", "text", "icons"],
+  ["evaluation/falsifier", "evaluation/ranking", "evaluation/studies"],
+  ["teaching/classroom", "teaching/course", "teaching/grades", "teaching/leaderboard"],
+  ["lab/keys"],
+  ["runs/list"],
+  ["lab/lease", "lab/panels", "lab/safety", "lab/scene", "lab/script"],
+  ["lab/tuning"],
+  ["core/plots", "hardware", "lab/design"],
+  ["core/equations"],
+  ["core/jobs", "core/widgets"],
+  ["core/state"],
+  ["core/stream"],
+  ["core/api"],
+  ["core/quantities"],
+  ["core/icons", "core/text", "core/units"],
 ];
 
-const within = (rooms) => `^src/(${rooms.join("|")})(/|\\.tsx?$)`;
+const within = (folders) => `^src/(${folders.join("|")})(/|\\.tsx?$)`;
 
 /** @type {import("dependency-cruiser").IConfiguration} */
 module.exports = {
   forbidden: [
     { name: "no circle", severity: "error", from: {}, to: { circular: true } },
     {
-      name: "every file belongs to a room",
+      name: "every file belongs to a folder",
       severity: "error",
       from: {},
       to: {
         path: "^src/",
-        pathNot: [within(ROOMS.flat()), "\\.css$", "\\.d\\.ts$"],
+        pathNot: [within(FOLDERS.flat()), "\\.css$", "\\.d\\.ts$"],
       },
     },
-    ...ROOMS.flatMap((rooms, level) =>
-      rooms.map((room) => ({
-        name: `${room} imports what lies below it`,
+    ...FOLDERS.flatMap((folders, level) =>
+      folders.map((folder) => ({
+        name: `${folder} imports what lies below it`,
         severity: "error",
-        from: { path: within([room]) },
+        from: { path: within([folder]) },
         to: {
           path: within(
-            ROOMS.slice(0, level + 1)
+            FOLDERS.slice(0, level + 1)
               .flat()
-              .filter((other) => other !== room),
+              .filter((other) => other !== folder),
           ),
         },
       })),

@@ -14,13 +14,13 @@ It needs the extra `client`. What the lab refuses raises what `svsa.simulate` wo
 """
 
 # ruff: noqa: E402
-from svsa.extras import require_extra
+from svsa.inputs.extras import require_extra
 
 require_extra("client")
 
 from svsa.client.asynchronous import AsyncLab, AsyncRecording, AsyncSession, connect_async
+from svsa.client.authentication import Acted
 from svsa.client.connection import Connection
-from svsa.client.door import Acted
 from svsa.client.lab import Lab, connect
 from svsa.client.loads import AppliedLoad, Loads
 from svsa.client.recording import Recording

@@ -17,23 +17,23 @@ from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from typing import Any, Literal, Self, TypedDict, Unpack
 
-from svsa.client.door import Acted
+from svsa.actuators.parameters import ActuatorParameters
+from svsa.client.authentication import Acted
 from svsa.client.lab import SHARED, Lab, connect
 from svsa.client.loads import AppliedLoad
 from svsa.client.recording import Recording
 from svsa.client.session import RemoteBench, RemoteSession
 from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
-from svsa.observer.disturbance import ObserverBandwidth
-from svsa.paper import DURATION_S, Figure
-from svsa.parameters import ActuatorParameters
-from svsa.plant.disturbances import Load
-from svsa.plant.effects import Effects
-from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.result.channels import ChannelName
-from svsa.result.result import Result
-from svsa.run.change import Change
-from svsa.run.configuration import Configuration, Lane
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.runs.change import Change
+from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.paper import DURATION_S, Figure
+from svsa.runs.result.channels import ChannelName
+from svsa.runs.result.result import Result
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
 
 
 class Settings(TypedDict, total=False):

@@ -5,17 +5,17 @@ from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import Any, Self
 
-from svsa.checked import check_number
 from svsa.client.connection import Connection
 from svsa.client.runs import RemoteRuns
 from svsa.client.session import RemoteSession, dump_lane
 from svsa.client.studies import RemoteStudies
 from svsa.errors import FaultError, ParameterError, Violation
-from svsa.paper import DURATION_S, Figure, get_figure
-from svsa.result.result import Result
-from svsa.result.simulate import MAX_TICKS
-from svsa.run.change import Change
-from svsa.run.configuration import Configuration
+from svsa.inputs.checked import check_number
+from svsa.runs.change import Change
+from svsa.runs.configuration import Configuration
+from svsa.runs.paper import DURATION_S, Figure, get_figure
+from svsa.runs.result.result import Result
+from svsa.runs.result.simulate import MAX_TICKS
 
 SHARED = "lab"
 SETTINGS = ("position", "stiffness", "gains", "observer", "actuator", "nominal", "effects")

@@ -6,8 +6,8 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
-from svsa.client.door import SessionDoor
-from svsa.plant.disturbances import Load
+from svsa.client.authentication import SessionDoor
+from svsa.simulation.plant.loads import Load
 
 _LOAD: TypeAdapter[Load] = TypeAdapter(Load)
 

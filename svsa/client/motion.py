@@ -3,7 +3,7 @@
 import time
 from typing import Any, Literal
 
-from svsa.client.control import ControlledDoor
+from svsa.client.lease import ControlledDoor
 from svsa.errors import Fault, FaultError, StateError
 
 MAX_STEP_TICKS = 10_000

@@ -3,10 +3,10 @@
 import time
 from typing import Self
 
-from svsa.client.door import SessionDoor
+from svsa.client.authentication import SessionDoor
 from svsa.client.refusals import LabError
 from svsa.client.runs import RemoteRuns
-from svsa.result.result import Result
+from svsa.runs.result.result import Result
 
 FINISHED_S = 60.0
 POLL_S = 0.05

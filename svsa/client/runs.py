@@ -7,9 +7,9 @@ from typing import Any
 from urllib.parse import quote
 
 from svsa.client.connection import Connection
-from svsa.records.parquet import unpack_parquet
-from svsa.result.recorded import open_run
-from svsa.result.result import Result
+from svsa.runs.records.parquet import unpack_parquet
+from svsa.runs.result.recorded import open_run
+from svsa.runs.result.result import Result
 
 PAGE_SIZE = 100
 

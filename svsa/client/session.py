@@ -6,20 +6,20 @@ from typing import Any, Literal
 
 from pydantic import TypeAdapter
 
+from svsa.actuators.parameters import ActuatorParameters
+from svsa.client.authentication import SessionDoor
 from svsa.client.connection import Connection
-from svsa.client.door import SessionDoor
 from svsa.client.loads import Loads
 from svsa.client.motion import MovingDoor
 from svsa.client.recording import Recording
 from svsa.client.runs import RemoteRuns
 from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
-from svsa.observer.disturbance import ObserverBandwidth
-from svsa.parameters import ActuatorParameters
-from svsa.plant.effects import Effects
-from svsa.reference.trajectories import PositionReference, StiffnessReference
-from svsa.result.channels import ChannelName
-from svsa.run.configuration import Lane
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.runs.configuration import Lane
+from svsa.runs.result.channels import ChannelName
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
 
 _POSITION: TypeAdapter[PositionReference] = TypeAdapter(PositionReference)
 _STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)

@@ -23,7 +23,7 @@ from websockets.sync import client as synchronous
 from svsa.client.connection import API, CONNECT_S, PAUSE_S, Connection
 from svsa.client.refusals import LabError, build_refusal
 from svsa.errors import ParameterError, Violation
-from svsa.session.batch import unpack_batch
+from svsa.runs.session.frame import unpack_batch
 
 _BROKEN = (OSError, ConnectionClosedError, InvalidHandshake)
 

@@ -14,9 +14,9 @@ from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic
 
-from svsa.compilation import compiled
+from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
 from svsa.errors import ParameterError, Violation
-from svsa.signals import Disturbance, Positions, Reference, State, Torque
+from svsa.numerics.compilation import compiled
 
 _GIVEN = (
     numba.typeof(State(*[0.0] * 6)),

@@ -2,10 +2,10 @@
 
 from typing import NamedTuple
 
-from svsa.compilation import compiled
-from svsa.model.dynamics import Actuator
-from svsa.model.linearization import Linearization
-from svsa.signals import Disturbance
+from svsa.actuators.dynamics import Actuator
+from svsa.actuators.linearization import Linearization
+from svsa.actuators.signals import Disturbance
+from svsa.numerics.compilation import compiled
 
 
 class Disturbed(NamedTuple):

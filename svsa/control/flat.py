@@ -2,11 +2,11 @@
 
 from typing import NamedTuple
 
-from svsa.compilation import compiled
-from svsa.model.dynamics import Actuator
-from svsa.model.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
-from svsa.model.spring import compute_reaction_torque, compute_spring_derivatives
-from svsa.signals import Reference
+from svsa.actuators.dynamics import Actuator
+from svsa.actuators.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
+from svsa.actuators.signals import Reference
+from svsa.actuators.spring import compute_reaction_torque, compute_spring_derivatives
+from svsa.numerics.compilation import compiled
 
 NEWTON_STEPS = 4
 

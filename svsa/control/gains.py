@@ -7,9 +7,9 @@ from typing import ClassVar, Self
 import numpy as np
 from pydantic import model_validator
 
-from svsa.checked import Number, quantity
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Number, quantity
 
 FASTEST_POLE_RAD_PER_S = 1000.0
 

@@ -3,11 +3,11 @@
 A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, which ends at the bound.
 """
 
-from svsa.compilation import compiled
-from svsa.model.dynamics import Actuator, InternalTorque, compute_deflection
-from svsa.model.lever import compute_lever_ratio_slope
-from svsa.signals import Disturbance, State
-from svsa.simd.choice import greatest, least
+from svsa.actuators.dynamics import Actuator, InternalTorque, compute_deflection
+from svsa.actuators.lever import compute_lever_ratio_slope
+from svsa.actuators.signals import Disturbance, State
+from svsa.numerics.compilation import compiled
+from svsa.numerics.simd.choice import greatest, least
 
 
 @compiled

@@ -9,12 +9,12 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from svsa.actuators.domain import Domain
+from svsa.actuators.dynamics import Actuator
 from svsa.control.call import BoundLaw, bind, is_measuring
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
-from svsa.model.domain import Domain
-from svsa.model.dynamics import Actuator
-from svsa.packed import pack
+from svsa.numerics.packed import pack
 
 EstimateSource = Literal["none", "observer", "own"]
 

@@ -1,8 +1,8 @@
 """Torque limits: what the motors are really asked for."""
 
-from svsa.compilation import compiled
-from svsa.signals import Torque
-from svsa.simd.choice import greatest, least
+from svsa.actuators.signals import Torque
+from svsa.numerics.compilation import compiled
+from svsa.numerics.simd.choice import greatest, least
 
 
 @compiled

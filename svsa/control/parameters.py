@@ -4,7 +4,7 @@ from typing import Any, ClassVar
 
 from pydantic import ConfigDict
 
-from svsa.checked import Checked
+from svsa.inputs.checked import Checked
 
 
 class LawParameters(Checked):

@@ -5,8 +5,8 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from svsa.arena.results import load_published
 from svsa.control.installed import get_title
+from svsa.evaluation.ranking.results import load_published
 from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
 

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from svsa.course.progress import ProgressStore
-from svsa.grading.class_grades import open_book
+from svsa.teaching.course.progress import ProgressStore
+from svsa.teaching.grading.class_grades import open_book
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.browser.test_page import WORKER_MS, go_to_page, open_page
-from tests.grading.test_class_grades import hand_in
 from tests.lab import Lab
+from tests.teaching.grading.test_class_grades import hand_in
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 

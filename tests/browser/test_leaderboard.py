@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
-from svsa.leaderboard import board as boards
-from svsa.leaderboard.board import FOLDER, Board, build_entry, digest_law, measure_missing
+from svsa.teaching.leaderboard import board as boards
+from svsa.teaching.leaderboard.board import FOLDER, Board, build_entry, digest_law, measure_missing
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.browser.test_page import WORKER_MS, go_to_page, open_page
 from tests.lab import Lab
-from tests.leaderboard.test_leaderboard import build_short_season
+from tests.teaching.leaderboard.test_leaderboard import build_short_season
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 

@@ -6,13 +6,13 @@ from functools import partial
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from svsa.course.exercise import Exercise
-from svsa.course.steps import Experiment, Explain, Predict
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.steps import Experiment, Explain, Predict
 from tests.browser.settled import get_box, resize, until
-from tests.course.runs import find_exercise
-from tests.course.test_exercises import RIGHT
 from tests.exhaustive import exhaust
 from tests.lab import Lab
+from tests.teaching.course.runs import find_exercise
+from tests.teaching.course.test_exercises import RIGHT
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 

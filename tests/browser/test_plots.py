@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from svsa.signals import CHANNEL_NAMES
+from svsa.actuators.signals import CHANNEL_NAMES
 from tests.browser.conftest import KeptPage, leave_3d_empty
 from tests.browser.test_page import ONE_DEGREE, choose, open_page, wait_for_samples
 from tests.lab import Lab

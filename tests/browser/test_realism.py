@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from svsa.plant.effects import RIG, Effects
+from svsa.simulation.plant.effects import RIG, Effects
 from tests.browser.test_page import choose, open_page, unfold
 from tests.lab import Lab
 

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
-from svsa.study.execution import run_study
-from svsa.study.store import keep_study
+from svsa.evaluation.studies.execution import run_study
+from svsa.evaluation.studies.store import keep_study
 from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
 from tests.browser.test_page import WORKER_MS
+from tests.evaluation.studies.studies import VARIED, build_study
 from tests.exhaustive import exhaust
 from tests.lab import Lab, run_lab
-from tests.study.studies import VARIED, build_study
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 

@@ -8,7 +8,7 @@ import httpx
 import pytest
 from playwright.sync_api import Locator, Page, Response, expect
 
-from svsa.run.configuration import parse_design
+from svsa.runs.configuration import parse_design
 from tests.browser.settled import get_box, resize, until
 from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab

@@ -5,21 +5,21 @@ import pytest
 from scipy.linalg import expm
 
 import svsa
-from svsa.control.feedback_linearization import (
+from svsa.actuators.domain import DEFLECTION_LIMIT, INSIDE, build_domain, check_domain
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.lever import compute_lever_ratio_for_stiffness
+from svsa.actuators.linearization import compute_linearization, solve_decoupling
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS, Disturbance, Reference, State, Torque
+from svsa.control.laws.feedback_linearization import (
     build_gains,
     compute_linearized_demand,
 )
+from svsa.control.laws.ndobc import compute_disturbance_gain, compute_ndobc
 from svsa.control.limits import limit_torque
-from svsa.control.ndobc import compute_disturbance_gain, compute_ndobc
-from svsa.model.domain import DEFLECTION_LIMIT, INSIDE, build_domain, check_domain
-from svsa.model.dynamics import build_actuator
-from svsa.model.lever import compute_lever_ratio_for_stiffness
-from svsa.model.linearization import compute_linearization, solve_decoupling
-from svsa.observer.disturbance import compute_shares, update_disturbance_estimate
-from svsa.reference.sine import compute_sine
-from svsa.run.run import Run
-from svsa.signals import CHANNEL_INDEX, CHANNELS, Disturbance, Reference, State, Torque
-from tests.model.prototype import DESIGN, NO_LOADS, K, integrate_ideal, put, record
+from svsa.control.observers.disturbance import compute_shares, update_disturbance_estimate
+from svsa.runs.run import Run
+from svsa.simulation.reference.sine import compute_sine
+from tests.actuators.prototype import DESIGN, NO_LOADS, K, integrate_ideal, put, record
 
 GAINS_OF_POLES = {
     "the default poles": svsa.Gains.from_poles([-60.0] * 4, [-40.0] * 2),

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.actuators.domain import FAULT_CODES
+from svsa.actuators.signals import CHANNEL_INDEX, State
 from svsa.control.installed import list_law_names
-from svsa.model.domain import FAULT_CODES
-from svsa.records.recorder import Recorder
-from svsa.run.batch import run_configurations
-from svsa.run.command import ApplyLoad
-from svsa.session.simulated import SimulatedSession
-from svsa.signals import CHANNEL_INDEX, State
+from svsa.runs.batch import run_configurations
+from svsa.runs.command import ApplyLoad
+from svsa.runs.records.recorder import Recorder
+from svsa.runs.session.simulated import SimulatedSession
 from tests.exhaustive import exhaust
-from tests.records.records import build_header
-from tests.session.sessions import (
+from tests.runs.records.records import build_header
+from tests.runs.session.sessions import (
     PULSE,
     SHOWN_IN_BATCHES,
     build_configuration,

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from svsa.actuators.dynamics import ExternalLoad, compute_acceleration
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.signals import Reference, State, Torque
+from svsa.actuators.spring import compute_stiffness
 from svsa.control.flat import compute_flat
-from svsa.model.dynamics import ExternalLoad, compute_acceleration
-from svsa.model.lever import compute_lever_ratio
-from svsa.model.spring import compute_stiffness
-from svsa.signals import Reference, State, Torque
-from tests.model.prototype import NOMINAL, differentiate
+from tests.actuators.prototype import NOMINAL, differentiate
 
 STILL = ExternalLoad(0.0, 0.0, 0.0, 0.0, 0.0)
 

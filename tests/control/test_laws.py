@@ -9,21 +9,21 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS, Torque
+from svsa.analysis.design.sampled_loop import linearize_tick
 from svsa.cli import prepare
-from svsa.compilation import compiled, watch_compilation
 from svsa.control import installed
 from svsa.control.installed import LawError, get_law, list_law_names
 from svsa.control.law import Law
-from svsa.design.sampled_loop import linearize_tick
-from svsa.loop.loop import advance as advance_lane
-from svsa.records.wording import tell_law
-from svsa.run.command import SetLaw, build_command
-from svsa.run.controllers import list_controllers, name_controllers
-from svsa.run.replay import replay
-from svsa.run.run import Run
-from svsa.session.simulated import SimulatedSession
-from svsa.signals import CHANNEL_INDEX, CHANNELS, Torque
-from tests.session.sessions import PULSE, advance, build_configuration, read_samples
+from svsa.numerics.compilation import compiled, watch_compilation
+from svsa.runs.command import SetLaw, build_command
+from svsa.runs.controllers import list_controllers, name_controllers
+from svsa.runs.records.wording import tell_law
+from svsa.runs.replay import replay
+from svsa.runs.run import Run
+from svsa.runs.session.simulated import SimulatedSession
+from svsa.simulation.loop.loop import advance as advance_lane
+from tests.runs.session.sessions import PULSE, advance, build_configuration, read_samples
 
 INTEGRAL = svsa.Lane(law="fl_integral")
 FASTER = {"position_pole_rad_per_s": 70.0}

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.arena.cost import compute_shake
-from svsa.arena.measure import Entry, measure_rms, run_scenario
-from svsa.arena.scenarios import UNLOADINGS
+from svsa.actuators.domain import build_domain
+from svsa.actuators.signals import Disturbance, Torque
 from svsa.control.installed import get_law
 from svsa.control.law import Setting
-from svsa.control.ndobc_s import CAP, Memory, build, compute_poles, feel_shaking, feel_surprise
-from svsa.model.domain import build_domain
-from svsa.plant.effects import RIG, SensorNoise
-from svsa.signals import Disturbance, Torque
-from tests.model.prototype import NOMINAL
+from svsa.control.laws.ndobc_s import CAP, Memory, build, compute_poles, feel_shaking, feel_surprise
+from svsa.evaluation.ranking.cost import compute_shake
+from svsa.evaluation.ranking.measure import Entry, measure_rms, run_scenario
+from svsa.evaluation.ranking.scenarios import UNLOADINGS
+from svsa.simulation.plant.effects import RIG, SensorNoise
+from tests.actuators.prototype import NOMINAL
 
 LOUD = RIG.changed(noise=SensorNoise(motor_std_rad=1e-4, deflection_std_rad=1e-3))
 """Five times the noise."""

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.actuators.dynamics import ExternalLoad, compute_acceleration, compute_internal_torque
+from svsa.actuators.signals import CHANNELS, Disturbance, Torque
 from svsa.control.guard import guard_deflection, guard_lever
-from svsa.control.ndobc_w import Memory
-from svsa.model.dynamics import ExternalLoad, compute_acceleration, compute_internal_torque
-from svsa.packed import pack
-from svsa.run.run import Run
-from svsa.signals import CHANNELS, Disturbance, Torque
-from tests.model.prototype import NOMINAL, build_state
+from svsa.control.laws.ndobc_w import Memory
+from svsa.numerics.packed import pack
+from svsa.runs.run import Run
+from tests.actuators.prototype import NOMINAL, build_state
 
 W = Disturbance(0.4, -0.2, 0.1)
 HELD = {

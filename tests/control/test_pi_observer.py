@@ -3,8 +3,8 @@
 import numpy as np
 
 import svsa
-from svsa.run.run import Run
-from tests.session.sessions import PULSE, advance, build_configuration
+from svsa.runs.run import Run
+from tests.runs.session.sessions import PULSE, advance, build_configuration
 
 TICKS = 300
 

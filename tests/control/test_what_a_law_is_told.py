@@ -8,14 +8,20 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.compilation import compiled
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, Positions, Torque
 from svsa.control import installed
 from svsa.control.call import build_call
 from svsa.control.law import Law
-from svsa.isolation.confinement import leave_open
-from svsa.isolation.process import LawProcess
-from svsa.loop.lane import AT_REST
-from svsa.loop.measured import (
+from svsa.control.observers.state import predict_state
+from svsa.numerics.compilation import compiled
+from svsa.numerics.packed import pack
+from svsa.numerics.simd.choice import choose
+from svsa.runs.batch import build_run_batch, run_configurations
+from svsa.runs.blocks import compute_start_ratio
+from svsa.runs.run import Run
+from svsa.simulation.loop.lane import AT_REST
+from svsa.simulation.loop.measured import (
     Actuation,
     BenchConstants,
     Carried,
@@ -23,16 +29,10 @@ from svsa.loop.measured import (
     pass_ticks,
     publish_and_predict,
 )
-from svsa.model.dynamics import build_actuator
-from svsa.observer.state import predict_state
-from svsa.packed import pack
-from svsa.plant.sensors import read_sensors
-from svsa.run.batch import build_run_batch, run_configurations
-from svsa.run.blocks import compute_start_ratio
-from svsa.run.run import Run
-from svsa.signals import CHANNELS, Disturbance, Measurement, Positions, Torque
-from svsa.simd.choice import choose
-from tests.session.sessions import EVERY_EFFECT, PULSE, advance, build_configuration
+from svsa.simulation.plant.sensors import read_sensors
+from svsa.teaching.isolation.confinement import leave_open
+from svsa.teaching.isolation.process import LawProcess
+from tests.runs.session.sessions import EVERY_EFFECT, PULSE, advance, build_configuration
 
 TICKS = 60
 LINK_LOAD = Disturbance(0.3, 0.0, 0.0)

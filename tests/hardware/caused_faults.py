@@ -7,14 +7,11 @@ from typing import Any, NamedTuple
 import can
 import pytest
 
-from svsa.bench import can_plant
-from svsa.bench.drives.drive import build_broadcast_resets
-from svsa.bench.emulation import ADVANCE_ID, encode_time
-from svsa.bench.safety.faults import FAULTS
-from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.plant.disturbances import ConstantLoad
-from svsa.rig.faults import (
+from svsa.hardware import can_plant
+from svsa.hardware.drives.drive import build_broadcast_resets
+from svsa.hardware.emulation import ADVANCE_ID, encode_time
+from svsa.hardware.emulator.faults import (
     BrownOut,
     BusErrors,
     CurrentOffset,
@@ -30,6 +27,9 @@ from svsa.rig.faults import (
     Stall,
     ZeroedCounter,
 )
+from svsa.hardware.safety.faults import FAULTS
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.simulation.plant.loads import ConstantLoad
 
 from .watched_bench import Bench
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import tomli_w
 
-from svsa.rig.launch import RunningRig, start_rig
+from svsa.hardware.emulator.launch import RunningRig, start_rig
 
 from .wired_bench import RIG_BENCH
 

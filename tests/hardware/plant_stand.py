@@ -4,28 +4,28 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from svsa.bench.calibration import find_calibration
-from svsa.bench.can_plant import CanPlant
-from svsa.bench.clock import LockstepClock
-from svsa.bench.drives.conversion import build_motor_scale, compute_current_ma
-from svsa.bench.drives.phase import Phase
-from svsa.bench.file import BenchFile, BusSettings, read_bench
-from svsa.bench.reading import Reading
-from svsa.bench.realtime.configuration import (
+from svsa.actuators.dynamics import compute_deflection
+from svsa.actuators.signals import Disturbance, Measurement, State, Torque
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.can_plant import CanPlant
+from svsa.hardware.clock import LockstepClock
+from svsa.hardware.drives.conversion import build_motor_scale, compute_current_ma
+from svsa.hardware.drives.phase import Phase
+from svsa.hardware.emulator.experiment import connect_bench
+from svsa.hardware.emulator.launch import RunningRig
+from svsa.hardware.emulator.mechanics import Mechanics
+from svsa.hardware.emulator.parameters import RigParameters
+from svsa.hardware.file import BenchFile, BusSettings, read_bench
+from svsa.hardware.reading import Reading
+from svsa.hardware.realtime.configuration import (
     build_bench_configuration,
     build_guard,
     read_actuation,
 )
-from svsa.bench.realtime.loop import BenchLoop
-from svsa.bench.realtime.sample_array import SampleArray
-from svsa.bench.safety.machine import BenchStatus, Conditions, Machine
-from svsa.model.dynamics import compute_deflection
-from svsa.paper import get_figure
-from svsa.result.bench_run import connect_bench
-from svsa.rig.launch import RunningRig
-from svsa.rig.mechanics import Mechanics
-from svsa.rig.parameters import RigParameters
-from svsa.signals import Disturbance, Measurement, State, Torque
+from svsa.hardware.realtime.loop import BenchLoop
+from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
+from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import RIG_BENCH
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

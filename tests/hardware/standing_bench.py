@@ -11,12 +11,12 @@ import sys
 import time
 from pathlib import Path
 
-from svsa.bench.homing import STEPS
-from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.paper import get_figure
-from svsa.reference.trajectories import ConstantPosition
-from svsa.session.bench import BenchSession
+from svsa.hardware.homing import STEPS
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.paper import get_figure
+from svsa.simulation.reference.trajectories import ConstantPosition
 
 WAKE_S = 1.0 / 60.0
 ATTEMPTS = 10

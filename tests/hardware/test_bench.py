@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 import tomli_w
 
-from svsa.bench.file import read_bench
 from svsa.errors import ParameterError
+from svsa.hardware.file import read_bench
 from tests.hardware.wired_bench import RIG_BENCH
 
 

@@ -11,12 +11,10 @@ from typing import Any
 
 import pytest
 
-from svsa.bench.safety.faults import FAULTS
-from svsa.bench.safety.guard import OVERLOAD
-from svsa.bench.safety.machine import BenchStatus
+from svsa.actuators.signals import Torque
 from svsa.errors import StateError
-from svsa.result.bench_run import LockstepBench, connect_bench
-from svsa.rig.faults import (
+from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
+from svsa.hardware.emulator.faults import (
     CurrentOffset,
     DriveName,
     DropFrames,
@@ -25,9 +23,11 @@ from svsa.rig.faults import (
     Silence,
     Unplugged,
 )
-from svsa.signals import Torque
+from svsa.hardware.safety.faults import FAULTS
+from svsa.hardware.safety.guard import OVERLOAD
+from svsa.hardware.safety.machine import BenchStatus
 from tests.exhaustive import exhaust
-from tests.rig.in_process_rig import InProcessRig, start_in_process
+from tests.hardware.emulator.in_process_rig import InProcessRig, start_in_process
 
 from .caused_faults import (
     CASES,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.rig.launch import start_rig
+from svsa.hardware.emulator.launch import start_rig
 from tests.exhaustive import exhaust
 
 from .caused_faults import CASES, check_stopped

@@ -8,19 +8,19 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from svsa.bench.endurance import Endurance, find_endurance
-from svsa.bench.file import read_bench
-from svsa.bench.realtime.configuration import build_bench_configuration
-from svsa.bench.realtime.link import Link
-from svsa.bench.realtime.memory import LoopMemory
-from svsa.bench.realtime.prepared_laws import PreparedLaws
-from svsa.bench.realtime.process import LoopProcess
-from svsa.bench.safety.heartbeat import Heartbeats
-from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import Fault
-from svsa.plant.disturbances import ConstantLoad, Load, MassLoad, PaperLoad, PulseLoad
-from svsa.result.bench_run import RIG_BENCH
-from tests.rig.in_process_rig import start_in_process
+from svsa.hardware.emulator.experiment import RIG_BENCH
+from svsa.hardware.endurance import Endurance, find_endurance
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.configuration import build_bench_configuration
+from svsa.hardware.realtime.link import Link
+from svsa.hardware.realtime.memory import LoopMemory
+from svsa.hardware.realtime.prepared_laws import PreparedLaws
+from svsa.hardware.realtime.process import LoopProcess
+from svsa.hardware.safety.heartbeat import Heartbeats
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PaperLoad, PulseLoad
+from tests.hardware.emulator.in_process_rig import start_in_process
 
 from .watched_bench import FIGURE, Bench, make_ready
 

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from svsa.bench.safety.machine import BenchStatus
+from svsa.actuators.signals import CHANNEL_INDEX, Torque
 from svsa.errors import StateError
-from svsa.rig.launch import RunningRig, start_rig
-from svsa.signals import CHANNEL_INDEX, Torque
+from svsa.hardware.emulator.launch import RunningRig, start_rig
+from svsa.hardware.safety.machine import BenchStatus
 from tests.exhaustive import exhaust
 from tests.hardware.plant_stand import NO_TORQUE, Stand, stand_emulated, stand_simulated
 

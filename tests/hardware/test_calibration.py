@@ -4,7 +4,8 @@ from datetime import datetime
 
 import pytest
 
-from svsa.bench.calibration import (
+from svsa.errors import ParameterError, StateError
+from svsa.hardware.calibration import (
     Calibration,
     compute_fingerprint,
     find_calibration,
@@ -13,17 +14,16 @@ from svsa.bench.calibration import (
     note_signs,
     write_calibration,
 )
-from svsa.bench.drives.bus import BusError
-from svsa.bench.encoders.source import EncoderError
-from svsa.bench.file import read_bench
-from svsa.bench.homing import STEPS, Homing
-from svsa.bench.zero import calibrate, read_deflection_zero
-from svsa.errors import ParameterError, StateError
-from svsa.plant.disturbances import ConstantLoad
-from svsa.rig.faults import DropFrames
-from svsa.rig.parameters import RigDeflection, RigParameters
-from svsa.rig.rig import Rig
-from tests.rig.bus_in_time import RIG_BENCH, RigBus, copy_bench
+from svsa.hardware.drives.bus import BusError
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.faults import DropFrames
+from svsa.hardware.emulator.parameters import RigDeflection, RigParameters
+from svsa.hardware.encoders.source import EncoderError
+from svsa.hardware.file import read_bench
+from svsa.hardware.homing import STEPS, Homing
+from svsa.hardware.zero import calibrate, read_deflection_zero
+from svsa.simulation.plant.loads import ConstantLoad
+from tests.hardware.emulator.bus_in_time import RIG_BENCH, RigBus, copy_bench
 
 MOTOR_CHANGES = [
     ("gear_ratio = 50.0", "gear_ratio = 51.0"),

@@ -6,12 +6,12 @@ import math
 import can
 import pytest
 
-from svsa.bench.drives.robomodule import Feedback, encode
-from svsa.bench.file import read_bench
-from svsa.bench.safety.machine import BenchStatus
+from svsa.actuators.signals import Torque
 from svsa.errors import StateError
-from svsa.rig.frame import Frame
-from svsa.signals import Torque
+from svsa.hardware.drives.robomodule import Feedback, encode
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.file import read_bench
+from svsa.hardware.safety.machine import BenchStatus
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, FakeBeats, WiredBench
 
 PUSH = Torque(0.5, 0.2)

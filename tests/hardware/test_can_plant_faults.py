@@ -6,14 +6,11 @@ from collections.abc import Callable
 import can
 import pytest
 
-from svsa.bench.drives.drive import build_broadcast_resets, build_zero_currents
-from svsa.bench.drives.robomodule import Current, Feedback, encode
-from svsa.bench.encoders.can_node import CanNode
-from svsa.bench.encoders.source import EncoderError
-from svsa.bench.safety.faults import FAULTS
-from svsa.bench.safety.machine import BenchStatus
+from svsa.actuators.signals import Disturbance, Torque
 from svsa.errors import StateError
-from svsa.rig.faults import (
+from svsa.hardware.drives.drive import build_broadcast_resets, build_zero_currents
+from svsa.hardware.drives.robomodule import Current, Feedback, encode
+from svsa.hardware.emulator.faults import (
     BrownOut,
     BusErrors,
     CurrentOffset,
@@ -22,8 +19,11 @@ from svsa.rig.faults import (
     Silence,
     Stall,
 )
-from svsa.rig.frame import Frame
-from svsa.signals import Disturbance, Torque
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.encoders.can_node import CanNode
+from svsa.hardware.encoders.source import EncoderError
+from svsa.hardware.safety.faults import FAULTS
+from svsa.hardware.safety.machine import BenchStatus
 from tests.hardware.wired_bench import AT_REST, FakeBeats, WiredBench
 
 PUSH = Torque(0.5, 0.2)

@@ -3,18 +3,18 @@
 import numpy as np
 import pytest
 
-from svsa.bench.safety.machine import BenchStatus
+from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.installed import list_law_names
-from svsa.paper import FIGURES, LOAD_TIME_S, get_figure
-from svsa.plant.disturbances import ConstantLoad
-from svsa.reference.sine import ConstantPosition
-from svsa.result.bench_run import LockstepBench, connect_bench
-from svsa.rig.launch import start_rig
-from svsa.run.command import SetPosition, SetStiffness
-from svsa.signals import CHANNEL_INDEX
+from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
+from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.runs.command import SetPosition, SetStiffness
+from svsa.runs.paper import FIGURES, LOAD_TIME_S, get_figure
+from svsa.simulation.plant.loads import ConstantLoad
+from svsa.simulation.reference.sine import ConstantPosition
 from tests.exhaustive import exhaust
-from tests.rig.in_process_rig import start_in_process
-from tests.session.sessions import SHOWN_IN_BATCHES
+from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.runs.session.sessions import SHOWN_IN_BATCHES
 
 TICKS = 3000
 LOADED_S = 1.0

@@ -5,12 +5,12 @@ from typing import Any
 
 import pytest
 
-from svsa.bench.calibration import Calibration, find_calibration
-from svsa.bench.encoders.can_node import CanNodeSettings
-from svsa.bench.encoders.serial_line import SerialLineSettings
-from svsa.bench.file import EmulatorSettings, read_bench
-from svsa.checked import Checked
 from svsa.errors import ParameterError
+from svsa.hardware.calibration import Calibration, find_calibration
+from svsa.hardware.encoders.can_node import CanNodeSettings
+from svsa.hardware.encoders.serial_line import SerialLineSettings
+from svsa.hardware.file import EmulatorSettings, read_bench
+from svsa.inputs.checked import Checked
 from tests.hardware.wired_bench import RIG_BENCH
 
 BENCH = read_bench(RIG_BENCH)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from svsa.bench.homing import DONE, STEPS, Homing, get_instruction
 from svsa.errors import ParameterError, StateError
+from svsa.hardware.homing import DONE, STEPS, Homing, get_instruction
 
 
 def test_the_marks_are_confirmed_in_turn_and_by_whom_is_kept():

@@ -8,13 +8,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from svsa.bench.calibration import Calibration, compute_fingerprint
-from svsa.bench.drives.drive import COMMAND_GATE_S
-from svsa.bench.drives.robomodule import Command, split_id
-from svsa.bench.file import read_bench
-from svsa.bench.safety.machine import BenchStatus
-from svsa.rig.parameters import RigDeflection, RigParameters
-from svsa.signals import State, Torque
+from svsa.actuators.signals import State, Torque
+from svsa.hardware.calibration import Calibration, compute_fingerprint
+from svsa.hardware.drives.drive import COMMAND_GATE_S
+from svsa.hardware.drives.robomodule import Command, split_id
+from svsa.hardware.emulator.parameters import RigDeflection, RigParameters
+from svsa.hardware.file import read_bench
+from svsa.hardware.safety.machine import BenchStatus
 from tests.hardware import wired_bench
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, WiredBench
 

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
-from svsa.bench.safety.machine import BenchStatus
-from svsa.paper import get_figure
-from svsa.result.bench_run import LockstepBench, connect_bench
-from svsa.rig.launch import RunningRig
-from tests.rig.in_process_rig import InProcessRig
+from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
+from svsa.hardware.emulator.launch import RunningRig
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.runs.paper import get_figure
+from tests.hardware.emulator.in_process_rig import InProcessRig
 
 FIGURE = get_figure("4a").build_configuration(load=False)
 MOVING_TICKS = 500

@@ -10,20 +10,20 @@ from typing import Any, NamedTuple
 
 import can
 
-from svsa.bench.calibration import find_calibration
-from svsa.bench.can_plant import CanPlant
-from svsa.bench.drives.robomodule import Command, decode, split_id
-from svsa.bench.file import BenchFile, read_bench
-from svsa.bench.reading import Reading
-from svsa.bench.realtime.configuration import build_guard
-from svsa.bench.realtime.loop import BenchLoop
-from svsa.bench.safety.machine import BenchStatus
-from svsa.rig.frame import Frame
-from svsa.rig.parameters import RigParameters
-from svsa.rig.rig import Rig
-from svsa.signals import Disturbance, State, Torque
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.can_plant import CanPlant
+from svsa.hardware.drives.robomodule import Command, decode, split_id
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.parameters import RigParameters
+from svsa.hardware.file import BenchFile, read_bench
+from svsa.hardware.reading import Reading
+from svsa.hardware.realtime.configuration import build_guard
+from svsa.hardware.realtime.loop import BenchLoop
+from svsa.hardware.safety.machine import BenchStatus
 
-RIG_BENCH = Path(__file__).parents[2] / "svsa" / "rig" / "bench.toml"
+RIG_BENCH = Path(__file__).parents[2] / "svsa" / "hardware" / "emulator" / "bench.toml"
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
 NO_TORQUE = Torque(0.0, 0.0)

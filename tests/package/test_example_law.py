@@ -12,11 +12,11 @@ import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.records.measured_window import trace_record
-from svsa.records.reader import open_record
-from svsa.records.resimulation import compare_with_simulation
-from svsa.run.command import build_command
-from svsa.run.events import list_events
+from svsa.runs.command import build_command
+from svsa.runs.events import list_events
+from svsa.runs.records.measured_window import trace_record
+from svsa.runs.records.reader import open_record
+from svsa.runs.records.resimulation import compare_with_simulation
 from svsa_server.runs.lanes import list_record_stretches, name_lanes
 
 EXAMPLE = Path(__file__).parents[1] / "data" / "example_law"
@@ -28,8 +28,8 @@ import numpy as np
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.records.writer import write_record
-from tests.records.records import build_header
+from svsa.runs.records.writer import write_record
+from tests.runs.records.records import build_header
 
 slow = svsa.Lane(law="motor_pd", parameters={"frequency_rad_per_s": 20.0})
 result = svsa.simulate("4a", "motor_pd", rivals=(slow,), duration_s=1.0)

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from svsa.extras import MODULES
+from svsa.inputs.extras import MODULES
 
 HIDE = """
 import sys
-from svsa.extras import MODULES
+from svsa.inputs.extras import MODULES
 
 hidden = {module for extra in EXTRAS for module in MODULES[extra]}
 
@@ -100,7 +100,7 @@ def test_the_server_needs_the_bench_s_packages_for_a_bench_only():
         "from svsa_server.sessions.laboratory import build_shared_session\n"
         "build_app()\n"
         "assert 'viser' not in sys.modules, 'it is loaded when somebody looks'\n"
-        "try:\n    build_shared_session(Path('svsa/rig/bench.toml'))\n"
+        "try:\n    build_shared_session(Path('svsa/hardware/emulator/bench.toml'))\n"
         "except ImportError as error:\n    print(error)"
     )
     printed = run_without(("bench", "plot", "nidaqmx"), program)

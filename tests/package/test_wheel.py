@@ -10,7 +10,7 @@ import pytest
 from packaging.requirements import Requirement
 
 import svsa
-from svsa.extras import DISTRIBUTION, MODULES
+from svsa.inputs.extras import DISTRIBUTION, MODULES
 
 ROOT = Path(__file__).parents[2]
 
@@ -39,7 +39,11 @@ def test_its_name_is_not_that_of_the_other_project_on_the_index(metadata):
 
 def test_types_parameters_page_and_rig_are_in_it(wheel):
     names = set(wheel.namelist())
-    assert {"svsa/py.typed", "svsa/prototype.toml", "svsa/rig/bench.toml"} <= names
+    assert {
+        "svsa/py.typed",
+        "svsa/actuators/prototype.toml",
+        "svsa/hardware/emulator/bench.toml",
+    } <= names
     page = {name.removeprefix("svsa_server/page/") for name in names if "/page/" in name}
     assert {"index.html", "docs.html", "replay.html", "icon.svg"} <= page
     index = wheel.read("svsa_server/page/index.html").decode()

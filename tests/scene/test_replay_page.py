@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from svsa.errors import ParameterError
-from svsa.records.measured_window import MeasuredWindow
-from svsa.run.events import Event
-from svsa.run.metrics import compute_metrics
+from svsa.runs.events import Event
+from svsa.runs.metrics import compute_metrics
+from svsa.runs.records.measured_window import MeasuredWindow
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay_curves import decimate, pack_curves
 from svsa_scene.replay_motion import record_motion

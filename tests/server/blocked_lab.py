@@ -3,8 +3,8 @@
 from typing import Any
 
 import svsa.cli
-from svsa.session.bench import BenchSession
-from svsa.session.simulated import SimulatedSession
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.session.simulated import SimulatedSession
 
 BLOCKING, BLOCKING_WAKE = 0.123, 0.124
 """A session that gets this speed computes without end, at once or from its next wake on."""

@@ -9,7 +9,7 @@ import pytest
 from websockets.sync.client import connect
 
 from svsa_server.access.guard import LONGEST_BODY_BYTES
-from tests.bench.attacks import (
+from tests.benchmarks.attacks import (
     FRAMES,
     LONGEST_S,
     SILENCE_S,

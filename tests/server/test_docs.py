@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 import pytest
 from websockets.sync.client import connect
 
-from svsa.session.batch import HEADER, HEADER_FIELDS
+from svsa.runs.session.frame import HEADER, HEADER_FIELDS
 from svsa_server.app import build_app
 from svsa_server.config import Settings
 from tests.lab import Lab

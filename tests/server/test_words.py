@@ -3,8 +3,8 @@
 import re
 from pathlib import Path
 
-from svsa.bench.safety.faults import FAULTS
-from svsa.model.domain import FAULT_CODES
+from svsa.actuators.domain import FAULT_CODES
+from svsa.hardware.safety.faults import FAULTS
 from tests.server.schema import SCHEMA
 
 FORMER_WORDS = {"controller", "run"}
@@ -53,7 +53,7 @@ def test_a_figure_has_its_load_whatever_starts_it() -> None:
 
 def test_who_leaves_the_domain_of_the_model_is_told_what_to_try() -> None:
     """And no word is about a fault that there is not."""
-    file = ROOT / "frontend/web/src/text/faults.ts"
+    file = ROOT / "frontend/web/src/core/text/faults.ts"
     advised = set(re.findall(r"^  (\w+):$", file.read_text(encoding="utf-8"), re.MULTILINE))
     assert advised >= set(FAULT_CODES.values())
     assert advised <= set(FAULTS)

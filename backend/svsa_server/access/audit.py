@@ -16,7 +16,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa_server.access.guard import PERSON, find_path
 from svsa_server.access.permissions import find_permission
-from svsa_server.control.hand import CHANGING
+from svsa_server.leases.lease import CHANGING
 
 FILE = "audit.jsonl"
 _MAX_BYTES, _FILES = 10 * 1024 * 1024, 5

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from starlette.routing import compile_path
 
 from svsa_server.access.audit import FILE
-from svsa_server.control.hand import CHANGING
+from svsa_server.leases.lease import CHANGING
 
 OTHER = "other"
 _LONGEST_LINE = 20_000

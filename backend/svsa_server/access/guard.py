@@ -13,7 +13,7 @@ from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from svsa_server.access.doors import REMOVED, ClassDoor, Door, read_bearer
+from svsa_server.access.authentication import REMOVED, ClassDoor, Door, read_bearer
 from svsa_server.access.origin import is_own_name, is_same_origin, read_host
 from svsa_server.access.owned import Kind, Owner, begin_claims
 from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, find_permission

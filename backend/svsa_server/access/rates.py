@@ -8,7 +8,7 @@ from limits import RateLimitItem, parse
 from limits.storage import MemoryStorage
 from limits.strategies import MovingWindowRateLimiter
 
-from svsa_server.control.hand import CHANGING, STOPS
+from svsa_server.leases.lease import CHANGING, STOPS
 
 Kind = Literal["joins", "sessions", "runs", "commands"]
 _KINDS: dict[str, Kind] = {

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from svsa.extras import require_extra
+from svsa.inputs.extras import require_extra
 
 
 def serve(

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from svsa.compilation import is_compiled_before
 from svsa.control.installed import get_law, is_usable, list_law_names
+from svsa.numerics.compilation import is_compiled_before
 
 END_S = 2.0
 _LOWEST_PRIORITY = 19

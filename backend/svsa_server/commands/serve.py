@@ -11,10 +11,10 @@ from rich.console import Console
 
 from svsa.cli import prepare
 from svsa.control.installed import BASELINE, PAPERS_LAW
-from svsa.course.file import read_course
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.records.catalogue.runs import find_data_folder
-from svsa.run.configuration import read_design
+from svsa.runs.configuration import read_design
+from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.teaching.course.file import read_course
 from svsa_server.access.class_keys import FILE, ClassKeys, ToldOnce
 from svsa_server.access.connections import BoundHttp, BoundWebSocket
 from svsa_server.access.origin import EVERYWHERE

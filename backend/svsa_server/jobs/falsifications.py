@@ -5,13 +5,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from svsa.control.installed import BASELINE, PAPERS_LAW
-from svsa.falsify.adversary import Adversary
-from svsa.falsify.file import format_scenario, read_scenario
-from svsa.falsify.find import falsify
-from svsa.falsify.measure import run_scenario
-from svsa.falsify.scenario import LoadScenario
-from svsa.records.header import replace_file
-from svsa.study.tables import make_plain
+from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.file import format_scenario, read_scenario
+from svsa.evaluation.falsifier.find import falsify
+from svsa.evaluation.falsifier.measure import run_scenario
+from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa.evaluation.studies.tables import make_plain
+from svsa.runs.records.header import replace_file
 from svsa_server.jobs.progress import JobFolder
 
 _WORST, _OUTCOMES, _SCENARIO = "worst.toml", "outcomes.json", "scenario.toml"

@@ -4,9 +4,9 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-from svsa.course.exercise import Exercise
-from svsa.grading.book import Book
-from svsa.grading.class_grades import grade_class
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.grading.class_grades import grade_class
+from svsa.teaching.grading.gradebook import Book
 from svsa_server.jobs.progress import JobFolder
 
 WORKERS = min(4, os.cpu_count() or 1)

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import IO, TypeVar
 
 from svsa.errors import SvsaError
-from svsa.worker_process import start_workers
+from svsa.evaluation.workers import start_workers
 
 MAX_WORKERS = max(1, min(4, (os.cpu_count() or 1) // 2))
 RETRY_AFTER_S = 5

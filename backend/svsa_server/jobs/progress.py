@@ -6,7 +6,7 @@ from collections import deque
 from pathlib import Path
 from typing import NamedTuple
 
-from svsa.records.header import replace_file
+from svsa.runs.records.header import replace_file
 
 PROGRESS, STOP = "progress.json", "stop"
 PERIOD_S = 0.2

@@ -4,12 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from svsa.falsify.measure import run_scenario
-from svsa.falsify.scenario import LoadScenario
-from svsa.falsify.trace import trace_scenario
-from svsa.falsify.wording import list_attack
-from svsa.records.decimation import decimate
-from svsa.study.tables import make_plain
+from svsa.evaluation.falsifier.measure import run_scenario
+from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa.evaluation.falsifier.trace import trace_scenario
+from svsa.evaluation.falsifier.wording import list_attack
+from svsa.evaluation.studies.tables import make_plain
+from svsa.runs.records.decimation import decimate
 
 POINTS = 1200
 DIGITS = 8

@@ -2,12 +2,12 @@
 
 from typing import Any
 
-from svsa.records.catalogue.runs import Catalogue
-from svsa.study.execution import run_study
-from svsa.study.replay import record_replay, replay_row
-from svsa.study.store import StoredStudy, read_rows
-from svsa.study.summary import estimate_sensitivity, pair_laws, summarize_laws
-from svsa.study.tables import make_plain
+from svsa.evaluation.studies.execution import run_study
+from svsa.evaluation.studies.replay import record_replay, replay_row
+from svsa.evaluation.studies.store import StoredStudy, read_rows
+from svsa.evaluation.studies.summary import estimate_sensitivity, pair_laws, summarize_laws
+from svsa.evaluation.studies.tables import make_plain
+from svsa.runs.records.catalogue.runs import Catalogue
 from svsa_server.jobs.heavy_work import MAX_WORKERS
 from svsa_server.jobs.progress import JobFolder
 

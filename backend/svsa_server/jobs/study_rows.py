@@ -9,10 +9,10 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 
-from svsa.checked import check_number
-from svsa.study.store import StoredStudy, StudyError, list_parts, read_rows
-from svsa.study.tables import make_plain
-from svsa.study.work import DRAW, ROW, build_schema
+from svsa.evaluation.studies.store import StoredStudy, StudyError, list_parts, read_rows
+from svsa.evaluation.studies.tables import make_plain
+from svsa.evaluation.studies.work import DRAW, ROW, build_schema
+from svsa.inputs.checked import check_number
 
 MEDIA_TYPE = "application/octet-stream"
 MAX_ROWS = 100_000

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import NamedTuple
 
-from svsa.leaderboard.board import Board, measure_missing, submit
+from svsa.teaching.leaderboard.board import Board, measure_missing, submit
 from svsa_server.jobs.progress import JobFolder
 
 

@@ -5,9 +5,9 @@ import json
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from svsa.arena.tune import Trial, tune
-from svsa.arena.tuned_file import describe_trial, format_tuned
-from svsa.run.configuration import Design
+from svsa.evaluation.tuning.file import describe_trial, format_tuned
+from svsa.evaluation.tuning.tuner import Trial, tune
+from svsa.runs.configuration import Design
 from svsa_server.jobs.progress import JobFolder
 
 _TRIALS, _FILE = "trials.jsonl", "parameters.toml"

@@ -6,9 +6,9 @@ from urllib.parse import urlsplit
 
 from pydantic import AfterValidator, Field
 
-from svsa.checked import Checked, Flag, quantity
 from svsa.errors import ParameterError, Violation
-from svsa.toml_file import read_toml
+from svsa.inputs.checked import Checked, Flag, quantity
+from svsa.inputs.toml_file import read_toml
 from svsa_server.config import is_loopback
 
 LTI_FILE = "LTI file"

@@ -15,11 +15,11 @@ from urllib.parse import urlsplit
 import httpx
 from joserfc import jwt
 
-from svsa.course.progress import ProgressStore
 from svsa.errors import ParameterError
-from svsa.grading.class_grades import open_book
-from svsa.grading.grade import Grade
-from svsa.grading.submission import Submission
+from svsa.teaching.course.progress import ProgressStore
+from svsa.teaching.grading.class_grades import open_book
+from svsa.teaching.grading.grade import Grade
+from svsa.teaching.grading.submission import Submission
 from svsa_server.access.audit import AuditLog
 from svsa_server.lti.launch import SCORE_SCOPE
 from svsa_server.lti.links import Link

@@ -14,7 +14,7 @@ from joserfc.errors import JoseError
 from joserfc.jwk import KeySet
 from joserfc.jws import extract_compact
 
-from svsa_server.access.doors import REMOVED, ClassDoor
+from svsa_server.access.authentication import REMOVED, ClassDoor
 from svsa_server.access.memberships import Membership
 from svsa_server.access.roles import Person, Role
 from svsa_server.lti.keys import PlatformKeys, open_key

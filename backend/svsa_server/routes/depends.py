@@ -8,11 +8,12 @@ from starlette.requests import HTTPConnection
 from starlette.types import Scope
 
 from svsa.errors import ParameterError
-from svsa.records.catalogue.runs import Catalogue
+from svsa.runs.records.catalogue.runs import Catalogue
 from svsa_server.access.guard import read_person
 from svsa_server.access.owned import Owned, settle_claims
 from svsa_server.access.roles import Person
-from svsa_server.control.hand import (
+from svsa_server.jobs.heavy_work import RETRY_AFTER_S, HeavyWork
+from svsa_server.leases.lease import (
     CHANGING,
     CLIENT_HEADER,
     OPEN_TO_ALL,
@@ -20,7 +21,6 @@ from svsa_server.control.hand import (
     asking,
     read_client,
 )
-from svsa_server.jobs.heavy_work import RETRY_AFTER_S, HeavyWork
 from svsa_server.problems import ChangedError, Problem
 from svsa_server.sessions.hosted import HostedSession
 

@@ -5,11 +5,11 @@ them, from when on, under which name and in which ink.
 from collections.abc import Sequence
 from typing import Any
 
-from svsa.records.reader import Record
-from svsa.run.timeline import Stretch, Timeline, Window
-from svsa.session.journal import KEPT_S
-from svsa.session.session import Session
-from svsa_server.schemas.lane import EndedWindowState, StretchState, WindowState
+from svsa.runs.records.reader import Record
+from svsa.runs.session.journal import KEPT_S
+from svsa.runs.session.session import Session
+from svsa.runs.timeline import Stretch, Timeline, Window
+from svsa_server.schemas.runs.lane import EndedWindowState, StretchState, WindowState
 
 MAX_STRETCHES = 200
 

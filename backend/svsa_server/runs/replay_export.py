@@ -4,19 +4,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from svsa.plant.disturbances import get_hung_mass
-from svsa.records.measured_window import find_measured_window, trace_record
-from svsa.records.reader import Record
-from svsa.records.resimulation import read_origin
-from svsa.records.settings import describe_settings
-from svsa.run.command import Command
-from svsa.run.configuration import Configuration
-from svsa.run.events import list_events
-from svsa.run.replay import list_loads
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration
+from svsa.runs.events import list_events
+from svsa.runs.records.measured_window import find_measured_window, trace_record
+from svsa.runs.records.reader import Record
+from svsa.runs.records.resimulation import read_origin
+from svsa.runs.records.settings import describe_settings
+from svsa.runs.replay import list_loads
+from svsa.simulation.plant.loads import get_hung_mass
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay import build_replay_html
 from svsa_server.runs.lanes import list_record_stretches, name_lanes
-from svsa_server.schemas.lane import StretchState
+from svsa_server.schemas.runs.lane import StretchState
 
 
 def build_replay(record: Record) -> str:

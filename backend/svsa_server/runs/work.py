@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from svsa.export.formats import export
-from svsa.leaderboard.board import Board
-from svsa.records.reader import open_record
-from svsa.records.resimulation import Comparison, compare_with_simulation
+from svsa.runs.records.export.formats import export
+from svsa.runs.records.reader import open_record
+from svsa.runs.records.resimulation import Comparison, compare_with_simulation
+from svsa.teaching.leaderboard.board import Board
 
 
 def write_export(kind: str, folder: Path, target: Path) -> None:

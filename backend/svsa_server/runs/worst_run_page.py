@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from svsa.leaderboard.board import Board, Entry
-from svsa.leaderboard.worst_run import replay_worst
-from svsa.records.measured_window import MeasuredWindow
-from svsa.run.events import list_events
-from svsa.signals import CHANNELS
+from svsa.actuators.signals import CHANNELS
+from svsa.runs.events import list_events
+from svsa.runs.records.measured_window import MeasuredWindow
+from svsa.teaching.leaderboard.board import Board, Entry
+from svsa.teaching.leaderboard.worst_run import replay_worst
 from svsa_scene.replay import build_replay_html
 from svsa_server.runs.replay_export import trace_hung_mass
 

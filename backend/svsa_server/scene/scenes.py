@@ -5,7 +5,7 @@ import logging
 import time
 from typing import TYPE_CHECKING
 
-from svsa.session.session import Session
+from svsa.runs.session.session import Session
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
 from svsa_server.sessions.pose import read_pose
 

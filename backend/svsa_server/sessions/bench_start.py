@@ -5,9 +5,9 @@ from collections.abc import Callable
 from rich.console import Console
 
 from svsa.errors import SvsaError
-from svsa.session.bench import BenchSession
-from svsa.session.session import Session
-from svsa_server.sessions.turn import take_turn
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.session.session import Session
+from svsa_server.sessions.lock import take_turn
 
 REPEAT_S = 10.0
 _WAY_BACK = (

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 
-from svsa.bench.homing import STEPS, Axis, get_instruction
-from svsa.bench.realtime.memory import LATENESS_EDGES_S, read_quantile
-from svsa.bench.safety.heat import compute_lasting_torque
-from svsa.session.bench import BenchSession
-from svsa_server.schemas.bench import (
+from svsa.hardware.homing import STEPS, Axis, get_instruction
+from svsa.hardware.realtime.memory import LATENESS_EDGES_S, read_quantile
+from svsa.hardware.safety.heat import compute_lasting_torque
+from svsa.hardware.session.session import BenchSession
+from svsa_server.schemas.hardware.bench import (
     BenchState,
     HomingState,
     LoopState,

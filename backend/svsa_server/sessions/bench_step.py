@@ -1,9 +1,9 @@
 """An experiment of the course on a bench, which keeps what it is."""
 
-from svsa.course.steps import Experiment
 from svsa.errors import StateError
-from svsa.run.command import SetGains, SetObserver, SetParameters
-from svsa.session.bench import BenchSession
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.command import SetGains, SetObserver, SetParameters
+from svsa.teaching.course.steps import Experiment
 
 
 def check_for_step(session: BenchSession, step: Experiment) -> None:

@@ -1,7 +1,7 @@
 """What nobody called for, in the audit log: control that goes on by itself."""
 
 from svsa_server.access.audit import AuditLog
-from svsa_server.control.hand import Settled
+from svsa_server.leases.lease import Settled
 from svsa_server.sessions.hosted import HostedSession
 
 

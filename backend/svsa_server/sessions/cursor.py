@@ -2,10 +2,10 @@
 
 import math
 
-from svsa.session.batch import pack_batch
-from svsa.session.session import Session
-from svsa.signals import CHANNEL_INDEX
-from svsa_server.schemas.stream import StreamRequest
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.runs.session.frame import pack_batch
+from svsa.runs.session.session import Session
+from svsa_server.schemas.lab.stream import StreamRequest
 from svsa_server.sessions.versioned import Versioned
 
 BATCH_PERIOD_S = 1.0 / 30.0

@@ -4,11 +4,11 @@ import asyncio
 import logging
 from collections import deque
 
+from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.errors import StateError, SvsaError
-from svsa.identification.excitation import EXCITATION_DURATION_S, build_commands
-from svsa.session.session import Session
-from svsa_server.schemas.recording import ExcitationState
-from svsa_server.sessions.turn import take_turn
+from svsa.runs.session.session import Session
+from svsa_server.schemas.runs.recording import ExcitationState
+from svsa_server.sessions.lock import take_turn
 
 FASTEST_SPEED = 10.0
 TAG = "identification"

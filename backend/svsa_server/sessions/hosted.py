@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from svsa.errors import StateError
-from svsa.session.session import Session
-from svsa_server.control.hand import ControlHand, Holder, Settled
-from svsa_server.control.queue import ControlQueue
+from svsa.runs.session.session import Session
+from svsa_server.leases.lease import ControlHand, Holder, Settled
+from svsa_server.leases.queue import ControlQueue
 from svsa_server.sessions.excitation import Excitation, check_excitable
 from svsa_server.sessions.versioned import Versioned
 

@@ -10,22 +10,22 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from svsa.bench.file import read_bench
 from svsa.errors import StateError
-from svsa.paper import get_figure
-from svsa.plant.disturbances import Load
-from svsa.rig.control import RigControl, RigError
-from svsa.run.command import Command
-from svsa.run.configuration import Configuration, Design
-from svsa.session.bench import BenchSession
-from svsa.session.hands import Hands
-from svsa.session.session import Session
-from svsa.session.simulated import SimulatedSession
+from svsa.hardware.emulator.control import RigControl, RigError
+from svsa.hardware.file import read_bench
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration, Design
+from svsa.runs.paper import get_figure
+from svsa.runs.session.hands import Hands
+from svsa.runs.session.session import Session
+from svsa.runs.session.simulated import SimulatedSession
+from svsa.simulation.plant.loads import Load
 from svsa_server.access.roles import INSTRUCTOR
-from svsa_server.control.hand import ControlHand
+from svsa_server.leases.lease import ControlHand
 from svsa_server.problems import TooManyError, UnknownError
 from svsa_server.sessions.hosted import HostedSession, NoteSettled
-from svsa_server.sessions.turn import let_pass
+from svsa_server.sessions.lock import let_pass
 
 WAKE_PERIOD_S = 1.0 / 60.0
 HANDS_S = 0.005

@@ -5,9 +5,9 @@ import contextlib
 
 from starlette.types import Scope
 
-from svsa.records.catalogue.entry import UnknownRunError
-from svsa.study.file import list_built_in
-from svsa.study.store import read_owner
+from svsa.evaluation.studies.file import list_built_in
+from svsa.evaluation.studies.store import read_owner
+from svsa.runs.records.catalogue.entry import UnknownRunError
 from svsa_server.access.owned import Kind, Owner
 from svsa_server.problems import UnknownError
 from svsa_server.sessions.laboratory import SHARED_SESSION

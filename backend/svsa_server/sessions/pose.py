@@ -2,9 +2,9 @@
 
 import math
 
-from svsa.plant.disturbances import get_hung_mass
-from svsa.session.session import Session
-from svsa.signals import CHANNEL_INDEX
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.runs.session.session import Session
+from svsa.simulation.plant.loads import get_hung_mass
 from svsa_scene import ActuatorPose, RivalPose
 from svsa_scene.pose import POSE_CHANNELS, draw_nothing_unknown
 from svsa_server.runs.lanes import list_session_stretches

@@ -6,9 +6,9 @@ A recording that goes beyond is ended.
 import asyncio
 from collections import Counter
 
-from svsa.records.catalogue.entry import CatalogueError
-from svsa.records.catalogue.runs import Catalogue
-from svsa.study.store import measure_bytes as measure_studies
+from svsa.evaluation.studies.store import measure_bytes as measure_studies
+from svsa.runs.records.catalogue.entry import CatalogueError
+from svsa.runs.records.catalogue.runs import Catalogue
 from svsa_server.sessions.laboratory import Laboratory
 from svsa_server.sessions.recording import NoCatalogue
 

@@ -8,13 +8,13 @@ from datetime import UTC, datetime
 from typing import Any, NoReturn
 
 import svsa
+from svsa.actuators.signals import CHANNELS
 from svsa.control.gains import Gains
-from svsa.records.catalogue.entry import CatalogueError
-from svsa.records.catalogue.runs import Catalogue, build_run_id
-from svsa.records.header import RecordHeader
-from svsa.records.recorder import Recorder
-from svsa.session.session import Session
-from svsa.signals import CHANNELS
+from svsa.runs.records.catalogue.entry import CatalogueError
+from svsa.runs.records.catalogue.runs import Catalogue, build_run_id
+from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.recorder import Recorder
+from svsa.runs.session.session import Session
 
 FINISH_TIMEOUT_S = 10.0
 

@@ -5,23 +5,23 @@ from dataclasses import asdict
 
 import numpy as np
 
+from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.control.gains import Gains
-from svsa.plant.disturbances import ScheduledLoad
-from svsa.records.header import BranchPoint
-from svsa.records.recorder import Recorder
-from svsa.run.metrics import Metrics
-from svsa.session.bench import BenchSession
-from svsa.session.session import Session
-from svsa.signals import CHANNEL_NAMES
-from svsa_server.control.hand import ControlHand, asking
-from svsa_server.control.queue import ControlQueue
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.metrics import Metrics
+from svsa.runs.records.header import BranchPoint
+from svsa.runs.records.recorder import Recorder
+from svsa.runs.session.session import Session
+from svsa.simulation.plant.loads import ScheduledLoad
+from svsa_server.leases.lease import ControlHand, asking
+from svsa_server.leases.queue import ControlQueue
 from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_stretches
-from svsa_server.schemas.control import ControlState, QueueState, WaitingState
-from svsa_server.schemas.gain import GainsState, Root
-from svsa_server.schemas.lane import LaneMetrics, LaneState
-from svsa_server.schemas.recording import RecordingState
-from svsa_server.schemas.session import BranchState, LoadState, SessionProgress, SessionState
-from svsa_server.schemas.setting import ConfigurationState
+from svsa_server.schemas.lab.gain import GainsState, Root
+from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
+from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
+from svsa_server.schemas.lab.setting import ConfigurationState
+from svsa_server.schemas.runs.lane import LaneMetrics, LaneState
+from svsa_server.schemas.runs.recording import RecordingState
 from svsa_server.sessions.bench_state import build_bench_state
 from svsa_server.sessions.excitation import build_excitation
 from svsa_server.sessions.hosted import HostedSession

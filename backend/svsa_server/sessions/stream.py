@@ -14,20 +14,20 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa.errors import ParameterError, Violation
-from svsa.signals import CHANNEL_INDEX, CHANNELS, PLOTTED
 from svsa_server.access.roles import Person
-from svsa_server.control.hand import asking, read_client
-from svsa_server.schemas.stream import (
+from svsa_server.leases.lease import asking, read_client
+from svsa_server.schemas.lab.stream import (
     Hello,
     StreamChannel,
     StreamError,
     StreamRequest,
     lay_out_batch,
 )
+from svsa_server.sessions.broadcast import Told, is_fresh, write_news, write_progress
 from svsa_server.sessions.cursor import SampleCursor
 from svsa_server.sessions.hosted import HostedSession
-from svsa_server.sessions.news import Told, is_fresh, write_news, write_progress
 from svsa_server.sessions.state import build_state
 
 PROGRESS_PERIOD_S = 1.0

@@ -1,11 +1,11 @@
 """The design that somebody tries: a session's configuration with other gains, stable or not."""
 
+from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.gains import TriedGains
-from svsa.reference.trajectories import compute_start_value
-from svsa.run.configuration import Configuration
-from svsa.session.session import Session
-from svsa.signals import CHANNEL_INDEX
-from svsa_server.schemas.stability import DesignRequest
+from svsa.runs.configuration import Configuration
+from svsa.runs.session.session import Session
+from svsa.simulation.reference.trajectories import compute_start_value
+from svsa_server.schemas.lab.stability import DesignRequest
 
 
 def build_tried(session: Session, request: DesignRequest) -> tuple[Configuration, float]:

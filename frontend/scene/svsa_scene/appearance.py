@@ -42,7 +42,7 @@ INKS: tuple[Rgb, ...] = (
     (184, 84, 148),
     (214, 140, 10),
 )
-"""The `INK_COLORS` of curves, in the order of the page's inks: `frontend/web/src/plots/inks.ts`."""
+"""The `INK_COLORS` of curves, in the order of the page: `frontend/web/src/core/plots/inks.ts`."""
 MAX_RIVALS = 3
 
 _STIFFNESS_RANGE = (1.7, 150.56)

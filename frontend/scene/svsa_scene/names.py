@@ -1,6 +1,6 @@
 """Labels of the scene: each at its part, where its line begins.
 
-The page lays them out on the picture, clear of each other (`frontend/web/src/scene/labels.ts`);
+The page lays them out on the picture, clear of each other (`frontend/web/src/lab/scene/labels.ts`);
 in a viewer without the page they stand at the parts themselves. The names of the parts are hidden
 until a viewer asks: every browser shows them for itself alone (`scene/viewer.ts` knows their
 nodes).

@@ -1,7 +1,7 @@
 """A recorded run as one HTML page: 3D and plots on one time axis, opened from a file.
 
-The page is built with the lab's own (`frontend/web/src/replay`); this fills the run in. Nothing
-in it asks for a network, and its content security policy would refuse it.
+The page is built with the lab's own (`frontend/web/src/runs/replay`); this fills the run in.
+Nothing in it asks for a network, and its content security policy would refuse it.
 """
 
 import html
@@ -17,8 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.records.measured_window import MeasuredWindow
-from svsa.run.events import Event
+from svsa.runs.events import Event
+from svsa.runs.records.measured_window import MeasuredWindow
 from svsa_scene.pose import POSE_CHANNELS, LaneStretch
 from svsa_scene.replay_curves import compute_metrics, pack_curves
 from svsa_scene.replay_motion import record_motion
@@ -59,12 +59,12 @@ def build_replay_html(
     title: heading, any text. period_s: s. lanes: 1–4 names; the first is drawn as the actuator,
     the others as outlines of their links. stretches: of every lane who controlled it when, in
     order; left out, each lane is one under its name. channels: names as in
-    `svsa.signals.CHANNELS`, at least those of a pose; more are left out. samples: float64 (ticks,
-    lanes, channels), SI. load_mass_kg: mass hung on the link at every tick, (ticks,), kg; None is
-    no mass. details: what the page says about the run (JSON); `version` and other plain values
-    stand in its header. events: marked on the plots, as far as they are of these samples. window:
-    in which the page measures; left out, the whole run. first_tick: tick of the first sample, as
-    events and window count; the page's time begins there at 0.
+    `svsa.actuators.signals.CHANNELS`, at least those of a pose; more are left out. samples: float64
+    (ticks, lanes, channels), SI. load_mass_kg: mass hung on the link at every tick, (ticks,), kg;
+    None is no mass. details: what the page says about the run (JSON); `version` and other plain
+    values stand in its header. events: marked on the plots, as far as they are of these samples.
+    window: in which the page measures; left out, the whole run. first_tick: tick of the first
+    sample, as events and window count; the page's time begins there at 0.
 
     Takes some seconds and starts viser on a loopback port meanwhile: call it in a thread. Raises
     `ParameterError` for arrays that do not fit, `ReplayError` where the page was not built.

@@ -10,6 +10,7 @@ import viser
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.arrows import TorqueArrows
+from svsa_scene.comparisons import Rivals
 from svsa_scene.geometry import join, make_helix, make_sector, scale_sector, turn
 from svsa_scene.limits import DeflectionLimit
 from svsa_scene.linkage import (
@@ -22,7 +23,6 @@ from svsa_scene.linkage import (
 from svsa_scene.moved import Moved
 from svsa_scene.names import add_label, add_part_labels
 from svsa_scene.pose import ActuatorPose
-from svsa_scene.rivals import Rivals
 
 _ON_MASS = (1.14, 0.0, mechanism.HOOK_Z + 0.39)
 

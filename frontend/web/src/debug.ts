@@ -7,7 +7,7 @@
  *
  * The first and the last sample of a gap are NaN in every lane.
  */
-import { samples } from "./state/session";
+import { samples } from "./core/state/session";
 
 export interface Series {
   time: number[];

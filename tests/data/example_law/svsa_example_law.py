@@ -2,12 +2,12 @@
 
 from typing import NamedTuple
 
-from svsa.checked import Number, quantity
-from svsa.compilation import compiled
+from svsa.actuators.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
+from svsa.actuators.signals import Torque
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
-from svsa.model.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
-from svsa.signals import Torque
+from svsa.inputs.checked import Number, quantity
+from svsa.numerics.compilation import compiled
 
 
 class MotorPdParameters(LawParameters):

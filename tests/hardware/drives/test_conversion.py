@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from svsa.bench.drives.conversion import (
+from svsa.hardware.drives.conversion import (
     Unwrapped,
     build_deflection_scale,
     build_motor_scale,
     compute_current_ma,
 )
-from svsa.bench.file import DeflectionSettings, MotorSettings
+from svsa.hardware.file import DeflectionSettings, MotorSettings
 
 MOTOR = MotorSettings(
     drive_number=1,

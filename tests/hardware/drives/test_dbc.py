@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import svsa
-from svsa.bench.drives.dbc import build_dbc, describe_bench
-from svsa.bench.drives.robomodule import (
+from svsa.errors import ParameterError
+from svsa.hardware.drives.dbc import build_dbc, describe_bench
+from svsa.hardware.drives.robomodule import (
     LAYOUTS,
     Address,
     Command,
@@ -18,9 +19,8 @@ from svsa.bench.drives.robomodule import (
     decode,
     encode,
 )
-from svsa.bench.encoders.can_node import CanNodeSettings
-from svsa.bench.file import read_bench
-from svsa.errors import ParameterError
+from svsa.hardware.encoders.can_node import CanNodeSettings
+from svsa.hardware.file import read_bench
 
 from .test_robomodule import messages
 
@@ -125,7 +125,7 @@ def test_an_address_that_no_drive_has_is_refused():
 
 
 def test_the_bench_file_of_the_rig_is_described():
-    bench = read_bench(Path(svsa.__file__).parent / "rig" / "bench.toml")
+    bench = read_bench(Path(svsa.__file__).parent / "hardware" / "emulator" / "bench.toml")
     database = cantools.database.load_string(describe_bench(bench), "dbc")
     assert database.get_message_by_name("deflection").frame_id == 0x700
     assert database.get_message_by_name("motor2_feedback").frame_id == 0x02B

@@ -6,7 +6,7 @@ from pathlib import Path
 import can
 import pytest
 
-from svsa.bench.drives.drive import (
+from svsa.hardware.drives.drive import (
     COMMAND_GATE_S,
     FIRST_ANSWER_S,
     MARGIN_S,
@@ -15,8 +15,8 @@ from svsa.bench.drives.drive import (
     build_broadcast_resets,
     build_zero_currents,
 )
-from svsa.bench.drives.phase import Phase
-from svsa.bench.drives.robomodule import (
+from svsa.hardware.drives.phase import Phase
+from svsa.hardware.drives.robomodule import (
     Command,
     Config,
     Current,
@@ -29,9 +29,9 @@ from svsa.bench.drives.robomodule import (
     encode,
     split_id,
 )
-from svsa.bench.file import read_bench
+from svsa.hardware.file import read_bench
 
-BENCH = read_bench(Path(__file__).parents[3] / "svsa" / "rig" / "bench.toml")
+BENCH = read_bench(Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / "bench.toml")
 TICK_S = 0.001
 SPEED_MAX = 300_000.0
 

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from svsa.bench.drives.robomodule import (
+from svsa.errors import SvsaError
+from svsa.hardware.drives.robomodule import (
     LAYOUTS,
     Address,
     Command,
@@ -32,8 +33,7 @@ from svsa.bench.drives.robomodule import (
     encode,
     split_id,
 )
-from svsa.bench.emulation import ADVANCE_ID, EMULATED_ID, decode_time, encode_time
-from svsa.errors import SvsaError
+from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, decode_time, encode_time
 
 MANUAL = [
     (Current(5000, 1000), "13 88 03 E8 55 55 55 55"),

@@ -6,8 +6,8 @@ import types
 
 import pytest
 
-from svsa.bench.encoders.nidaqmx_counter import CounterSettings, NidaqmxCounter
-from svsa.bench.encoders.source import EncoderError
+from svsa.hardware.encoders.nidaqmx_counter import CounterSettings, NidaqmxCounter
+from svsa.hardware.encoders.source import EncoderError
 
 ONE_TURN = 2.0 * math.pi
 

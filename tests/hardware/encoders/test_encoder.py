@@ -3,13 +3,13 @@
 import can
 import pytest
 
-from svsa.bench.drives.conversion import Unwrapped
-from svsa.bench.encoders import read_source
-from svsa.bench.encoders.nidaqmx_counter import NidaqmxCounter
-from svsa.bench.encoders.serial_line import SerialLine
-from svsa.bench.encoders.source import EncoderError
-from svsa.bench.file import DeflectionSettings
 from svsa.errors import ParameterError
+from svsa.hardware.drives.conversion import Unwrapped
+from svsa.hardware.encoders import read_source
+from svsa.hardware.encoders.nidaqmx_counter import NidaqmxCounter
+from svsa.hardware.encoders.serial_line import SerialLine
+from svsa.hardware.encoders.source import EncoderError
+from svsa.hardware.file import DeflectionSettings
 
 
 def build(source, **options):

@@ -5,8 +5,8 @@ import time
 
 import pytest
 
-from svsa.bench.encoders.serial_line import SerialLine, SerialLineSettings
-from svsa.bench.encoders.source import EncoderError
+from svsa.hardware.encoders.serial_line import SerialLine, SerialLineSettings
+from svsa.hardware.encoders.source import EncoderError
 
 LONGEST_S = 20.0
 

@@ -14,19 +14,19 @@ from typing import Any
 
 from numba.core import event
 
-from svsa.bench.homing import STEPS
-from svsa.bench.realtime.configuration import build_bench_configuration, read_actuation
-from svsa.bench.realtime.loop import BenchLoop
-from svsa.bench.realtime.memory import LoopMemory
-from svsa.bench.realtime.prepared_laws import PreparedLaws, compute_constants
-from svsa.bench.realtime.process import LoopProcess
-from svsa.bench.realtime.sample_array import SampleArray
-from svsa.bench.realtime.warm_up import list_changes, warm_up
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law, list_law_names
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
-from svsa.paper import get_figure
+from svsa.hardware.homing import STEPS
+from svsa.hardware.realtime.configuration import build_bench_configuration, read_actuation
+from svsa.hardware.realtime.loop import BenchLoop
+from svsa.hardware.realtime.memory import LoopMemory
+from svsa.hardware.realtime.prepared_laws import PreparedLaws, compute_constants
+from svsa.hardware.realtime.process import LoopProcess
+from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.realtime.warm_up import list_changes, warm_up
+from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import WiredBench
 
 ARMING_TICKS, RAMP_TICKS = 1500, 500

@@ -10,25 +10,25 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 import pytest
 
-from svsa.bench.realtime import prepared_laws
-from svsa.bench.realtime.launch import _check
-from svsa.bench.realtime.memory import LoopMemory
-from svsa.bench.realtime.prepared_laws import compute_constants
-from svsa.bench.realtime.warm_up import list_changes
-from svsa.compilation import compiled
+from svsa.actuators.signals import Torque
 from svsa.control import installed
 from svsa.control.installed import list_law_names
 from svsa.control.law import Law
 from svsa.control.parameters import LawParameters
 from svsa.errors import StateError
-from svsa.paper import get_figure
-from svsa.plant.disturbances import Load
-from svsa.reference.trajectories import AnyPosition, AnyStiffness
-from svsa.run.blocks import bind_law, build_blocks
-from svsa.run.command import COMMANDS
-from svsa.run.configuration import Lane
-from svsa.session.supervised_loop import SupervisedLoop
-from svsa.signals import Torque
+from svsa.hardware.realtime import prepared_laws
+from svsa.hardware.realtime.launch import _check
+from svsa.hardware.realtime.memory import LoopMemory
+from svsa.hardware.realtime.prepared_laws import compute_constants
+from svsa.hardware.realtime.warm_up import list_changes
+from svsa.hardware.session.supervised_loop import SupervisedLoop
+from svsa.numerics.compilation import compiled
+from svsa.runs.blocks import bind_law, build_blocks
+from svsa.runs.command import COMMANDS
+from svsa.runs.configuration import Lane
+from svsa.runs.paper import get_figure
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.reference.trajectories import AnyPosition, AnyStiffness
 from tests.hardware.realtime.first_uses import Rehearsal, list_other_parameters
 from tests.hardware.wired_bench import WiredBench
 
@@ -199,7 +199,9 @@ def test_the_server_computes_what_the_loop_lacks_and_asks_again() -> None:
         return loop.processes.asked, loop.ask("change", {})
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("svsa.session.supervised_loop.compute_constants", lambda wanted: wanted)
+        patch.setattr(
+            "svsa.hardware.session.supervised_loop.compute_constants", lambda wanted: wanted
+        )
         asked, answer = ask(2)
         assert (asked, answer) == (["change", "prepare"] * 2 + ["change"], {"tick": 7})
         with pytest.raises(StateError):

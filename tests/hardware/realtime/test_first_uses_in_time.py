@@ -7,15 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from svsa.bench.homing import STEPS
-from svsa.bench.safety.machine import BenchStatus
 from svsa.control.installed import PAPERS_LAW, list_law_names
-from svsa.paper import get_figure
-from svsa.reference.trajectories import ConstantPosition
-from svsa.rig.launch import start_rig
-from svsa.run.command import SetLaw
-from svsa.run.run import Run
-from svsa.session.bench import BenchSession
+from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.homing import STEPS
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.command import SetLaw
+from svsa.runs.paper import get_figure
+from svsa.runs.run import Run
+from svsa.simulation.reference.trajectories import ConstantPosition
 from tests.hardware.live_bench import IDLE_S, write_bench
 
 MISSED = 60

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from svsa.bench.realtime.configuration import build_bench_configuration, read_actuation
-from svsa.bench.realtime.loop import BenchLoop
-from svsa.bench.realtime.sample_array import SampleArray
-from svsa.bench.safety.machine import BenchStatus
+from svsa.actuators.signals import State
 from svsa.errors import StateError
-from svsa.paper import get_figure
-from svsa.run.command import SetLaw
-from svsa.signals import State
+from svsa.hardware.realtime.configuration import build_bench_configuration, read_actuation
+from svsa.hardware.realtime.loop import BenchLoop
+from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.runs.command import SetLaw
+from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import WiredBench
 
 MOVING_TICKS = 400

@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.bench.realtime.link import MAX_UNSENT_BYTES, LinkClosedError, build_links
+from svsa.hardware.realtime.link import MAX_UNSENT_BYTES, LinkClosedError, build_links
 
 
 def test_messages_arrive_whole_and_in_order():

@@ -6,14 +6,14 @@ import sys
 import numpy as np
 import pytest
 
-from svsa.bench.realtime.memory import (
+from svsa.actuators.signals import CHANNELS
+from svsa.hardware.realtime.memory import (
     CAPACITY_TICKS,
     LATENESS_EDGES_S,
     LoopMemory,
     add_to_histogram,
     read_quantile,
 )
-from svsa.signals import CHANNELS
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def test_rows_are_read_by_tick_around_the_end_of_the_ring(memory):
 def test_another_process_writes_and_its_end_leaves_the_block(memory):
     program = (
         "import sys\n"
-        "from svsa.bench.realtime.memory import LoopMemory\n"
+        "from svsa.hardware.realtime.memory import LoopMemory\n"
         "memory = LoopMemory.attach(sys.argv[1])\n"
         "memory.begin_run(7)\n"
         "memory.get_row(0)[:] = 1.5\n"

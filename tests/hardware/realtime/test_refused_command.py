@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from svsa.bench.realtime.launch import _check
-from svsa.bench.realtime.memory import LoopMemory
 from svsa.errors import ParameterError
+from svsa.hardware.realtime.launch import _check
+from svsa.hardware.realtime.memory import LoopMemory
 from tests.hardware.realtime.first_uses import Rehearsal
 from tests.hardware.wired_bench import WiredBench
 

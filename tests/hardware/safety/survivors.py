@@ -11,11 +11,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from svsa.plant.disturbances import ConstantLoad
-from svsa.rig.launch import RunningRig
+from svsa.hardware.emulator.launch import RunningRig
+from svsa.simulation.plant.loads import ConstantLoad
 from tests.processes import find_child
 
-LOOP, SUPERVISOR = "svsa.bench.realtime.process", "svsa.bench.safety.supervisor"
+LOOP, SUPERVISOR = "svsa.hardware.realtime.process", "svsa.hardware.safety.supervisor"
 LOAD = ConstantLoad(torque_nm=(1.5, 0.0, 0.0))
 PATIENCE_S = 60.0
 ATTEMPTS = 3

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from svsa.bench.file import read_bench
-from svsa.bench.realtime.configuration import build_guard, read_bench_design
-from svsa.bench.safety.guard import Guard
-from svsa.model.domain import build_domain
-from svsa.model.dynamics import build_actuator
-from svsa.signals import Disturbance, State, Torque
+from svsa.actuators.domain import build_domain
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.configuration import build_guard, read_bench_design
+from svsa.hardware.safety.guard import Guard
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
 
 BENCH = read_bench(RIG_BENCH)

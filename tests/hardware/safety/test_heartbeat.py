@@ -4,11 +4,11 @@ import math
 import subprocess
 import sys
 
-from svsa.bench.safety.heartbeat import SLOTS, Heartbeats
+from svsa.hardware.safety.heartbeat import SLOTS, Heartbeats
 
 BEAT = """
 import sys
-from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.hardware.safety.heartbeat import Heartbeats
 beats = Heartbeats.attach(sys.argv[1])
 assert beats.age_s("server") < 60.0
 beats.beat("loop")

@@ -4,12 +4,12 @@ import math
 
 import pytest
 
-from svsa.bench.axes import AXIS_WORDS
-from svsa.bench.file import read_bench
-from svsa.bench.realtime.configuration import build_guard
-from svsa.bench.safety.guard import Guard
-from svsa.bench.safety.heat import LINGERS_S, WARM, Winding, compute_lasting_torque
-from svsa.signals import Torque
+from svsa.actuators.signals import Torque
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.configuration import build_guard
+from svsa.hardware.safety.guard import Guard
+from svsa.hardware.safety.heat import LINGERS_S, WARM, Winding, compute_lasting_torque
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
 
 BENCH = read_bench(RIG_BENCH)

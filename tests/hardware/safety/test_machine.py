@@ -5,15 +5,15 @@ from typing import Any
 
 import pytest
 
-from svsa.bench.drives.phase import Phase
-from svsa.bench.file import read_bench
-from svsa.bench.homing import STEPS
-from svsa.bench.realtime.configuration import build_guard
-from svsa.bench.safety.faults import FAULTS, Alarm
-from svsa.bench.safety.machine import BenchStatus, Conditions, Machine
+from svsa.actuators.signals import Torque
 from svsa.errors import ParameterError, StateError
-from svsa.fault_labels import FAULT_LABELS
-from svsa.signals import Torque
+from svsa.hardware.drives.phase import Phase
+from svsa.hardware.file import read_bench
+from svsa.hardware.homing import STEPS
+from svsa.hardware.realtime.configuration import build_guard
+from svsa.hardware.safety.faults import FAULTS, Alarm
+from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
+from svsa.runs.fault_labels import FAULT_LABELS
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
 
 BENCH = read_bench(RIG_BENCH)

@@ -15,13 +15,13 @@ import can
 import pytest
 import tomli_w
 
-from svsa.bench.drives.robomodule import Current, encode
-from svsa.bench.emulation import EMULATED_DATA, EMULATED_ID
-from svsa.bench.file import read_bench
-from svsa.bench.safety.heartbeat import Heartbeats
-from svsa.bench.safety.supervisor import Supervisor
-from svsa.rig.frame import Frame
-from svsa.rig.socketcand import SocketcandServer
+from svsa.hardware.drives.robomodule import Current, encode
+from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.socketcand import SocketcandServer
+from svsa.hardware.file import read_bench
+from svsa.hardware.safety.heartbeat import Heartbeats
+from svsa.hardware.safety.supervisor import Supervisor
 from tests.hardware.wired_bench import RIG_BENCH
 
 ZERO, RESET = encode(Current(5000, 0)), b"\x55" * 8
@@ -29,7 +29,7 @@ STOPPED = {(0x013, ZERO), (0x023, ZERO), (0x000, RESET)}
 LONG_S = 60.0
 LOOP = """
 import sys, time
-from svsa.bench.safety.heartbeat import Heartbeats
+from svsa.hardware.safety.heartbeat import Heartbeats
 beats = Heartbeats.attach(sys.argv[1])
 while True:
     beats.beat("loop")
@@ -193,7 +193,7 @@ def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
 ) -> None:
     bench = write_bench(tmp_path, wire.server.port)
     with (
-        run("-m", "svsa.bench.safety.supervisor", str(bench), beats.name) as supervisor,
+        run("-m", "svsa.hardware.safety.supervisor", str(bench), beats.name) as supervisor,
         run("-c", LOOP, beats.name) as loop,
     ):
         wire.serve_until(lambda: beats.age_s("supervisor") < 0.1 and beats.age_s("loop") < 0.02)
@@ -214,7 +214,7 @@ def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
 
 def test_told_to_end_it_leaves_a_last_zero(wire: Wire, beats: Heartbeats, tmp_path: Path) -> None:
     bench = write_bench(tmp_path, wire.server.port)
-    with run("-m", "svsa.bench.safety.supervisor", str(bench), beats.name) as supervisor:
+    with run("-m", "svsa.hardware.safety.supervisor", str(bench), beats.name) as supervisor:
         wire.serve_until(lambda: beats.age_s("supervisor") < 0.1)
         assert wire.heard == []
         supervisor.terminate()
@@ -227,7 +227,7 @@ def test_without_a_bus_it_says_so_and_fails(beats: Heartbeats, tmp_path: Path) -
     closed.close()
     bench = write_bench(tmp_path, closed.port)
     done = subprocess.run(
-        [sys.executable, "-m", "svsa.bench.safety.supervisor", str(bench), beats.name],
+        [sys.executable, "-m", "svsa.hardware.safety.supervisor", str(bench), beats.name],
         capture_output=True,
         text=True,
         timeout=LONG_S,

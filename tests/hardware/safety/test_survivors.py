@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from svsa.bench.file import read_bench
-from svsa.rig.launch import RunningRig, start_rig
+from svsa.hardware.emulator.launch import RunningRig, start_rig
+from svsa.hardware.file import read_bench
 from tests.exhaustive import exhaust
 from tests.hardware.live_bench import write_bench
 from tests.hardware.wired_bench import RIG_BENCH

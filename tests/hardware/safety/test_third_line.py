@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from svsa.bench.drives.bus import BusError
-from svsa.bench.file import read_bench
-from svsa.bench.realtime.loss import find_loss
-from svsa.bench.safety import third_line
-from svsa.bench.safety.heartbeat import Heartbeats
-from svsa.bench.safety.third_line import ThirdLine
+from svsa.hardware.drives.bus import BusError
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.loss import find_loss
+from svsa.hardware.safety import third_line
+from svsa.hardware.safety.heartbeat import Heartbeats
+from svsa.hardware.safety.third_line import ThirdLine
 from tests.hardware.wired_bench import RIG_BENCH
 
 PATIENCE_S = 60.0

@@ -8,11 +8,11 @@ from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
-from svsa.paper import get_figure
-from svsa.session.simulated import SimulatedSession
+from svsa.runs.paper import get_figure
+from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.access import audit
-from svsa_server.control.hand import Holder
-from svsa_server.control.queue import ControlQueue
+from svsa_server.leases.lease import Holder
+from svsa_server.leases.queue import ControlQueue
 from svsa_server.sessions.control_log import note_settled
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.quota import DiskQuota

@@ -3,7 +3,7 @@
 import pytest
 from starlette.datastructures import URL
 
-from svsa_server.routes import classroom
+from svsa_server.routes.access import classroom
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ import pytest
 
 from svsa.errors import SecurityError, StateError
 from svsa_server.access import audit, memberships
+from svsa_server.access.authentication import REMOVED, ClassDoor
 from svsa_server.access.class_keys import ClassKeys
-from svsa_server.access.doors import REMOVED, ClassDoor
 from svsa_server.access.guard import AccessGuard
 from svsa_server.access.memberships import FILE, Membership, Memberships
 from svsa_server.access.people import People

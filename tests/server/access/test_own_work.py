@@ -7,8 +7,14 @@ from pathlib import Path
 import httpx
 import pytest
 
-from svsa.study.file import read_study
-from svsa.study.store import STUDY_FILE, keep_study, measure_bytes, open_study, read_owner
+from svsa.evaluation.studies.file import read_study
+from svsa.evaluation.studies.store import (
+    STUDY_FILE,
+    keep_study,
+    measure_bytes,
+    open_study,
+    read_owner,
+)
 from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
 
 SESSIONS, JOBS, TUNINGS = "/api/v1/sessions", "/api/v1/jobs", "/api/v1/tunings"

@@ -14,8 +14,8 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from svsa.study.file import read_study
-from svsa.study.store import keep_study
+from svsa.evaluation.studies.file import read_study
+from svsa.evaluation.studies.store import keep_study
 from svsa_server.access.permissions import find_permission
 from svsa_server.access.roles import Role
 from svsa_server.jobs.queue import Job

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
 
+from svsa_server.access.authentication import ClassDoor
 from svsa_server.access.class_keys import ClassKeys
-from svsa_server.access.doors import ClassDoor
 from svsa_server.access.guard import AccessGuard
 from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People

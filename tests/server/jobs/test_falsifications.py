@@ -5,9 +5,9 @@ import tomllib
 
 import pytest
 
-from svsa.falsify.adversary import Adversary
-from svsa.falsify.file import read_adversary
-from svsa.falsify.find import falsify
+from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.file import read_adversary
+from svsa.evaluation.falsifier.find import falsify
 from tests.lab_in_process import run_lab_in_process
 
 LONGEST_S = 240.0

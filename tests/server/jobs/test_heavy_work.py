@@ -9,7 +9,7 @@ import time
 import pytest
 
 from svsa.errors import ParameterError, Violation
-from svsa.worker_process import start_workers
+from svsa.evaluation.workers import start_workers
 from svsa_server.jobs import heavy_work
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError, HeavyWork
 from svsa_server.problems import TYPE_PREFIX

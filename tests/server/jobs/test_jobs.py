@@ -15,7 +15,7 @@ from svsa_server.jobs.heavy_work import BusyError
 from svsa_server.jobs.progress import PERIOD_S, JobFolder, read_progress
 from svsa_server.jobs.queue import Jobs
 from svsa_server.problems import UnknownError
-from svsa_server.schemas.job import describe_job
+from svsa_server.schemas.evaluation.job import describe_job
 
 LONGEST_S = 60.0
 ORPHAN = """

@@ -4,14 +4,14 @@ import time
 
 import pytest
 
-from svsa.isolation.refusal import NotIsolatedError
-from svsa.leaderboard.board import FOLDER, Board, digest_law
+from svsa.teaching.isolation.refusal import NotIsolatedError
+from svsa.teaching.leaderboard.board import FOLDER, Board, digest_law
 from svsa_server.jobs.progress import JobFolder, ask_to_stop, read_progress
 from svsa_server.jobs.submissions import Asked, enter
-from tests.grading.handins import GOOD, LAZY
-from tests.isolation.test_attacks import isolation  # noqa: F401
 from tests.lab_in_process import run_lab_in_process
-from tests.leaderboard.test_leaderboard import short_season  # noqa: F401
+from tests.teaching.grading.submissions import GOOD, LAZY
+from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
+from tests.teaching.leaderboard.test_leaderboard import short_season  # noqa: F401
 
 LONGEST_S = 240.0
 BOARD = "/api/v1/leaderboard"
@@ -115,7 +115,7 @@ def test_where_nothing_isolates_a_law_is_refused_and_says_why(lab, monkeypatch):
     def refuse():
         raise NotIsolatedError("bwrap is not installed")
 
-    monkeypatch.setattr("svsa_server.routes.leaderboard.check_isolation", refuse)
+    monkeypatch.setattr("svsa_server.routes.teaching.leaderboard.check_isolation", refuse)
     refused = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": "pass"})
     assert refused.status_code == 409
     assert refused.json()["type"] == "urn:svsa:problem:not_isolated"
@@ -126,7 +126,7 @@ def test_where_nothing_isolates_the_board_says_so_before_anything_is_submitted(l
     def refuse():
         raise NotIsolatedError("bwrap is not installed")
 
-    monkeypatch.setattr("svsa.isolation.probe.check_isolation", refuse)
+    monkeypatch.setattr("svsa.teaching.isolation.probe.check_isolation", refuse)
     assert "bwrap is not installed" in lab.get(BOARD).json()["not_isolated"]
 
 

@@ -5,7 +5,7 @@ import time
 import pytest
 
 import svsa
-from svsa.run.configuration import parse_design
+from svsa.runs.configuration import parse_design
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S
 from tests.lab_in_process import run_lab_in_process
 

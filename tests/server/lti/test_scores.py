@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from svsa.course.handin import HandIn, write_hand_in
-from svsa.course.progress import ProgressStore
-from svsa.grading.book import Book
-from svsa.grading.grade import Criterion, Grade
-from svsa.grading.submission import Submission
+from svsa.teaching.course.progress import ProgressStore
+from svsa.teaching.course.submission import HandIn, write_hand_in
+from svsa.teaching.grading.grade import Criterion, Grade
+from svsa.teaching.grading.gradebook import Book
+from svsa.teaching.grading.submission import Submission
 from svsa_server.lti import scores
 from svsa_server.lti.links import Link, Links
 from svsa_server.lti.platforms import read_lti_file

@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.arena.results import load_published
+from svsa.evaluation.ranking.results import load_published
 from tests.lab import Lab
 
 ARENA = "/api/v1/arena"

@@ -4,16 +4,16 @@ import shutil
 
 import pytest
 
-from svsa.course.kept_law import MAX_LAW_BYTES
-from svsa.grading import law_runs
-from svsa.grading.book import Book
-from svsa.grading.queue import grade_file
-from svsa.grading.submission import Submission
-from tests.course.runs import find_exercise
-from tests.course.student import Student, find_law
-from tests.grading.handins import LAZY
-from tests.isolation.test_attacks import isolation  # noqa: F401
+from svsa.teaching.course.kept_law import MAX_LAW_BYTES
+from svsa.teaching.grading import law_runs
+from svsa.teaching.grading.gradebook import Book
+from svsa.teaching.grading.queue import grade_file
+from svsa.teaching.grading.submission import Submission
 from tests.lab_in_process import run_lab_in_process
+from tests.teaching.course.runs import find_exercise
+from tests.teaching.course.student import Student, find_law
+from tests.teaching.grading.submissions import LAZY
+from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
 
 @pytest.fixture(scope="module")

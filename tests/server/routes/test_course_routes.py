@@ -5,11 +5,11 @@ import shutil
 
 import pytest
 
-from svsa.course.handin import read_hand_in
-from svsa.course.progress import ProgressStore
-from tests.course.runs import find_exercise
-from tests.course.student import COURSE, Student
+from svsa.teaching.course.progress import ProgressStore
+from svsa.teaching.course.submission import read_hand_in
 from tests.lab_in_process import run_lab_in_process
+from tests.teaching.course.runs import find_exercise
+from tests.teaching.course.student import COURSE, Student
 
 NAME = "feedback-linearization"
 
@@ -170,7 +170,7 @@ def test_in_a_class_everybody_has_progress_of_their_own(tmp_path):
 
 
 def test_a_lecturer_s_folder_is_served(tmp_path):
-    from tests.course.test_exercise_file import EXERCISE
+    from tests.teaching.course.test_exercise_file import EXERCISE
 
     folder = tmp_path / "mine"
     folder.mkdir()

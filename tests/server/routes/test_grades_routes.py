@@ -4,13 +4,13 @@ import time
 
 import pytest
 
-from svsa.course.progress import ProgressStore
-from svsa.isolation.refusal import NotIsolatedError
+from svsa.teaching.course.progress import ProgressStore
+from svsa.teaching.isolation.refusal import NotIsolatedError
 from svsa_server.jobs.gradings import Asked, grade_all
 from svsa_server.jobs.progress import JobFolder, ask_to_stop
-from tests.course.runs import find_exercise
-from tests.grading.test_class_grades import FL, hand_in
 from tests.server.access.classroom import run_class
+from tests.teaching.course.runs import find_exercise
+from tests.teaching.grading.test_class_grades import FL, hand_in
 
 GRADES = "/api/v1/grades"
 LONGEST_S = 240.0
@@ -85,7 +85,7 @@ def test_where_nothing_isolates_the_table_says_so(classroom, monkeypatch):
     def refuse():
         raise NotIsolatedError("bwrap is not installed")
 
-    monkeypatch.setattr("svsa.isolation.probe.check_isolation", refuse)
+    monkeypatch.setattr("svsa.teaching.isolation.probe.check_isolation", refuse)
     told = classroom[0].log_in().get(GRADES).json()["not_isolated"]
     assert "bwrap is not installed" in told
 

@@ -11,7 +11,7 @@ import pytest
 
 from tests.lab import Lab, run_lab
 from tests.lab_in_process import run_lab_in_process
-from tests.records.test_recorder import mount_small_disk
+from tests.runs.records.test_recorder import mount_small_disk
 
 
 def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:

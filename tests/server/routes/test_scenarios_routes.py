@@ -4,9 +4,9 @@ import tomllib
 
 import pytest
 
-from svsa.falsify.measure import run_scenario
-from svsa.falsify.scenario import LoadScenario
-from svsa.falsify.trace import trace_scenario
+from svsa.evaluation.falsifier.measure import run_scenario
+from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa.evaluation.falsifier.trace import trace_scenario
 from tests.lab_in_process import run_lab_in_process
 
 SCENARIOS = "/api/v1/scenarios"

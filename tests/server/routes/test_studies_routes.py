@@ -8,9 +8,9 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from svsa.study.metrics import METRICS
-from svsa.study.store import find_missing, open_study, read_rows
-from svsa.study.summary import summarize_laws
+from svsa.evaluation.studies.metrics import METRICS
+from svsa.evaluation.studies.store import find_missing, open_study, read_rows
+from svsa.evaluation.studies.summary import summarize_laws
 from svsa_server.jobs.study_rows import thin_out
 from tests.lab_in_process import run_lab_in_process
 

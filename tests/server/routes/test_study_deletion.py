@@ -7,8 +7,8 @@ import pytest
 
 from svsa.client.connection import Connection
 from svsa.client.studies import RemoteStudies
-from svsa.study.file import read_study
-from svsa.study.store import claim_study, find_studies_folder, keep_study, list_studies
+from svsa.evaluation.studies.file import read_study
+from svsa.evaluation.studies.store import claim_study, find_studies_folder, keep_study, list_studies
 from tests.lab_in_process import run_lab_in_process
 
 STUDIES = "/api/v1/studies"

@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from svsa.observer.disturbance import ObserverBandwidth
-from svsa.paper import get_figure
-from svsa.run.command import ApplyLoad, SetRivals
-from svsa.run.configuration import Lane
-from svsa.session.batch import HEADER
-from svsa.session.session import Session
-from svsa.session.simulated import SimulatedSession
-from svsa.signals import CHANNEL_INDEX
-from svsa_server.schemas.stream import StreamRequest
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.runs.command import ApplyLoad, SetRivals
+from svsa.runs.configuration import Lane
+from svsa.runs.paper import get_figure
+from svsa.runs.session.frame import HEADER
+from svsa.runs.session.session import Session
+from svsa.runs.session.simulated import SimulatedSession
+from svsa_server.schemas.lab.stream import StreamRequest
 from svsa_server.sessions.cursor import SampleCursor
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state

@@ -4,18 +4,18 @@ from typing import Any
 
 import pytest
 
-from svsa.observer.disturbance import ObserverBandwidth
-from svsa.paper import get_figure
-from svsa.plant.disturbances import PaperLoad
-from svsa.records.measured_window import trace_record
-from svsa.records.reader import Record, build_record
-from svsa.run.command import ApplyLoad, SetLaws, SetObserver, build_command
-from svsa.run.configuration import Lane
-from svsa.session.simulated import SimulatedSession
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.runs.command import ApplyLoad, SetLaws, SetObserver, build_command
+from svsa.runs.configuration import Lane
+from svsa.runs.paper import get_figure
+from svsa.runs.records.measured_window import trace_record
+from svsa.runs.records.reader import Record, build_record
+from svsa.runs.session.simulated import SimulatedSession
+from svsa.simulation.plant.loads import PaperLoad
 from svsa_server.runs.lanes import list_record_stretches, name_lanes
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
-from tests.records.records import build_header, build_samples
+from tests.runs.records.records import build_header, build_samples
 
 FIRST_TICK = 200
 FL, NDOBC = {"law": "fl"}, {"law": "ndobc"}

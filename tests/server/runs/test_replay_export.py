@@ -2,10 +2,10 @@
 
 import pytest
 
-from svsa.paper import get_figure
-from svsa.records.reader import build_record
+from svsa.runs.paper import get_figure
+from svsa.runs.records.reader import build_record
 from svsa_server.runs import replay_export
-from tests.records.records import build_header, build_samples
+from tests.runs.records.records import build_header, build_samples
 
 
 @pytest.mark.parametrize(

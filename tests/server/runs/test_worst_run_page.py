@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from svsa.leaderboard.board import Board, measure_missing
+from svsa.teaching.leaderboard.board import Board, measure_missing
 from svsa_server.runs import worst_run_page
 from svsa_server.runs.worst_run_page import build_worst_run_page
-from tests.leaderboard.test_leaderboard import short_season  # noqa: F401
+from tests.teaching.leaderboard.test_leaderboard import short_season  # noqa: F401
 
 
 @pytest.mark.usefixtures("short_season")

@@ -14,7 +14,7 @@ import zstandard
 from starlette.applications import Starlette
 from websockets.asyncio.client import ClientConnection
 
-from svsa.session.session import Session
+from svsa.runs.session.session import Session
 from svsa_scene import ActuatorPose
 from svsa_server.scene.bridge import SceneBridge
 from svsa_server.scene.scenes import Scenes

@@ -13,7 +13,7 @@ from typing import Any
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from svsa.rig.launch import RunningRig
+from svsa.hardware.emulator.launch import RunningRig
 from tests.hardware.live_bench import start_live_rig, write_bench
 from tests.lab import START_TIMEOUT_S, Lab, run_lab
 from tests.processes import find_child

@@ -7,20 +7,20 @@ from typing import Any
 
 import pytest
 
-from svsa.bench.realtime.launch import BenchError
-from svsa.bench.realtime.memory import LoopMemory
-from svsa.bench.safety.heartbeat import Heartbeats
-from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import Fault
-from svsa.loop.lane import AT_REST
-from svsa.paper import get_figure
-from svsa.run.run import Start
-from svsa.session import supervised_loop
-from svsa.session.bench import BenchSession
-from svsa.session.bench_run import BenchRun
-from svsa_server.sessions.turn import let_pass
+from svsa.hardware.realtime.launch import BenchError
+from svsa.hardware.realtime.memory import LoopMemory
+from svsa.hardware.safety.heartbeat import Heartbeats
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session import supervised_loop
+from svsa.hardware.session.run import BenchRun
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.paper import get_figure
+from svsa.runs.run import Start
+from svsa.simulation.loop.lane import AT_REST
+from svsa_server.sessions.lock import let_pass
 from tests.hardware.wired_bench import RIG_BENCH
-from tests.session.loop_ticks import write
+from tests.runs.session.loop_ticks import write
 
 ANSWER_S = 0.01
 STEP = "compiling the loop, once: 3 functions, observe the last"

@@ -7,24 +7,24 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from svsa.bench.realtime.configuration import MAX_LOAD_POINTS
-from svsa.bench.realtime.loss import Loss
-from svsa.bench.safety.machine import BenchStatus
+from svsa.actuators.signals import CHANNELS
 from svsa.control.gains import Gains
 from svsa.errors import Fault, StateError
-from svsa.plant.disturbances import SeriesLoad
-from svsa.run.command import ApplyLoad, SetLane, SetLaw, SetPosition, SetRivals, Stop
-from svsa.run.configuration import Lane
-from svsa.session import bench_commands
-from svsa.session.bench import BenchSession
-from svsa.signals import CHANNELS
-from svsa_server.routes import settings
-from svsa_server.schemas.gain import GainsRequest
+from svsa.hardware.realtime.configuration import MAX_LOAD_POINTS
+from svsa.hardware.realtime.loss import Loss
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session import commands
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.command import ApplyLoad, SetLane, SetLaw, SetPosition, SetRivals, Stop
+from svsa.runs.configuration import Lane
+from svsa.simulation.plant.loads import SeriesLoad
+from svsa_server.routes.lab import settings
+from svsa_server.schemas.lab.gain import GainsRequest
 from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.lock import take_turn
 from svsa_server.sessions.state import build_progress
-from svsa_server.sessions.turn import take_turn
+from tests.runs.session.loop_ticks import write
 from tests.server.sessions.scripted_bench import Processes, begin_run, build_bench_session, say
-from tests.session.loop_ticks import write
 
 
 @pytest.fixture
@@ -194,7 +194,7 @@ def test_a_change_at_a_tick_without_a_sample_is_entered_at_the_last_one(
 def test_a_change_waits_a_bounded_time_for_those_before_it(
     session: BenchSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(bench_commands, "LONGEST_CHANGES_S", 0.1)
+    monkeypatch.setattr(commands, "LONGEST_CHANGES_S", 0.1)
     monkeypatch.setattr(session._commands, "_pending", 1)
     for command in (SetLaw(argument="fl"), SetRivals(argument=(Lane(law="fl"),))):
         with pytest.raises(StateError, match=r"1 earlier changes.*Send it again"):

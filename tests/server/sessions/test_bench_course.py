@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from svsa.course.file import read_course
-from svsa.grading.grade import Grade, grade
-from svsa.grading.submission import Submission
-from svsa.records.bench_start import START_FILE
+from svsa.runs.records.bench_start import START_FILE
+from svsa.teaching.course.file import read_course
+from svsa.teaching.grading.grade import Grade, grade
+from svsa.teaching.grading.submission import Submission
 from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import BenchLab, wait_until

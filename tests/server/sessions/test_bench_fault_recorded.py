@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import Fault
-from svsa.session.bench import BenchSession
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session.session import BenchSession
 from tests.server.sessions.scripted_bench import build_bench_session, hear, say
 
 

@@ -5,14 +5,14 @@ from collections.abc import Iterator
 
 import pytest
 
-from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import StateError
-from svsa.plant.disturbances import MassLoad, PaperLoad
-from svsa.session.bench import BenchSession
-from svsa_server.routes.bench import foretell_heat
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session.session import BenchSession
+from svsa.simulation.plant.loads import MassLoad, PaperLoad
+from svsa_server.routes.hardware.bench import foretell_heat
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
-from tests.session.sessions import build_session
+from tests.runs.session.sessions import build_session
 
 from .scripted_bench import build_bench_session, hear, say
 

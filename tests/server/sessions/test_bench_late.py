@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from svsa.rig.launch import start_rig
+from svsa.hardware.emulator.launch import start_rig
 from tests.hardware.live_bench import FAIR_S, IDLE_S, write_bench
 from tests.hardware.safety.survivors import LOOP
 from tests.lab import run_lab

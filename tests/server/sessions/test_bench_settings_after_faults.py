@@ -7,14 +7,14 @@ from typing import Any
 import httpx
 import pytest
 
-from svsa.bench.realtime.launch import BenchError
-from svsa.bench.realtime.loss import LOSSES
-from svsa.bench.realtime.memory import LoopMemory
-from svsa.bench.safety.faults import FAULTS
-from svsa.bench.safety.machine import BenchStatus
 from svsa.errors import Fault
-from svsa.records.catalogue.runs import DATA_VARIABLE
-from svsa.session.bench import BenchSession
+from svsa.hardware.realtime.launch import BenchError
+from svsa.hardware.realtime.loss import LOSSES
+from svsa.hardware.realtime.memory import LoopMemory
+from svsa.hardware.safety.faults import FAULTS
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.records.catalogue.runs import DATA_VARIABLE
 from svsa_server.app import build_app
 from tests.exhaustive import exhaust
 from tests.server.routes.writing import list_examples

@@ -11,8 +11,8 @@ import pytest
 from rich.console import Console
 
 from svsa.errors import StateError
-from svsa.run.command import SetLaw
-from svsa.session.bench import BenchSession
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.command import SetLaw
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state

@@ -8,9 +8,9 @@ import time
 import pytest
 
 import svsa
-from svsa.identification.excitation import EXCITATION, EXCITATION_DURATION_S
-from svsa.records.reader import open_record
-from svsa.run.configuration import write_design
+from svsa.analysis.identification.excitation import EXCITATION, EXCITATION_DURATION_S
+from svsa.runs.configuration import write_design
+from svsa.runs.records.reader import open_record
 from tests.lab import Lab, run_lab
 
 BENCH_LIKE = {"encoders": {}, "estimation": {}, "friction": {}, "current_lag": {}}

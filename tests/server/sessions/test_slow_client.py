@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from svsa.paper import get_figure
-from svsa.session.simulated import SimulatedSession
+from svsa.runs.paper import get_figure
+from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.access.roles import EVERYBODY
 from svsa_server.sessions import stream
 from svsa_server.sessions.hosted import HostedSession

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
-from svsa.paper import get_figure
-from svsa.session.simulated import SimulatedSession
-from svsa_server.schemas.stream import StreamRequest
+from svsa.runs.paper import get_figure
+from svsa.runs.session.simulated import SimulatedSession
+from svsa_server.schemas.lab.stream import StreamRequest
 from svsa_server.sessions.cursor import SampleCursor
 from tests.lab import Lab
 

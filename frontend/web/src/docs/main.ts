@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import SwaggerUI from "swagger-ui-dist/swagger-ui-es-bundle.js";
 import "swagger-ui-dist/swagger-ui.css";
 import "./docs.css";
-import { theme } from "../state/preferences";
+import { theme } from "../core/state/preferences";
 
 effect(() => {
   document.documentElement.classList.toggle("dark-mode", theme.value === "dark");

@@ -1,13 +1,13 @@
-import { reset, stopRecording } from "../api/client";
-import { told } from "../api/outcome";
-import { ReturnCodeBanner } from "../classroom/returncode";
-import { ControlBanner } from "../control/banner";
-import { FaultAdvice } from "../safety/advice";
-import { StopBanners } from "../safety/stopbanner";
-import { perform } from "../state/actions";
-import { isAnother, phase, session } from "../state/session";
-import { text } from "../text/en";
-import { Problem } from "../widgets/problem";
+import { reset, stopRecording } from "../core/api/client";
+import { told } from "../core/api/outcome";
+import { perform } from "../core/state/actions";
+import { isAnother, phase, session } from "../core/state/session";
+import { text } from "../core/text/en";
+import { Problem } from "../core/widgets/problem";
+import { ControlBanner } from "../lab/lease/banner";
+import { FaultAdvice } from "../lab/safety/advice";
+import { StopBanners } from "../lab/safety/stopbanner";
+import { ReturnCodeBanner } from "../teaching/classroom/returncode";
 import { SavedNote } from "./savednote";
 
 /** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */

@@ -1,7 +1,7 @@
-import { samples } from "../state/session";
-import { text } from "../text/en";
-import { formatTime } from "../units";
-import { useLiveText } from "../widgets/live";
+import { samples } from "../core/state/session";
+import { text } from "../core/text/en";
+import { formatTime } from "../core/units";
+import { useLiveText } from "../core/widgets/live";
 
 const readTime = () => formatTime(samples.ring.newestTime || 0);
 

@@ -1,11 +1,11 @@
 import { useCallback } from "preact/hooks";
-import type { LaneRow, SessionState } from "../api/types";
-import { inkOf } from "../plots/inks";
-import { type MetricsColumn, MetricsTable } from "../plots/metricstable";
-import { isLive, samples } from "../state/session";
-import { text } from "../text/en";
-import { formatNumber, toDegrees } from "../units";
-import { useLiveText } from "../widgets/live";
+import type { LaneRow, SessionState } from "../core/api/types";
+import { inkOf } from "../core/plots/inks";
+import { type MetricsColumn, MetricsTable } from "../core/plots/metricstable";
+import { isLive, samples } from "../core/state/session";
+import { text } from "../core/text/en";
+import { formatNumber, toDegrees } from "../core/units";
+import { useLiveText } from "../core/widgets/live";
 import { bestIn, hasEnded, recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;

@@ -1,13 +1,13 @@
 import { useEffect, useId, useRef, useState } from "preact/hooks";
-import { login } from "../api/access";
-import { RefusedError } from "../api/errors";
-import { Join } from "../classroom/join";
-import { SecretForm } from "../classroom/secretform";
-import { StopBanners } from "../safety/stopbanner";
-import { StopButton } from "../safety/stopbutton";
-import { access, comings, learnAccess } from "../state/access";
-import { openStream, phase } from "../state/session";
-import { text } from "../text/en";
+import { login } from "../core/api/access";
+import { RefusedError } from "../core/api/errors";
+import { access, comings, learnAccess } from "../core/state/access";
+import { openStream, phase } from "../core/state/session";
+import { text } from "../core/text/en";
+import { StopBanners } from "../lab/safety/stopbanner";
+import { StopButton } from "../lab/safety/stopbutton";
+import { Join } from "../teaching/classroom/join";
+import { SecretForm } from "../teaching/classroom/secretform";
 
 /** Asks once for what lets one in; the server keeps it in a cookie. */
 export function Login() {

@@ -1,10 +1,10 @@
 /** Where a student may look, what the session moves: EMULATED, REAL BENCH, or that it is not known yet. */
 import { effect } from "@preact/signals";
-import emulatedIcon from "../icons/emulated.svg";
-import realIcon from "../icons/real.svg";
-import { mark } from "../state/bench";
-import { text } from "../text/en";
-import { PlantMark } from "../widgets/plantmark";
+import emulatedIcon from "../core/icons/emulated.svg";
+import realIcon from "../core/icons/real.svg";
+import { mark } from "../core/state/bench";
+import { text } from "../core/text/en";
+import { PlantMark } from "../core/widgets/plantmark";
 
 const ICONS = { emulated: emulatedIcon, real: realIcon, unknown: realIcon } as const;
 

@@ -1,12 +1,12 @@
 import { computed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { isOfRuns, type Place, place } from "../runs/place";
-import { PlaceLink } from "../runs/placelink";
-import { isClass, isInstructor } from "../state/access";
-import { session } from "../state/session";
-import { text } from "../text/en";
-import { isOpen as isTuning } from "../tuning/tuning";
-import { Popup } from "../widgets/popup";
+import { isClass, isInstructor } from "../core/state/access";
+import { session } from "../core/state/session";
+import { text } from "../core/text/en";
+import { Popup } from "../core/widgets/popup";
+import { isOpen as isTuning } from "../lab/tuning/tuning";
+import { isOfRuns, type Place, place } from "../runs/list/place";
+import { PlaceLink } from "../runs/list/placelink";
 
 const words = text.pages;
 type Page = "lab" | "learn" | "runs" | "arena" | "leaderboard" | "grades" | "studies" | "falsifier";

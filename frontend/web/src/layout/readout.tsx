@@ -1,8 +1,8 @@
-import type { SessionState } from "../api/types";
-import { isLive, samples } from "../state/session";
-import { text } from "../text/en";
-import { formatNumber, toDegrees } from "../units";
-import { useLiveText } from "../widgets/live";
+import type { SessionState } from "../core/api/types";
+import { isLive, samples } from "../core/state/session";
+import { text } from "../core/text/en";
+import { formatNumber, toDegrees } from "../core/units";
+import { useLiveText } from "../core/widgets/live";
 import { type Recovery, recoveryOf, sinceOf } from "./window";
 
 const degrees = (rad: number | null | undefined) =>

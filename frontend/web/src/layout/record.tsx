@@ -1,9 +1,9 @@
-import type { SessionState } from "../api/types";
-import { toggleRecording } from "../state/commands";
-import { mayCommand, takesCommands } from "../state/control";
-import { isLive } from "../state/session";
-import { text } from "../text/en";
-import { formatSeconds } from "../units";
+import type { SessionState } from "../core/api/types";
+import { toggleRecording } from "../core/state/commands";
+import { mayCommand, takesCommands } from "../core/state/control";
+import { isLive } from "../core/state/session";
+import { text } from "../core/text/en";
+import { formatSeconds } from "../core/units";
 
 /** Begins and ends a recording, and tells how long it is. */
 export function RecordButton({ state }: { state: SessionState }) {

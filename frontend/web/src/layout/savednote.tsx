@@ -1,9 +1,9 @@
-import type { RunDetails } from "../api/types";
-import { isOfLesson } from "../learning/lesson";
-import { PlaceLink } from "../runs/placelink";
-import { type Saved, saved } from "../runs/saved";
-import { formatDuration } from "../runs/words";
-import { text } from "../text/en";
+import type { RunDetails } from "../core/api/types";
+import { text } from "../core/text/en";
+import { PlaceLink } from "../runs/list/placelink";
+import { type Saved, saved } from "../runs/list/saved";
+import { formatDuration } from "../runs/list/words";
+import { isOfLesson } from "../teaching/course/lesson";
 
 const words = text.recording;
 

@@ -1,12 +1,12 @@
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import type { BenchState, SessionState } from "../api/types";
-import { isStarting } from "../bench/status";
-import { ControlCell } from "../control/cell";
-import { StopButton } from "../safety/stopbutton";
-import { isLive, missedSamples, phase, session } from "../state/session";
-import { text } from "../text/en";
-import { formatLapse, formatNumber, formatSeconds } from "../units";
+import type { BenchState, SessionState } from "../core/api/types";
+import { isLive, missedSamples, phase, session } from "../core/state/session";
+import { text } from "../core/text/en";
+import { formatLapse, formatNumber, formatSeconds } from "../core/units";
+import { isStarting } from "../hardware/status";
+import { ControlCell } from "../lab/lease/cell";
+import { StopButton } from "../lab/safety/stopbutton";
 import { Clock } from "./clock";
 import { CornerMark } from "./marks";
 

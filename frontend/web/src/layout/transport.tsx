@@ -1,12 +1,12 @@
 import { useState } from "preact/hooks";
-import { putSpeed, reset, runFigure, step } from "../api/client";
-import type { Figure, SessionState, Speed } from "../api/types";
-import { perform } from "../state/actions";
-import { toggleRun } from "../state/commands";
-import { mayCommand, takesCommands } from "../state/control";
-import { presetOf } from "../state/effects";
-import { isLive } from "../state/session";
-import { text } from "../text/en";
+import { putSpeed, reset, runFigure, step } from "../core/api/client";
+import type { Figure, SessionState, Speed } from "../core/api/types";
+import { perform } from "../core/state/actions";
+import { toggleRun } from "../core/state/commands";
+import { mayCommand, takesCommands } from "../core/state/control";
+import { presetOf } from "../core/state/effects";
+import { isLive } from "../core/state/session";
+import { text } from "../core/text/en";
 
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5];

@@ -1,13 +1,13 @@
 import { useCallback, useEffect, useRef } from "preact/hooks";
-import { sessionName } from "../api/request";
-import { answerKey } from "../keys/keys";
-import { addressOf } from "../scene/cameras";
-import { SceneLabels } from "../scene/labels";
-import { SceneTools } from "../scene/tools";
-import { beginAt, enterView, fitCamera, isLow } from "../scene/viewer";
-import { theme } from "../state/preferences";
-import { connectionCount } from "../state/session";
-import { text } from "../text/en";
+import { sessionName } from "../core/api/request";
+import { theme } from "../core/state/preferences";
+import { connectionCount } from "../core/state/session";
+import { text } from "../core/text/en";
+import { answerKey } from "../lab/keys/keys";
+import { addressOf } from "../lab/scene/cameras";
+import { SceneLabels } from "../lab/scene/labels";
+import { SceneTools } from "../lab/scene/tools";
+import { beginAt, enterView, fitCamera, isLow } from "../lab/scene/viewer";
 import { CornerMark } from "./marks";
 
 /** viser's page in the frame, its first camera fitted to the frame. */

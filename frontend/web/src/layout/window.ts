@@ -1,10 +1,10 @@
 /** Since when numbers are measured, in words, and what became of the load. */
-import type { LaneRow, Metrics, SessionState, WindowState } from "../api/types";
-import { RECOVERY_SHARE } from "../plots/statistics";
-import { text } from "../text/en";
-import { measuredText } from "../text/measured";
-import { formatNumber } from "../units";
-import { bestOf } from "../widgets/best";
+import type { LaneRow, Metrics, SessionState, WindowState } from "../core/api/types";
+import { RECOVERY_SHARE } from "../core/plots/statistics";
+import { text } from "../core/text/en";
+import { measuredText } from "../core/text/measured";
+import { formatNumber } from "../core/units";
+import { bestOf } from "../core/widgets/best";
 
 const { windows } = text;
 

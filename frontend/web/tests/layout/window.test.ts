@@ -1,8 +1,8 @@
 import { describe, expect, it, vi } from "vitest";
-import type { BenchState, Metrics, WindowState } from "../../src/api/types";
+import type { BenchState, Metrics, WindowState } from "../../src/core/api/types";
+import { text as page } from "../../src/core/text/en";
+import { text as replay } from "../../src/core/text/replay";
 import { bestIn, hasEnded, recoveryOf, sinceOf } from "../../src/layout/window";
-import { text as page } from "../../src/text/en";
-import { text as replay } from "../../src/text/replay";
 
 const window = (
   kind: WindowState["kind"],
@@ -42,7 +42,7 @@ it("knows a lane that ended by its numbers, which half a second without any take
 
 it("says it in the words of the replay and the overlay", async () => {
   vi.stubGlobal("location", { search: "" });
-  const { describeMeasured } = await import("../../src/runs/measured");
+  const { describeMeasured } = await import("../../src/runs/list/measured");
   for (const [kind, label] of [
     ["load", "3 kg load"],
     ["start", ""],

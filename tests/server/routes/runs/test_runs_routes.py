@@ -6,13 +6,13 @@ import httpx
 import pytest
 from fastapi import FastAPI
 
-from svsa.records.catalogue.runs import Catalogue
-from svsa.records.header import BranchPoint
-from svsa.records.writer import write_record
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.records.header import BranchPoint
+from svsa.runs.records.writer import write_record
 from svsa_server.problems import TYPE_PREFIX
 from svsa_server.sessions.recording import NoCatalogue
-from tests.records.catalogue.test_catalogue import HOSTILE_IDS
-from tests.records.records import build_header, build_samples
+from tests.runs.records.catalogue.test_catalogue import HOSTILE_IDS
+from tests.runs.records.records import build_header, build_samples
 from tests.server.routes.runs.conftest import FIRST_TICK, POSITION, TICKS
 
 

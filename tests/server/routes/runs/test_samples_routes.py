@@ -7,9 +7,9 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from svsa.records.catalogue.runs import Catalogue
-from svsa.records.decimation import decimate
-from tests.records.records import build_samples
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.records.decimation import decimate
+from tests.runs.records.records import build_samples
 from tests.server.routes.runs.conftest import FIRST_TICK, POSITION
 
 

@@ -6,12 +6,12 @@ import httpx
 import numpy as np
 import pytest
 
-from svsa.paper import get_figure
-from svsa.plant.disturbances import MassLoad
-from svsa.records.catalogue.runs import Catalogue
-from svsa.records.writer import write_record
-from svsa.run.configuration import Lane
-from tests.records.records import build_header, build_samples
+from svsa.runs.configuration import Lane
+from svsa.runs.paper import get_figure
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.records.writer import write_record
+from svsa.simulation.plant.loads import MassLoad
+from tests.runs.records.records import build_header, build_samples
 from tests.server.routes.runs.conftest import FIRST_TICK, POSITION, TICKS
 
 

@@ -1,0 +1,126 @@
+"""Who is in control of a session: everybody, or the one client that holds its hand.
+
+A client is known by a text of its own choice that others do not guess: the header
+`SVSA-Client` of its calls, `client` in the query of its streams. Others see the holder's name
+only. A hand whose holder neither calls nor has a stream open is free again after a while.
+"""
+
+import contextlib
+from contextvars import ContextVar
+from typing import Literal, NamedTuple
+from urllib.parse import unquote
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa_server.leases.names import LONGEST_NAME
+
+CLIENT_HEADER = "SVSA-Client"
+# What is open to all whoever holds the hand: it stops, it only asks, or it is the hand itself.
+STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop"), ("POST", "/emergency-stop")})
+ASKING = (
+    "/predict",
+    "/bench/endurance",
+    *map("/design/".__add__, ("response", "stability", "region", "simulation")),
+)
+OPEN_TO_ALL = (
+    STOPS
+    | {("POST", path) for path in ASKING}
+    | {("PUT", "/control"), ("DELETE", "/control")}
+    | {("POST", "/control/handover"), ("PUT", "/control/lock")}
+)
+CHANGING = frozenset({"POST", "PUT", "PATCH", "DELETE"})
+
+asking: ContextVar[str | None] = ContextVar("asking", default=None)
+"""The client for whom this call or stream is answered."""
+
+
+class HeldError(SvsaError):
+    """Somebody else is in control; nothing was changed."""
+
+
+class Holder(NamedTuple):
+    """client: as it names itself to the server. name: as it is shown to everybody."""
+
+    client: str
+    name: str
+
+
+class Settled(NamedTuple):
+    """Who was let go without having asked for it.
+
+    why: gone, a holder of whom nothing was heard; idle, one who gave no command while others wait;
+    gone_from_queue, one who waits, of whom nothing was heard.
+    """
+
+    who: Holder
+    why: Literal["gone", "idle", "gone_from_queue"]
+
+
+class ControlHand:
+    """The hand of the session of this name. Times are monotonic, s.
+
+    rests_when_free: whether nobody may command it then, so that a bench comes to rest.
+    """
+
+    rests_when_free = False
+
+    def __init__(self, session: str) -> None:
+        self.holder: Holder | None = None
+        self._session = session
+        self._heard = 0.0
+
+    def is_held_by(self, client: str | None) -> bool:
+        """Whether this client is in control."""
+        return self.holder is not None and self.holder.client == client
+
+    def admits(self, client: str | None) -> bool:
+        """Whether this client may command: it is in control, or nobody is."""
+        return self.holder is None or self.is_held_by(client)
+
+    def check(self, client: str | None) -> None:
+        """Raise `HeldError` unless this client may command."""
+        if self.holder is not None and not self.is_held_by(client):
+            name = self.holder.name
+            raise HeldError(
+                f"{name} is in control of session {self._session}: ask {name}, or take control."
+            )
+
+    def take(self, holder: Holder, take_over: bool, now: float) -> None:
+        """In control from now on; raises `HeldError` where another is, unless `take_over`."""
+        if not take_over:
+            self.check(holder.client)
+        self.holder, self._heard = holder, now
+
+    def give_back(self, client: str | None, now: float) -> None:
+        """Nobody in control; raises `HeldError` where another one is."""
+        self.check(client)
+        self.holder = None
+
+    def hear(self, client: str | None, now: float) -> None:
+        """Its client has called, if it is the holder."""
+        if self.is_held_by(client):
+            self._heard = now
+
+    def note_command(self, client: str | None, now: float) -> None:
+        """Its holder has given a command, which here means no more than a call."""
+
+    def settle(self, now: float, patience_s: float) -> list[Settled]:
+        """Free it where its holder was not heard for longer than `patience_s`; whom it let go."""
+        if self.holder is None or now - self._heard <= patience_s:
+            return []
+        gone, self.holder = self.holder, None
+        return [Settled(gone, "gone")]
+
+
+def read_client(written: str | None, name: str) -> str | None:
+    """A client as it names itself; None where it does not. Raises `ParameterError`.
+
+    written: percent-encoded UTF-8 where it is more than ASCII. name: where it was written.
+    """
+    if written is None:
+        return None
+    with contextlib.suppress(UnicodeDecodeError):
+        client = unquote(written, errors="strict").strip()
+        if 1 <= len(client) <= LONGEST_NAME and client.isprintable():
+            return client
+    bound = f"a text of 1 to {LONGEST_NAME} printable characters, percent-encoded UTF-8"
+    raise ParameterError(Violation(name, written, "", bound))

@@ -1,0 +1,139 @@
+"""Control of the shared session of a class: one operator at a time, and those who wait for it.
+
+Whoever asks while it is free has it, everybody else waits in the order of asking. It goes on to the
+first of them when its holder gives it back, hands it over, is gone, or has given no command for a
+while; nobody loses it to nobody. The instructor takes it from anybody, who is then the first to get
+it back, and locks it. Pure: all times are given to it, monotonic, s.
+"""
+
+from collections.abc import Callable
+
+from svsa.errors import StateError
+from svsa_server.leases.lease import ControlHand, HeldError, Holder, Settled
+
+
+class ControlQueue(ControlHand):
+    """The hand of a class's session. waiting: who gets it next, the first first.
+
+    is_instructor: whether a client is one, who commands also while nobody is in control. idle_s:
+    for how long a holder may give no command while somebody waits, s.
+    """
+
+    rests_when_free = True
+
+    def __init__(self, session: str, is_instructor: Callable[[str], bool], idle_s: float) -> None:
+        super().__init__(session)
+        self.waiting: list[Holder] = []
+        self.is_locked = False
+        self.idle_s = idle_s
+        self._is_instructor = is_instructor
+        self._acted = 0.0
+        self._waiting_heard: dict[str, float] = {}
+
+    def admits(self, client: str | None) -> bool:
+        """Whether this client may command: it is in control, or an instructor while nobody is."""
+        if self.holder is None:
+            return client is not None and self._is_instructor(client)
+        return self.is_held_by(client)
+
+    def check(self, client: str | None) -> None:
+        """Raise `HeldError`, which says who is in control, unless this client may command."""
+        if self.admits(client):
+            return
+        if self.is_locked and self.holder is None:
+            raise HeldError(f"The instructor has locked control of session {self._session}.")
+        who = self.holder.name if self.holder else "Nobody"
+        raise HeldError(
+            f"{who} is in control of session {self._session}: ask for control, and wait for your"
+            " turn."
+        )
+
+    def take(self, holder: Holder, take_over: bool, now: float) -> None:
+        """Ask for it; or have it at once by `take_over`, which is the instructor's alone."""
+        if take_over:
+            if not self._is_instructor(holder.client):
+                raise HeldError("Only the instructor takes control from others: ask for it.")
+            self._leave_queue(holder.client)
+            self._set_aside()
+            self._give(holder, now)
+        elif not self.is_held_by(holder.client) and self.find_place(holder.client) is None:
+            self.waiting.append(holder)
+            self._waiting_heard[holder.client] = now
+            self._go_on(now)
+
+    def give_back(self, client: str | None, now: float) -> None:
+        """Give it to who waits, or leave the queue; nothing where one is in neither."""
+        self._leave_queue(client)
+        if self.is_held_by(client):
+            self.holder = None
+            self._go_on(now)
+
+    def hand_over(self, client: str | None, to: str, now: float) -> None:
+        """Give it to one of those who wait. Raises `HeldError`, and `StateError` for another."""
+        if not self.is_held_by(client) and not (client and self._is_instructor(client)):
+            self.check(client)
+        chosen = next((one for one in self.waiting if one.client == to), None)
+        if chosen is None:
+            raise StateError("Control is handed to somebody who waits for it; they do not.")
+        self.is_locked = False
+        self._leave_queue(to)
+        self._give(chosen, now)
+
+    def lock(self, is_locked: bool, now: float) -> None:
+        """Nobody but the instructor is in control until it is unlocked; who was is then first."""
+        self.is_locked = is_locked
+        if is_locked and self.holder is not None and not self._is_instructor(self.holder.client):
+            self._set_aside()
+        self._go_on(now)
+
+    def find_place(self, client: str | None) -> int | None:
+        """The place in the queue, 1 is next; None for who does not wait."""
+        places = (place for place, one in enumerate(self.waiting, 1) if one.client == client)
+        return next(places, None)
+
+    def hear(self, client: str | None, now: float) -> None:
+        """Somebody has called, or has a stream open."""
+        super().hear(client, now)
+        if client in self._waiting_heard:
+            self._waiting_heard[client] = now
+
+    def note_command(self, client: str | None, now: float) -> None:
+        """Its holder has given a command."""
+        if self.is_held_by(client):
+            self._acted = now
+
+    def settle(self, now: float, patience_s: float) -> list[Settled]:
+        """Go on from who is gone, or idle while others wait; whom it let go."""
+        gone = [one for one in self.waiting if now - self._waiting_heard[one.client] > patience_s]
+        for one in gone:
+            self._leave_queue(one.client)
+        settled = [Settled(one, "gone_from_queue") for one in gone]
+        settled += super().settle(now, patience_s)
+        is_idle = now - self._acted > self.idle_s
+        if self.holder is not None and is_idle and self.waiting and not self.is_locked:
+            settled.append(Settled(self.holder, "idle"))
+            self.holder = None
+        self._go_on(now)
+        return settled
+
+    def _set_aside(self) -> None:
+        """Take it from its holder, who is the first to get it back."""
+        if self.holder is not None:
+            self.waiting.insert(0, self.holder)
+            self._waiting_heard[self.holder.client] = self._heard
+            self.holder = None
+
+    def _leave_queue(self, client: str | None) -> None:
+        self.waiting = [one for one in self.waiting if one.client != client]
+        if client is not None:
+            self._waiting_heard.pop(client, None)
+
+    def _go_on(self, now: float) -> None:
+        if self.holder is None and self.waiting and not self.is_locked:
+            first = self.waiting[0]
+            self._leave_queue(first.client)
+            self._give(first, now)
+
+    def _give(self, holder: Holder, now: float) -> None:
+        self.holder = holder
+        self._heard = self._acted = now

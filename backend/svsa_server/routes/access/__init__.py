@@ -1,0 +1,1 @@
+"""Login, classes and their members, and the audit log."""

@@ -1,0 +1,185 @@
+"""Come in, say who one is, and leave: login, join, tokens for scripts."""
+
+from typing import Annotated
+
+from fastapi import Body, Request, Response
+from fastapi.responses import JSONResponse
+
+from svsa.errors import StateError
+from svsa_server.access.authentication import COOKIE, REMOVED, ClassDoor, Door
+from svsa_server.access.guard import PERSON
+from svsa_server.access.roles import Person, Role
+from svsa_server.problems import Problem, answer_problem
+from svsa_server.routes.access.classroom import find_class
+from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.routing import build_router
+from svsa_server.schemas.access.access import (
+    AccessState,
+    JoinRequest,
+    JoinState,
+    LoginRequest,
+    ReturnCode,
+    ReturnRequest,
+    TokenRequest,
+    TokenState,
+)
+
+router = build_router(tags=["access"])
+_COOKIE_AGE_S = 30 * 24 * 3600
+_WRONG = {401: {"model": Problem, "description": "A wrong secret, token or code"}}
+
+
+@router.get("/access")
+async def read_access(request: Request) -> AccessState:
+    """How one comes in, and as whom this request has come."""
+    door = _find_door(request)
+    is_removed = isinstance(door, ClassDoor) and door.is_removed(request.headers)
+    return _tell(door, request.scope.get(PERSON), is_removed)
+
+
+@router.post("/login", status_code=204, responses={**_WRONG, 422: REFUSALS[422]})
+async def log_in(
+    request: Request,
+    credentials: Annotated[LoginRequest, Body(examples=[{"secret": "the shared secret"}])],
+) -> Response:
+    """Trade the shared secret, or the instructor token of a class, for a cookie.
+
+    Where the lab is open, everyone is in already.
+    """
+    door = _find_door(request)
+    cookie = door.log_in(credentials.secret)
+    if cookie is None:
+        await door.patience.wait()
+        return answer_problem(
+            401, "wrong_secret", f"That is not the {_name_secret(door)} of this lab."
+        )
+    response = Response(status_code=204)
+    if cookie:
+        set_cookie(request, response, cookie)
+    return response
+
+
+@router.post(
+    "/join",
+    response_model=JoinState,
+    responses={**_WRONG, 409: REFUSALS[409], 422: REFUSALS[422]},
+)
+async def join(
+    request: Request,
+    response: Response,
+    wanted: Annotated[JoinRequest, Body(examples=[{"name": "Ada", "code": "ABCD-2345"}])],
+) -> JoinState | JSONResponse:
+    """Join the class with a name and its code; a cookie says from then on who one is.
+
+    A name that somebody here has already gets a number. `return_code` is told once: by it one comes
+    back as the same person from any browser.
+    """
+    door = find_class(request)
+    if not await door.check_code(wanted.code):
+        await door.patience.wait()
+        return answer_problem(401, "wrong_code", "That is not the code of this class.")
+    person = await door.join(wanted.name, Role[wanted.role.upper()])
+    code = await door.renew_return_code(person)
+    assert code is not None  # noqa: S101  who has just joined has a membership
+    set_cookie(request, response, door.keys.sign(person))
+    return JoinState(**_tell(door, person).model_dump(), return_code=code)
+
+
+@router.post(
+    "/return",
+    response_model=AccessState,
+    operation_id="come_back",
+    responses={**_WRONG, 409: REFUSALS[409], 422: REFUSALS[422]},
+)
+async def come_back(
+    request: Request,
+    response: Response,
+    wanted: Annotated[ReturnRequest, Body(examples=[{"code": "ABCD-2345-EFGH"}])],
+) -> AccessState | JSONResponse:
+    """Come back as who one was, with one's runs and exercises, by the code that joining told."""
+    door = find_class(request)
+    membership = await door.come_back(wanted.code)
+    if membership is None:
+        await door.patience.wait()
+        return answer_problem(401, "wrong_code", "That is nobody's return code in this class.")
+    if membership.is_ended:
+        return answer_problem(401, "removed", REMOVED)
+    set_cookie(request, response, door.keys.sign(membership.person))
+    return _tell(door, membership.person)
+
+
+@router.post("/return-code", status_code=201, responses={409: REFUSALS[409]})
+async def renew_return_code(request: Request, person: NamedPerson) -> ReturnCode:
+    """A new return code, told once; the one before lets nobody back in any more."""
+    code = await find_class(request).renew_return_code(person)
+    if code is None:
+        raise StateError(
+            "A return code is for who has joined: the instructor comes back with the token, and a"
+            " script that may do less than its maker with its own."
+        )
+    return ReturnCode(return_code=code)
+
+
+@router.post("/leave", status_code=204)
+async def leave(request: Request, person: NamedPerson) -> Response:
+    """Forget who this browser is."""
+    door = _find_door(request)
+    if isinstance(door, ClassDoor):
+        door.people.forget(person)
+    response = Response(status_code=204)
+    response.delete_cookie(COOKIE, path=_find_root(request))
+    return response
+
+
+@router.post("/tokens", status_code=201, responses={409: REFUSALS[409], 422: REFUSALS[422]})
+async def create_token(
+    request: Request,
+    person: NamedPerson,
+    wanted: Annotated[TokenRequest, Body(examples=[{"role": "operator"}])],
+) -> TokenState:
+    """A bearer token, told once, with which a script comes in as oneself, or as an observer.
+
+    It asks for control like a person. An instructor's scripts are operators, too.
+    """
+    door = find_class(request)
+    role = min(person.role, Role[wanted.role.upper()])
+    script = person._replace(role=role)
+    if person.role is Role.INSTRUCTOR:
+        script = await door.join(f"{person.name}'s script", role)
+    return TokenState(token=door.keys.sign(script), name=script.name, role=role.word)
+
+
+def _find_door(request: Request) -> Door:
+    return request.app.state.door
+
+
+def _tell(door: Door, person: Person | None, is_removed: bool = False) -> AccessState:
+    return AccessState(
+        door=door.kind,
+        inside=person is not None,
+        id=person.id if person else "",
+        name=person.name if person else "",
+        role=person.role.word if person else None,
+        removed=is_removed,
+    )
+
+
+def _name_secret(door: Door) -> str:
+    return "instructor token" if door.kind == "class" else "secret"
+
+
+def _find_root(request: Request) -> str:
+    return request.scope.get("root_path", "") or "/"
+
+
+def set_cookie(request: Request, response: Response, value: str) -> None:
+    """Have a browser carry who it is from now on."""
+    response.set_cookie(
+        COOKIE,
+        value,
+        max_age=_COOKIE_AGE_S,
+        path=_find_root(request),
+        httponly=True,
+        samesite="strict",
+        secure=request.url.scheme == "https",
+    )

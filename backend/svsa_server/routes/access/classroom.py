@@ -1,0 +1,176 @@
+"""A class: who is here and sees what, a new code, the instructor's settings for everybody."""
+
+import asyncio
+from typing import Annotated
+
+import segno
+from fastapi import Path, Request
+from starlette.datastructures import URL
+
+from svsa.errors import StateError, SvsaError
+from svsa.runs.command import (
+    Command,
+    SetGains,
+    SetLaw,
+    SetObserver,
+    SetParameters,
+    SetPosition,
+    SetStiffness,
+)
+from svsa.runs.configuration import Configuration
+from svsa_server.access.authentication import ClassDoor
+from svsa_server.access.origin import EVERYWHERE, find_outward_address
+from svsa_server.access.owned import Owned
+from svsa_server.access.roles import Person, Role
+from svsa_server.config import is_loopback
+from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.routing import build_router
+from svsa_server.schemas.access.classroom import (
+    BroadcastState,
+    ClassCode,
+    ClassSession,
+    ClassState,
+    MemberState,
+    PersonState,
+)
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
+
+router = build_router("/class", tags=["class"], responses={409: REFUSALS[409]})
+_SCALE = 6
+Member = Annotated[
+    str,
+    Owned("person"),
+    Path(alias="person", description="Id of a person", examples=["p-0123456789ab"]),
+]
+
+
+@router.get("")
+async def read_class(request: Request, person: NamedPerson) -> ClassState:
+    """Who is here, in the order of their names, and which private sessions one may see."""
+    people, laboratory = find_class(request).people, _find_laboratory(request)
+    here = {one.id: one for one in people.list_here()}
+    for hosted in laboratory.sessions.values():
+        for client in hosted.list_viewers():
+            if client not in here and (known := people.find(client)) is not None:
+                here[client] = known
+    members = find_class(request).members
+    removed = members.list_ended() if person.role is Role.INSTRUCTOR else []
+    seen = [hosted for hosted in laboratory.sessions.values() if person.may_see(hosted.owner)]
+    ordered = sorted(here.values(), key=lambda one: (one.name.casefold(), one.id))
+    return ClassState(
+        people=[_build_person(one, seen) for one in ordered],
+        removed=[_build_member(one) for one in removed],
+        sessions=[
+            _build_session(hosted, people.find(hosted.owner)) for hosted in seen if hosted.owner
+        ],
+    )
+
+
+@router.delete("/people/{person}", responses={404: REFUSALS[404]})
+async def remove_person(request: Request, name: Member) -> MemberState:
+    """Remove a person at once: what they carry is worth nothing, and control and place are free.
+
+    What they made stays. Whoever knows the class code may join again as somebody else:
+    `POST /class/code` makes a new one.
+    """
+    removed = await find_class(request).set_removed(name, True)
+    for hosted in _find_laboratory(request).sessions.values():
+        hosted.let_go(removed.id)
+    return _build_member(removed)
+
+
+@router.post("/people/{person}/restore", responses={404: REFUSALS[404]})
+async def restore_person(request: Request, name: Member) -> MemberState:
+    """Let a person in again who was removed: what they carry is as good as before."""
+    return _build_member(await find_class(request).set_removed(name, False))
+
+
+@router.post("/code", status_code=201)
+async def renew_code(request: Request) -> ClassCode:
+    """A new class code, told once, also as a QR code; who has joined stays."""
+    code = await asyncio.to_thread(find_class(request).keys.renew_code)
+    base = choose_join_address(request.base_url, request.app.state.host)
+    address = f"{str(base).rstrip('/')}/#join={code}"
+    return ClassCode(
+        code=code,
+        address=address,
+        is_local=is_loopback(base.hostname or ""),
+        qr=segno.make(address).svg_data_uri(scale=_SCALE),
+    )
+
+
+def choose_join_address(base: URL, host: str) -> URL:
+    """Where the others of a class reach the page that is seen at `base`.
+
+    A name that means this machine only gives way to the machine's address, if the lab listens
+    there. host: the address that is listened on.
+    """
+    if not is_loopback(base.hostname or ""):
+        return base
+    reached = find_outward_address() if host in EVERYWHERE else host
+    return base.replace(hostname=reached) if reached else base
+
+
+@router.post("/broadcast")
+async def broadcast(request: Request) -> BroadcastState:
+    """Give every private session law, gains, observer and references of the shared session."""
+    find_class(request)
+    laboratory = _find_laboratory(request)
+    commands = list_settings(laboratory.get(SHARED_SESSION).session.run.configuration)
+    taken, refused = 0, []
+    for name, hosted in laboratory.sessions.items():
+        if name == SHARED_SESSION:
+            continue
+        try:
+            for command in commands:
+                hosted.session.set(command)
+        except SvsaError as error:
+            refused.append(f"{name}: {error}")
+        else:
+            taken += 1
+    return BroadcastState(taken=taken, refused=refused)
+
+
+def list_settings(configuration: Configuration) -> list[Command]:
+    """The commands that set law, its numbers and references as they are here."""
+    own = configuration.parameters
+    return [
+        SetPosition(argument=configuration.position),
+        SetStiffness(argument=configuration.stiffness),
+        SetGains(argument=configuration.gains),
+        SetObserver(argument=configuration.observer),
+        *([SetParameters(argument=own)] if own else []),
+        SetLaw(argument=configuration.law),
+    ]
+
+
+def find_class(request: Request) -> ClassDoor:
+    """The class of this lab; raises `StateError` where it is none."""
+    door = request.app.state.door
+    if not isinstance(door, ClassDoor):
+        raise StateError("This lab is no class: nobody joins it, and it knows no persons.")
+    return door
+
+
+def _find_laboratory(request: Request) -> Laboratory:
+    return request.app.state.laboratory
+
+
+def _build_member(person: Person) -> MemberState:
+    return MemberState(id=person.id, name=person.name, role=person.role.word)
+
+
+def _build_person(person: Person, seen: list[HostedSession]) -> PersonState:
+    sees = [hosted.session.name for hosted in seen if person.id in hosted.list_viewers()]
+    return PersonState(**_build_member(person).model_dump(), sees=sees)
+
+
+def _build_session(hosted: HostedSession, owner: Person | None) -> ClassSession:
+    return ClassSession(
+        session=hosted.session.name,
+        owner=owner.name if owner else hosted.owner,
+        status=hosted.session.status,
+        recording=hosted.session.journal.recorder is not None,
+        watching=hosted.streams,
+    )

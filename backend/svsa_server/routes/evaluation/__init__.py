@@ -1,0 +1,1 @@
+"""Ranking, studies, falsifications and tunings."""

@@ -1,0 +1,117 @@
+"""Scenarios: keep one by a name, put any laws through it, see it in a session."""
+
+import asyncio
+from typing import Annotated
+
+from fastapi import Body, Path, Request
+from fastapi.responses import Response
+
+from svsa.evaluation.falsifier.file import format_scenario
+from svsa.evaluation.falsifier.kept import (
+    forget_scenario,
+    is_kept,
+    keep_scenario,
+    list_scenarios,
+    open_scenario,
+)
+from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa_server.jobs.scenarios import run_laws
+from svsa_server.problems import UnknownError
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
+from svsa_server.routing import build_router
+from svsa_server.schemas.evaluation.scenario import (
+    KeptScenario,
+    ScenarioRuns,
+    ScenarioSession,
+    ScenarioTraceState,
+    describe_kept,
+)
+from svsa_server.schemas.lab.session import SessionState
+from svsa_server.sessions.state import build_state
+
+router = build_router("/scenarios", tags=["falsifier"], responses=REFUSALS)
+Name = Annotated[
+    str,
+    Path(
+        alias="scenario",
+        description="By which a scenario is kept",
+        pattern=r"^[0-9A-Za-z][0-9A-Za-z_-]{0,63}$",
+        examples=["blow-ndobc"],
+    ),
+]
+_EXAMPLE = {
+    "title": "A blow on the link",
+    "loads": [{"kind": "pulse", "torque_nm": [1.5, 0.0, 0.0], "start_s": 2.0, "duration_s": 0.02}],
+}
+_TOML = {"application/toml": {"schema": {"type": "string"}}}
+
+
+@router.get("")
+def list_kept() -> list[KeptScenario]:
+    """The scenarios that are kept in this lab, by name."""
+    return [describe_kept(name, one) for name, one in list_scenarios().items()]
+
+
+@router.post("/runs", responses=BUSY)
+async def run_scenario(
+    work: Work,
+    wanted: Annotated[ScenarioRuns, Body(examples=[{"scenario": _EXAMPLE, "laws": ["ndobc"]}])],
+) -> ScenarioTraceState:
+    """Put laws through a scenario: what came of each, and its errors over time."""
+    return ScenarioTraceState(**await work.run(run_laws, wanted.scenario, wanted.laws))
+
+
+@router.post("/sessions", status_code=201)
+async def open_scenario_session(
+    request: Request,
+    _: NamedClient,
+    person: NamedPerson,
+    wanted: Annotated[
+        ScenarioSession, Body(examples=[{"scenario": _EXAMPLE, "laws": ["ndobc", "fl"]}])
+    ],
+) -> SessionState:
+    """A private session, running, of laws beside each other in a scenario."""
+    configuration = await asyncio.to_thread(wanted.build_configuration)
+    return build_state(request.app.state.laboratory.create(configuration, person.id))
+
+
+@router.put("/{scenario}")
+def keep(name: Name, wanted: Annotated[LoadScenario, Body(examples=[_EXAMPLE])]) -> KeptScenario:
+    """Keep a scenario by a name, which no other one may have."""
+    keep_scenario(name, wanted)
+    return describe_kept(name, wanted)
+
+
+@router.get("/{scenario}")
+def read_scenario(name: Name) -> KeptScenario:
+    """One that is kept."""
+    return describe_kept(name, _open(name))
+
+
+@router.get(
+    "/{scenario}/file",
+    response_class=Response,
+    responses={200: {"content": _TOML, "description": "The file"}},
+)
+def download_scenario(name: Name) -> Response:
+    """Its file (TOML), through which `svsa falsify run` puts any law."""
+    text = format_scenario(_open(name))
+    named = {"Content-Disposition": f'attachment; filename="{name}.toml"'}
+    return Response(text, media_type="application/toml", headers=named)
+
+
+@router.delete("/{scenario}", status_code=204)
+def forget(name: Name) -> None:
+    """Keep it no longer."""
+    if not forget_scenario(name):
+        raise _refuse(name)
+
+
+def _open(name: str) -> LoadScenario:
+    if not is_kept(name):
+        raise _refuse(name)
+    return open_scenario(name)
+
+
+def _refuse(name: str) -> UnknownError:
+    return UnknownError(f"No scenario is kept as {name} here; GET /scenarios has those there are.")

@@ -1,0 +1,222 @@
+"""Studies: check one, run it as a job, look at its rows, and see any of them as a run."""
+
+import asyncio
+from typing import Annotated
+
+from fastapi import Body, Path, Query, Request
+from fastapi.responses import FileResponse, Response
+
+from svsa.errors import ParameterError, StateError, Violation
+from svsa.evaluation.studies.file import find_study_file, list_built_in
+from svsa.evaluation.studies.metrics import METRICS
+from svsa.evaluation.studies.store import (
+    TABLE_FILE,
+    StoredStudy,
+    StudyError,
+    is_kept,
+    keep_study,
+    list_studies,
+    open_study,
+    read_owner,
+)
+from svsa.evaluation.studies.store import delete_study as discard
+from svsa.evaluation.studies.summary import SUCCEEDED
+from svsa.evaluation.studies.tables import tell_metric
+from svsa.evaluation.studies.work import build_schema
+from svsa_server.access.owned import Owned
+from svsa_server.jobs.queue import Job
+from svsa_server.jobs.studies import decide, replay, run, summarize
+from svsa_server.jobs.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
+from svsa_server.jobs.study_rows import read_row as find_row
+from svsa_server.problems import UnknownError
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
+from svsa_server.routes.evaluation.jobs import find_jobs
+from svsa_server.routing import build_router
+from svsa_server.schemas.evaluation.study import (
+    BuiltInStudy,
+    RowReplay,
+    SobolIndices,
+    StudyList,
+    StudyMetric,
+    StudyPlan,
+    StudyRequest,
+    StudyState,
+    StudySummary,
+    describe_plan,
+    describe_study,
+)
+
+router = build_router("/studies", tags=["studies"], responses=REFUSALS)
+_NAME = Path(description="Name of a kept study", examples=["perturbation"])
+Study = Annotated[str, Owned("study"), _NAME]
+ChangedStudy = Annotated[str, Owned("study", changes=True), _NAME]
+LONGEST_END_S = 60.0
+Row = Annotated[int, Path(ge=0, description="Number of the row")]
+Wanted = Annotated[StudyRequest, Body(examples=[{"source": "load", "runs": 256}])]
+_BINARY = {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}}
+_PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "format": "binary"}}}
+
+
+@router.get("")
+def list_all(request: Request, person: NamedPerson) -> StudyList:
+    """The studies that come with the lab, and those that were begun here, the last one first.
+
+    In a class those that one began oneself, and those that nobody of it did.
+    """
+    seen = [stored for stored in list_studies() if person.may_see(stored.owner)]
+    kept = sorted(seen, key=lambda stored: stored.created, reverse=True)
+    built_in = [
+        BuiltInStudy(name=name, title=title, text=_read_text(name))
+        for name, title in list_built_in().items()
+    ]
+    return StudyList(
+        built_in=built_in,
+        kept=[describe_study(one, _find_job(request, one.name)) for one in kept],
+        metrics=[
+            StudyMetric(name=name, label=tell_metric(name), unit=unit)
+            for name, unit in METRICS.items()
+        ],
+    )
+
+
+@router.post("/check")
+def check_study(person: NamedPerson, wanted: Wanted) -> StudyPlan:
+    """What a study would be; nothing is begun. A wrong text is refused with lines and bounds."""
+    return describe_plan(*wanted.build(person))
+
+
+@router.post("", status_code=201, responses=BUSY)
+async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> StudyState:
+    """Begin a study, or go on with one of this name: a job, that makes no live session late.
+
+    In a class it is one's own and the instructor's, with every run of its rows.
+    """
+    name, study = await asyncio.to_thread(wanted.build, person)
+    owner = await asyncio.to_thread(read_owner, name)
+    if owner is not None and not person.may_change(owner):
+        raise StudyError(f"The name {name} is taken by another study: give yours another name.")
+    await request.app.state.quota.check(person.id)
+    jobs = find_jobs(request)
+    jobs.check_room("study")
+    job = _find_job(request, name)
+    if job is not None and job.is_under_way:
+        raise StateError(f"Study {name} is {job.status} already: cancel it first.")
+    stored = await asyncio.to_thread(keep_study, name, study, owner=person.id)
+    return describe_study(stored, jobs.start("study", study.title, run, stored, person.id))
+
+
+@router.get("/{study}")
+def read_study(request: Request, study: Study) -> StudyState:
+    """A study, how much of it is done, and the job that works at it."""
+    return describe_study(_open(study), _find_job(request, study))
+
+
+@router.delete("/{study}", status_code=204)
+async def delete_study(request: Request, study: ChangedStudy) -> None:
+    """Delete a study with all its rows, for good; one that is being run is cancelled first.
+
+    Runs that were recorded of its rows stay.
+    """
+    stored = await asyncio.to_thread(_open, study)
+    job = _find_job(request, study)
+    if job is not None and job.is_under_way:
+        job.cancel()
+        if not await job.has_ended(LONGEST_END_S):
+            raise StateError(
+                f"Study {study} was cancelled, but rows of it are still being run after"
+                f" {LONGEST_END_S:g} s: delete it later."
+            )
+    await asyncio.to_thread(discard, stored)
+
+
+@router.get("/{study}/summary", responses=BUSY)
+async def summarize_study(work: Work, study: Study) -> StudySummary:
+    """Success, faults and quantiles of each law so far, and the first law less each other one."""
+    return StudySummary(**await work.run(summarize, await asyncio.to_thread(_open, study)))
+
+
+@router.get("/{study}/sensitivity", responses=BUSY)
+async def read_sensitivity(
+    work: Work,
+    study: Study,
+    outcome: Annotated[str, Query(description="succeeded, or a metric")] = SUCCEEDED,
+) -> list[SobolIndices]:
+    """Sobol indices of an outcome under each law; of a study that was drawn for it."""
+    stored = await asyncio.to_thread(_open, study)
+    return [SobolIndices(**one) for one in await work.run(decide, stored, outcome)]
+
+
+@router.get(
+    "/{study}/rows",
+    response_class=Response,
+    responses={200: {"content": _BINARY, "description": "Columns, see the description"}},
+)
+def read_rows(
+    study: Study,
+    column: Annotated[list[str], Query(max_length=40, description="Names of columns")],
+    most: Annotated[int, Query(ge=1, le=MAX_ROWS, description="Rows at most")] = MAX_ROWS,
+) -> Response:
+    """Columns of the rows that are done; of more than `most` so many draws by lot.
+
+    uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with `name`
+    and `labels`), then each column as float64, little-endian, `row` first.
+    """
+    stored = _open(study)
+    known = build_schema(stored.study).names
+    for name in column:
+        if name not in known:
+            raise ParameterError(Violation("column", name, "", "one of " + ", ".join(known)))
+    return Response(pack_rows(stored, column, most), media_type=MEDIA_TYPE)
+
+
+@router.get("/{study}/rows/{row}")
+def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | None]:
+    """One row with every column; null where it has no value."""
+    return find_row(_open(study), row)
+
+
+@router.get(
+    "/{study}/rows.parquet",
+    response_class=FileResponse,
+    responses={200: {"content": _PARQUET, "description": "The table"}},
+)
+def download_rows(study: Study) -> FileResponse:
+    """The whole table as Parquet, once the study was ended or cancelled."""
+    stored = _open(study)
+    table = stored.folder / TABLE_FILE
+    if not table.exists():
+        raise StateError(f"Study {study} has no table yet: it is made when a job of it ends.")
+    # A browser that several people use must ask again: the file has a date and would be kept.
+    asked_again = {"Cache-Control": "no-cache"}
+    media_type = next(iter(_PARQUET))
+    return FileResponse(
+        table, media_type=media_type, filename=f"{study}.parquet", headers=asked_again
+    )
+
+
+@router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY)
+async def replay_row(
+    request: Request, person: NamedPerson, work: Work, study: Study, row: Row
+) -> RowReplay:
+    """Run a row again as a recorded run, with every sample, to be seen in 3D."""
+    await request.app.state.quota.check(person.id)
+    stored = await asyncio.to_thread(_open, study)
+    return RowReplay(**await work.run(replay, stored, row, person.id))
+
+
+def _open(name: str) -> StoredStudy:
+    if "/" in name or "\\" in name or not is_kept(name):
+        raise UnknownError(
+            f"There is no study {name[:80]!r} here; GET /studies has those there are."
+        )
+    return open_study(name)
+
+
+def _find_job(request: Request, name: str) -> Job | None:
+    jobs = find_jobs(request).list_all("study")
+    return next((job for job in jobs if job.asked.name == name), None)
+
+
+def _read_text(name: str) -> str:
+    path = find_study_file(name)
+    return path.read_text(encoding="utf-8") if path else ""

@@ -1,0 +1,79 @@
+"""Arm a bench, home it, and clear its faults; a simulated session refuses."""
+
+import asyncio
+from typing import Annotated
+
+from fastapi import Body
+
+from svsa.errors import StateError
+from svsa.hardware.endurance import find_endurance
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.session.session import Session
+from svsa.simulation.plant.loads import Load
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routing import build_router
+from svsa_server.schemas.hardware.bench import EnduranceState, HomingRequest
+from svsa_server.schemas.lab.session import SessionState
+from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.state import build_state
+
+router = build_router(
+    "/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=TurnRoute
+)
+
+
+@router.post("/arm")
+def arm(hosted: NamedSession) -> SessionState:
+    """Reset the drives and bring them to current mode, in about a second: OFF → READY."""
+    _find_bench(hosted.session).arm()
+    return build_state(hosted)
+
+
+@router.post("/home")
+def confirm_home(
+    hosted: NamedSession,
+    request: Annotated[HomingRequest, Body(examples=[{"step": "link", "by": "Ada"}])],
+) -> SessionState:
+    """Confirm that an axis stands at its zero mark; the state tells the next step."""
+    _find_bench(hosted.session).confirm_home(request.step, request.by)
+    return build_state(hosted)
+
+
+@router.post("/clear")
+def clear_fault(hosted: NamedSession) -> SessionState:
+    """Clear a latched fault: FAULT → OFF; it must be armed again."""
+    _find_bench(hosted.session).clear()
+    return build_state(hosted)
+
+
+@router.post("/restart")
+def restart_loop(hosted: NamedSession) -> SessionState:
+    """End loop and supervisor, by force where they do not listen, and start both anew, in seconds.
+
+    The way back from a loop that is silent or gone; refused while the bench moves.
+    """
+    _find_bench(hosted.session).restart()
+    return build_state(hosted)
+
+
+@router.post("/endurance")
+async def foretell_heat(
+    hosted: NamedSession,
+    load: Annotated[Load, Body(examples=[{"kind": "paper"}])],
+) -> EnduranceState | None:
+    """The motor that is too warm for this load within 30 s, and when; null where neither is.
+
+    As the bench is set now, beside the loads that are on; worked out on its simulated twin with the
+    motors cold. Nothing is changed.
+    """
+    session = _find_bench(hosted.session)
+    run = session.run
+    on = [held.load for held in run.loads if held.is_on(run.tick)]
+    found = await asyncio.to_thread(find_endurance, session.bench, run.configuration, [*on, load])
+    return found and EnduranceState(**found._asdict())
+
+
+def _find_bench(session: Session) -> BenchSession:
+    if not isinstance(session, BenchSession):
+        raise StateError(f"Session {session.name} is simulated: there is no bench behind it.")
+    return session

@@ -1,0 +1,1 @@
+"""The session: settings, references, loads, design and recording."""

@@ -1,0 +1,76 @@
+"""Identify the actuator: play the excitation, and believe in what came of it."""
+
+from typing import Annotated
+
+from fastapi import Body, Depends, Request
+
+from svsa.runs.command import SetNominal, SetParameters
+from svsa.runs.configuration import PROTOTYPE_FILE, parse_design
+from svsa_server.routes.depends import (
+    CHANGED,
+    REFUSALS,
+    NamedPerson,
+    NamedSession,
+    check_unchanged,
+)
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.session import SessionState
+from svsa_server.schemas.lab.setting import ParameterFileRequest
+from svsa_server.schemas.runs.recording import ExcitationRequest
+from svsa_server.sessions.excitation import TAG
+from svsa_server.sessions.lock import TurnRoute, take_turn
+from svsa_server.sessions.state import build_state
+
+router = build_router(
+    "/sessions/{session}", tags=["identification"], responses=REFUSALS, route_class=TurnRoute
+)
+
+
+@router.post("/excitation", status_code=201)
+async def excite(
+    request: Request,
+    hosted: NamedSession,
+    person: NamedPerson,
+    wanted: Annotated[ExcitationRequest, Body(examples=[{"name": "Identification"}])],
+) -> SessionState:
+    """Play the identification excitation from now on and record it, 32 s; starts what is paused.
+
+    Slow and fast, soft and stiff: what `svsa identify` needs. Only without loads. It ends by
+    itself, and with it the recording; a reference of your own breaks it off.
+    """
+    hosted.check_excitable()
+    await request.app.state.quota.check(person.id)
+    if hosted.session.status != "running":
+        await take_turn(hosted.session.start)
+    await request.app.state.recordings.start(
+        hosted.session, wanted.name, (TAG,), "", owner=person.id
+    )
+    hosted.begin_excitation()
+    return build_state(hosted)
+
+
+@router.delete("/excitation")
+async def stop_excitation(hosted: NamedSession) -> SessionState:
+    """Break the excitation off, and end its recording; the references stay as they are."""
+    hosted.end_excitation()
+    return build_state(hosted)
+
+
+@router.put("/nominal", responses=CHANGED, dependencies=[Depends(check_unchanged)])
+def load_nominal(
+    hosted: NamedSession,
+    request: Annotated[
+        ParameterFileRequest, Body(examples=[{"toml": PROTOTYPE_FILE.read_text("utf-8")}])
+    ],
+) -> SessionState:
+    """Take the nominal model of a parameter file (TOML), and the parameters of laws in it.
+
+    Gains, observer, the true plant and limits stay as they are.
+    """
+    design = parse_design(request.toml)
+    hosted.session.set(SetNominal(argument=design.nominal))
+    if design.parameters:
+        hosted.session.patch(
+            lambda run: SetParameters(argument={**run.parameters, **design.parameters})
+        )
+    return build_state(hosted)

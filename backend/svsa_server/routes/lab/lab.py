@@ -1,0 +1,48 @@
+"""The lab itself: health, the laws, the paper's figures."""
+
+from fastapi import Request
+
+import svsa
+from svsa.runs.paper import FIGURES
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.lab import FigureState, Health
+from svsa_server.schemas.lab.law import LawState, list_laws
+from svsa_server.sessions.laboratory import SHARED_SESSION
+from svsa_server.sessions.lock import TurnRoute
+
+router = build_router(tags=["lab"], route_class=TurnRoute)
+
+
+@router.get("/health")
+async def read_health() -> Health:
+    """That the server lives, and its version."""
+    return Health(version=svsa.__version__)
+
+
+@router.post("/emergency-stop", status_code=204, deprecated=True, operation_id="emergency_stop_lab")
+@router.post("/quick-stop", status_code=204)
+def quick_stop_lab(request: Request) -> None:
+    """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
+    laboratory = request.app.state.laboratory
+    laboratory.get(SHARED_SESSION).session.quick_stop()
+
+
+@router.get("/laws")
+async def read_laws() -> list[LawState]:
+    """The control laws that are installed, the paper's first, each with its own parameters."""
+    return list_laws()
+
+
+@router.get("/figures")
+async def list_figures() -> list[FigureState]:
+    """The paper's simulated figures as data."""
+    return [
+        FigureState(
+            key=figure.key,
+            title=figure.title,
+            position=figure.position,
+            stiffness=figure.stiffness,
+            claim=figure.claim,
+        )
+        for figure in FIGURES.values()
+    ]

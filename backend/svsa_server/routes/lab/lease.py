@@ -1,0 +1,65 @@
+"""Take control of a session, wait for it, hand it over, and give it back."""
+
+from typing import Annotated
+
+from fastapi import Body
+
+from svsa.errors import ParameterError, Violation
+from svsa_server.leases.lease import CLIENT_HEADER, Holder
+from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.lease import ControlRequest, HandoverRequest, LockRequest
+from svsa_server.schemas.lab.session import SessionState
+from svsa_server.sessions.state import build_state
+
+router = build_router("/sessions/{session}/control", tags=["control"], responses=REFUSALS)
+
+
+@router.put("")
+async def take_control(
+    hosted: NamedSession,
+    client: NamedClient,
+    person: NamedPerson,
+    request: Annotated[ControlRequest, Body(examples=[{"by": "Ada"}])],
+) -> SessionState:
+    """Only the client that SVSA-Client names may command from now on; all may pause and stop.
+
+    Where another client is in control, only with `take_over`. Control ends by itself some time
+    after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
+
+    In a class one asks for the shared session by it, under the name that one has joined with, and
+    waits in `queue` where it is not free; `take_over` is the instructor's. Control goes on to who
+    waits when its holder gives no command for SVSA_IDLE_OPERATOR_S (90 s). A bench ramps down
+    before it is handed on.
+    """
+    if client is None:
+        raise ParameterError(Violation(CLIENT_HEADER, None, "", "given, to know you again"))
+    hosted.take_control(Holder(client, person.name or request.by), request.take_over)
+    return build_state(hosted)
+
+
+@router.delete("")
+async def give_control_back(hosted: NamedSession, client: NamedClient) -> SessionState:
+    """Everybody may command again; in a class who waits first, or one waits no longer."""
+    hosted.give_control_back(client)
+    return build_state(hosted)
+
+
+@router.post("/handover")
+async def hand_control_over(
+    hosted: NamedSession,
+    client: NamedClient,
+    request: Annotated[HandoverRequest, Body(examples=[{"to": "p-0123456789ab"}])],
+) -> SessionState:
+    """Give control to one of those who wait for it in a class; its holder or an instructor does."""
+    hosted.hand_control_over(client, request.to)
+    return build_state(hosted)
+
+
+@router.put("/lock")
+async def lock_control(
+    hosted: NamedSession, request: Annotated[LockRequest, Body(examples=[{"locked": True}])]
+) -> SessionState:
+    """The instructor locks control: whoever had it is first to get it back when it is unlocked."""
+    hosted.lock_control(request.locked)
+    return build_state(hosted)

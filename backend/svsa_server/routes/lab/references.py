@@ -1,0 +1,116 @@
+"""References before they are followed: read from a CSV, looked at, and nothing changed."""
+
+import asyncio
+from typing import Annotated, Literal
+
+import numpy as np
+from fastapi import Body
+from pydantic import BaseModel, Field, computed_field
+
+from svsa.simulation.reference.preview import sample_reference
+from svsa.simulation.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness
+from svsa.simulation.reference.series_csv import parse_series
+from svsa.simulation.reference.trajectories import (
+    PositionReference,
+    StiffnessReference,
+    Trajectory,
+    get_range,
+)
+from svsa_server.routes.depends import REFUSALS
+from svsa_server.routing import build_router
+
+router = build_router("/references", tags=["references"], responses={422: REFUSALS[422]})
+
+
+class PositionSeries(BaseModel):
+    """A CSV with angles, as `PUT …/position` takes it."""
+
+    follows: Literal["position"] = "position"
+    reference: SeriesPosition
+
+
+class StiffnessSeries(BaseModel):
+    """A CSV with stiffness, as `PUT …/stiffness` takes it."""
+
+    follows: Literal["stiffness"] = "stiffness"
+    reference: SeriesStiffness
+
+
+Series = Annotated[PositionSeries | StiffnessSeries, Field(discriminator="follows")]
+
+
+class ReferencePreview(BaseModel):
+    """A reference by itself, in SI units: its course, and the greatest of its derivatives."""
+
+    time_s: list[float]
+    value: list[float] = Field(description="rad or N·m/rad")
+    low: float = Field(description="Least value")
+    high: float = Field(description="Greatest value")
+    peak_rate: float = Field(description="Greatest |first derivative|, rad/s or N·m/rad/s")
+
+    @computed_field(description="Now `low`", json_schema_extra={"deprecated": True})
+    @property
+    def least(self) -> float:
+        """`low`, as it was called."""
+        return self.low
+
+    @computed_field(description="Now `high`", json_schema_extra={"deprecated": True})
+    @property
+    def greatest(self) -> float:
+        """`high`, as it was called."""
+        return self.high
+
+
+@router.post("/csv")
+async def read_csv(
+    text: Annotated[
+        str,
+        Body(
+            media_type="text/csv",
+            description=f"time_s and position_rad, position_deg or stiffness_nm_per_rad; 2 to"
+            f" {MAX_ROWS} rows below this head",
+            examples=["time_s,position_deg\n0,0\n1,30\n2,0\n"],
+        ),
+    ],
+) -> Series:
+    """The series in a CSV; what is wrong in it is named with its row."""
+    series = await asyncio.to_thread(parse_series, text)
+    if isinstance(series, SeriesPosition):
+        return PositionSeries(reference=series)
+    return StiffnessSeries(reference=series)
+
+
+@router.post("/position/preview")
+async def preview_position(
+    reference: Annotated[
+        PositionReference,
+        Body(examples=[{"kind": "minimum_jerk", "end_rad": 0.5, "duration_s": 1.0}]),
+    ],
+) -> ReferencePreview:
+    """What a reference of position would ask for, before it is followed."""
+    return await asyncio.to_thread(_preview, reference)
+
+
+@router.post("/stiffness/preview")
+async def preview_stiffness(
+    reference: Annotated[
+        StiffnessReference,
+        Body(
+            examples=[{"kind": "steps", "time_s": [0.0, 2.0], "stiffness_nm_per_rad": [15.0, 60.0]}]
+        ),
+    ],
+) -> ReferencePreview:
+    """What a reference of stiffness would ask for, before it is followed."""
+    return await asyncio.to_thread(_preview, reference)
+
+
+def _preview(reference: Trajectory) -> ReferencePreview:
+    times, values = sample_reference(reference)
+    low, high = get_range(reference)
+    return ReferencePreview(
+        time_s=times.tolist(),
+        value=values[:, 0].tolist(),
+        low=low,
+        high=high,
+        peak_rate=float(np.abs(values[:, 1]).max()),
+    )

@@ -1,0 +1,150 @@
+"""Read a session, and run it: start, pause, reset, step, speed, figure, stream."""
+
+from typing import Annotated
+
+from fastapi import Body, Request, WebSocket
+from fastapi.responses import JSONResponse
+
+from svsa_server.openapi import UPGRADED
+from svsa_server.problems import Problem, answer_problem
+from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.session import (
+    ExperimentRequest,
+    SessionRequest,
+    SessionState,
+    SpeedRequest,
+    StepRequest,
+)
+from svsa_server.schemas.lab.stream import StreamMessage, describe_stream, list_stream_parameters
+from svsa_server.sessions.cursor import BATCH_PERIOD_S
+from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.stream import stream_session
+
+router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
+
+
+@router.get("")
+async def list_sessions(
+    request: Request, _: NamedClient, person: NamedPerson
+) -> list[SessionState]:
+    """Every session of this server; in a class the shared one and one's own."""
+    hosted = request.app.state.laboratory.sessions.values()
+    return [build_state(one) for one in hosted if person.may_see(one.owner)]
+
+
+@router.post("", status_code=201)
+async def create_session(
+    request: Request,
+    person: NamedPerson,
+    wanted: Annotated[SessionRequest, Body(examples=[{"figure": "4a", "rivals": [{"law": "fl"}]}])],
+) -> SessionState:
+    """A private simulated session, running; it ends by itself when nobody uses it."""
+    configuration = wanted.build_configuration(request.app.state.design)
+    return build_state(request.app.state.laboratory.create(configuration, person.id))
+
+
+@router.delete("/{session}", status_code=204)
+async def end_session(request: Request, hosted: NamedSession) -> None:
+    """End a private session."""
+    request.app.state.laboratory.end(hosted.session.name)
+
+
+@router.get("/{session}")
+async def read_session(hosted: NamedSession) -> SessionState:
+    """Where a session is, how it is set, and how well it does."""
+    return build_state(hosted)
+
+
+@router.post("/{session}/start")
+def start(hosted: NamedSession) -> SessionState:
+    """Run on from where it is."""
+    hosted.session.start()
+    return build_state(hosted)
+
+
+@router.post("/{session}/pause")
+def pause(hosted: NamedSession) -> SessionState:
+    """Stop time; nothing is lost."""
+    hosted.session.pause()
+    return build_state(hosted)
+
+
+@router.post("/{session}/emergency-stop", deprecated=True, operation_id="emergency_stop")
+@router.post("/{session}/quick-stop")
+def quick_stop(hosted: NamedSession) -> SessionState:
+    """Zero current at once on a bench, latched until cleared; a simulation pauses.
+
+    Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
+    """
+    hosted.session.quick_stop()
+    return build_state(hosted)
+
+
+@router.post("/{session}/reset")
+def reset(hosted: NamedSession) -> SessionState:
+    """Begin again at t = 0 with everything as it is set now, after a fault too."""
+    hosted.session.reset()
+    return build_state(hosted)
+
+
+@router.post("/{session}/step")
+def step(
+    hosted: NamedSession, request: Annotated[StepRequest, Body(examples=[{"ticks": 1}])]
+) -> SessionState:
+    """Run some ticks while paused."""
+    hosted.session.step(request.ticks)
+    return build_state(hosted)
+
+
+@router.put("/{session}/speed")
+def set_speed(
+    hosted: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
+) -> SessionState:
+    """Slow motion or fast forward."""
+    hosted.session.set_speed(float("inf") if request.factor == "max" else request.factor)
+    return build_state(hosted)
+
+
+@router.post("/{session}/experiment")
+def load_experiment(
+    request: Request,
+    hosted: NamedSession,
+    wanted: Annotated[
+        ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])
+    ],
+) -> SessionState:
+    """Begin one of the paper's figures at t = 0, with its load at 5 s unless told not to.
+
+    What is set comes from the figure; lanes and effects from the request. A bench has its own.
+    """
+    hosted.session.load(wanted.build_configuration(request.app.state.design))
+    if wanted.start:
+        hosted.session.start()
+    else:
+        hosted.session.pause()
+    return build_state(hosted)
+
+
+@router.get(
+    "/{session}/stream",
+    tags=["stream"],
+    status_code=426,
+    operation_id="stream_session",
+    response_model=Problem,
+    response_description="This is a WebSocket",
+    description=describe_stream(BATCH_PERIOD_S),
+    responses={UPGRADED: {"model": StreamMessage, "description": "The text messages"}},
+    openapi_extra={"parameters": list_stream_parameters()},
+)
+async def describe(_: NamedSession) -> JSONResponse:
+    """The stream beside REST: who asks without a WebSocket is told that it is one."""
+    headers = {"Upgrade": "websocket", "Connection": "Upgrade"}
+    return answer_problem(426, "websocket", "This is a WebSocket; see /docs.", headers)
+
+
+@router.websocket("/{session}/stream")
+async def stream(websocket: WebSocket, hosted: NamedSession, person: NamedPerson) -> None:
+    """Samples as they come; see `stream_schemas` for the format."""
+    await stream_session(websocket, hosted, person)

@@ -1,0 +1,258 @@
+"""Set what a session follows, how it is controlled, and what it is made of.
+
+What is set already changes nothing when it is sent again: no fade, no event, no new window.
+"""
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+from fastapi import Body, Depends, Path
+
+from svsa.actuators.parameters import ActuatorParameters
+from svsa.control.installed import check_installed, read_parameters
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.parameters import LawParameters
+from svsa.errors import ParameterError
+from svsa.inputs.checked import Checked
+from svsa.runs.command import (
+    SetActuator,
+    SetEffects,
+    SetGains,
+    SetLane,
+    SetLaw,
+    SetLaws,
+    SetNominal,
+    SetObserver,
+    SetParameters,
+    SetPosition,
+    SetRivals,
+    SetStiffness,
+)
+from svsa.runs.configuration import LaneSetting
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.gain import GainsRequest
+from svsa_server.schemas.lab.law import InstalledLane
+from svsa_server.schemas.lab.session import SessionState
+from svsa_server.schemas.lab.setting import LanesRequest, LawRequest, build_patch
+from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.state import build_state
+
+router = build_router(
+    "/sessions/{session}",
+    tags=["settings"],
+    responses=REFUSALS | CHANGED,
+    route_class=TurnRoute,
+    dependencies=[Depends(check_unchanged)],
+)
+
+if TYPE_CHECKING:
+    ActuatorPatch = Checked
+    NominalPatch = Checked
+else:
+    ActuatorPatch = build_patch("actuator", ActuatorParameters)
+    NominalPatch = build_patch("nominal", ActuatorParameters)
+
+
+@router.put("/position")
+def set_position(
+    hosted: NamedSession,
+    reference: Annotated[
+        PositionReference,
+        Body(
+            examples=[
+                {"kind": "sine", "amplitude_rad": 1.0472, "frequency_hz": 0.2},
+                {"kind": "constant", "position_rad": 0.5, "transition_s": 2.0},
+            ]
+        ),
+    ],
+) -> SessionState:
+    """Follow another position reference, faded over without a jump in any derivative."""
+    hosted.session.set(SetPosition(argument=reference))
+    return build_state(hosted)
+
+
+@router.post("/position/repeat")
+def repeat_position(hosted: NamedSession) -> SessionState:
+    """Begin the present position reference again, faded over as another one would be."""
+    hosted.session.change(SetPosition(argument=hosted.session.run.configuration.position))
+    return build_state(hosted)
+
+
+@router.put("/stiffness")
+def set_stiffness(
+    hosted: NamedSession,
+    reference: Annotated[
+        StiffnessReference,
+        Body(
+            examples=[
+                {"kind": "constant", "stiffness_nm_per_rad": 60.0},
+                {
+                    "kind": "sine",
+                    "offset_nm_per_rad": 35.0,
+                    "amplitude_nm_per_rad": 1.0,
+                    "frequency_hz": 0.2,
+                },
+            ]
+        ),
+    ],
+) -> SessionState:
+    """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
+    hosted.session.set(SetStiffness(argument=reference))
+    return build_state(hosted)
+
+
+@router.post("/stiffness/repeat")
+def repeat_stiffness(hosted: NamedSession) -> SessionState:
+    """Begin the present stiffness reference again, faded over as another one would be."""
+    hosted.session.change(SetStiffness(argument=hosted.session.run.configuration.stiffness))
+    return build_state(hosted)
+
+
+@router.put("/law")
+def set_law(
+    hosted: NamedSession,
+    request: Annotated[
+        LawRequest, Body(examples=[{"law": "fl"}, {"law": "fl", "rival_laws": ["ndobc"]}])
+    ],
+) -> SessionState:
+    """Control with another law, and the lanes beside too, each from where its plant is."""
+    if request.rival_laws:
+        hosted.session.set(SetLaws(argument=(request.law, *request.rival_laws)))
+    else:
+        hosted.session.set(SetLaw(argument=request.law))
+    return build_state(hosted)
+
+
+@router.put("/gains")
+def set_gains(
+    hosted: NamedSession,
+    request: Annotated[
+        GainsRequest,
+        Body(
+            examples=[
+                {"position_poles_rad_per_s": [-60, -60, [-40, 30], [-40, -30]]},
+                {"stiffness_coefficients": [1600.0, 80.0]},
+            ]
+        ),
+    ],
+) -> SessionState:
+    """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
+    hosted.session.patch(lambda run: SetGains(argument=request.apply_to(run.gains)))
+    return build_state(hosted)
+
+
+@router.put("/parameters")
+def set_parameters(
+    hosted: NamedSession,
+    request: Annotated[
+        dict[str, dict[str, Any]],
+        Body(examples=[{"fl_integral": {"position_pole_rad_per_s": 54.6}}]),
+    ],
+) -> SessionState:
+    """New parameters of laws that have their own, by the law's name (see `GET /laws`).
+
+    What is left out stays.
+    """
+    hosted.session.patch(lambda run: SetParameters(argument=_merge(run.parameters, request)))
+    return build_state(hosted)
+
+
+@router.put("/observer")
+def set_observer(
+    hosted: NamedSession,
+    request: Annotated[
+        ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [80.0, 80.0, 80.0]}])
+    ],
+) -> SessionState:
+    """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
+    hosted.session.set(SetObserver(argument=request))
+    return build_state(hosted)
+
+
+@router.patch("/actuator")
+def change_actuator(
+    hosted: NamedSession,
+    patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0206}])],
+) -> SessionState:
+    """Change parameters of the true plant."""
+    hosted.session.patch(lambda run: SetActuator(argument=_apply(patch, run.actuator)))
+    return build_state(hosted)
+
+
+@router.patch("/nominal")
+def change_nominal(
+    hosted: NamedSession,
+    patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
+) -> SessionState:
+    """Change parameters of the model that controller and observer believe in."""
+    hosted.session.patch(lambda run: SetNominal(argument=_apply(patch, run.nominal)))
+    return build_state(hosted)
+
+
+@router.put("/effects")
+def set_effects(
+    hosted: NamedSession,
+    effects: Annotated[
+        Effects,
+        Body(examples=[{"encoders": {}, "estimation": {}, "delay_samples": 1}, {}]),
+    ],
+) -> SessionState:
+    """Switch on what separates the simulation from a bench; what is left out is off."""
+    hosted.session.set(SetEffects(argument=effects))
+    return build_state(hosted)
+
+
+@router.put("/lanes")
+def set_lanes(
+    hosted: NamedSession,
+    request: Annotated[LanesRequest, Body(examples=[{"rivals": [{"law": "fl"}]}, {"rivals": []}])],
+) -> SessionState:
+    """Run other controllers beside the session's own: same references, loads and noise."""
+    hosted.session.set(SetRivals(argument=request.rivals))
+    return build_state(hosted)
+
+
+@router.put("/lanes/{lane}")
+def set_lane(
+    hosted: NamedSession,
+    lane: Annotated[int, Path(description="Number of a lane beside lane 1", examples=[2])],
+    request: Annotated[
+        InstalledLane,
+        Body(
+            examples=[
+                {"law": "fl_integral", "parameters": {"position_pole_rad_per_s": 40.0}},
+                {"law": "fl"},
+            ]
+        ),
+    ],
+) -> SessionState:
+    """Control one lane beside the session's own otherwise; its plant stays where it is.
+
+    What is left out is the session's. The same law goes on with what it remembers.
+    """
+    hosted.session.set(SetLane(argument=LaneSetting(lane=lane, setting=request)))
+    return build_state(hosted)
+
+
+def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:
+    return actuator.changed(**patch.model_dump(exclude_unset=True))
+
+
+def _merge(
+    held: dict[str, LawParameters], given: dict[str, dict[str, Any]]
+) -> dict[str, LawParameters]:
+    """The parameters held, by law, with the given ones; what is left out stays."""
+    changed = dict(held)
+    for law, values in given.items():
+        try:
+            check_installed(law)
+        except ParameterError as error:
+            raise error.within("law") from None
+        kept = held[law].model_dump() if law in held else {}
+        try:
+            changed[law] = read_parameters(law, kept | values)
+        except ParameterError as error:
+            raise error.within(law) from None
+    return changed

@@ -1,0 +1,182 @@
+"""Theorem 1 for gains that are tried: nothing here changes the session that is asked about."""
+
+import asyncio
+import math
+from collections.abc import Sequence
+from typing import Annotated, Literal
+
+import numpy as np
+from fastapi import Body, Request
+
+from svsa.analysis.design.attraction import Cell, Fate, build_map, find_fates, order_cells
+from svsa.analysis.design.frequency import FrequencyResponse, compute_disturbance_response
+from svsa.analysis.design.loop_noise import choose_sensing
+from svsa.analysis.design.response import LoadResponse, simulate_load
+from svsa.analysis.design.robustness import MAX_RATIO, MIN_RATIO
+from svsa.analysis.design.sampled_loop import linearize_tick
+from svsa.analysis.design.stability import Stability, assess
+from svsa.control.installed import get_law
+from svsa.runs.configuration import Configuration
+from svsa.simulation.plant.loads import PaperLoad
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Work
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.gain import Root
+from svsa_server.schemas.lab.session import SessionState
+from svsa_server.schemas.lab.stability import (
+    DesignRequest,
+    FateState,
+    FrequencyResponseState,
+    LoadResponseState,
+    RegionRequest,
+    RegionState,
+    ResponseState,
+    StabilityState,
+    StableRangeState,
+)
+from svsa_server.sessions.state import build_state
+from svsa_server.sessions.tried_design import build_tried
+
+LOAD_POINTS = 250
+FAILURE_LOAD_S = 1.0
+
+router = build_router("/sessions/{session}/design", tags=["settings"], responses=REFUSALS | BUSY)
+_POLES = {"gains": {"position_poles_rad_per_s": [-60, -60, -60, -60]}}
+Tried = Annotated[DesignRequest, Body(examples=[_POLES])]
+
+
+@router.post("/response")
+async def respond(hosted: NamedSession, request: Tried) -> ResponseState:
+    """What this design does when the 3 kg come, and to a sine on the link; nothing is changed."""
+    configuration, sigma = build_tried(hosted.session, request)
+    load = await asyncio.to_thread(simulate_load, configuration, sigma)
+    found = await asyncio.to_thread(compute_disturbance_response, configuration, sigma)
+    encoders = _name_encoders(configuration)
+    radius = found.radius
+    if encoders == "rig":
+        radius = await asyncio.to_thread(_compute_sensed_radius, configuration, sigma)
+    return ResponseState(
+        law=configuration.law,
+        stiffness_nm_per_rad=sigma,
+        load=_build_load(load),
+        disturbance=_build_frequency(found) if found.is_stable else None,
+        largest_pole=radius,
+        encoders=encoders,
+    )
+
+
+@router.post("/stability")
+async def show_stability(hosted: NamedSession, work: Work, request: Tried) -> StabilityState:
+    """Theorem 1 for this design about rest; nothing is changed.
+
+    The closed loop's poles with the true plant, for how wrong a model it stays stable, what a
+    disturbance that changes costs, and how fast the observer may be.
+    """
+    configuration, sigma = build_tried(hosted.session, request)
+    found, radius = await work.run(_assess, configuration, sigma)
+    return _build_stability(configuration, sigma, found, radius)
+
+
+@router.post("/region")
+async def map_attraction(
+    hosted: NamedSession,
+    work: Work,
+    request: Annotated[RegionRequest, Body(examples=[{"starts": 31, "first": 0, "count": 100}])],
+) -> RegionState:
+    """From which positions and velocities this design comes to rest, a part of the map at once.
+
+    The starts come from coarse to fine, so that the first parts tell the shape.
+    """
+    configuration, sigma = build_tried(hosted.session, request)
+    sensing = configuration.changed(effects=choose_sensing(configuration.effects))
+    starts, end = build_map(request.starts), request.first + request.count
+    cells = order_cells(request.starts)[request.first : end]
+    fates = await work.run(_find_part, sensing, sigma, request.starts, cells)
+    return RegionState(
+        law=configuration.law,
+        stiffness_nm_per_rad=sigma,
+        encoders=_name_encoders(configuration),
+        positions_rad=starts.positions.tolist(),
+        velocities_rad_per_s=starts.velocities.tolist(),
+        fates=[
+            FateState(row=cell.row, column=cell.column, outcome=fate.outcome, after_s=fate.after_s)
+            for cell, fate in fates
+        ],
+        next=end if end < request.starts**2 else None,
+    )
+
+
+@router.post("/simulation", status_code=201)
+async def simulate_design(
+    asked: Request, hosted: NamedSession, person: NamedPerson, request: Tried
+) -> SessionState:
+    """A private simulated session with this design, stable or not; the 3 kg come after 1 s.
+
+    It is a simulation also where a bench is asked about, and the session asked stays as it is.
+    """
+    configuration, _ = build_tried(hosted.session, request)
+    load = PaperLoad(start_s=FAILURE_LOAD_S)
+    shown = configuration.changed(loads=(load,), rivals=())
+    return build_state(asked.app.state.laboratory.create(shown, person.id))
+
+
+def _assess(configuration: Configuration, sigma: float) -> tuple[Stability, float]:
+    return assess(configuration, sigma), _compute_sensed_radius(configuration, sigma)
+
+
+def _compute_sensed_radius(configuration: Configuration, sigma: float) -> float:
+    sensing = configuration.changed(effects=choose_sensing(configuration.effects))
+    return linearize_tick(sensing, sigma).radius
+
+
+def _find_part(
+    configuration: Configuration, sigma: float, count: int, cells: Sequence[Cell]
+) -> list[tuple[Cell, Fate]]:
+    return list(find_fates(configuration, sigma, build_map(count), cells))
+
+
+def _name_encoders(configuration: Configuration) -> Literal["session", "rig"]:
+    return "session" if configuration.effects.encoders is not None else "rig"
+
+
+def _build_load(found: LoadResponse) -> LoadResponseState:
+    stride = max(1, len(found.time) // LOAD_POINTS)
+    return LoadResponseState(
+        time_s=found.time[::stride].tolist(),
+        position_error_rad=found.error[::stride].tolist(),
+        peak_error_rad=float(np.max(np.abs(found.error), initial=0.0)),
+        fault=found.fault or None,
+    )
+
+
+def _build_frequency(found: FrequencyResponse) -> FrequencyResponseState:
+    return FrequencyResponseState(
+        frequency_hz=found.frequency.tolist(), magnitude_rad_per_nm=found.magnitude.tolist()
+    )
+
+
+def _build_stability(
+    configuration: Configuration, sigma: float, found: Stability, radius: float
+) -> StabilityState:
+    loop, gain = found.loop, found.gain
+    return StabilityState(
+        law=configuration.law,
+        stiffness_nm_per_rad=sigma,
+        poles_rad_per_s=[Root(re=s.real, im=s.imag) for s in loop.poles.tolist()],
+        slowest_rad_per_s=loop.slowest,
+        least_damping=loop.least_damping,
+        largest_pole=radius,
+        ranges=[StableRangeState(**one._asdict()) for one in found.ranges],
+        least_ratio=MIN_RATIO,
+        greatest_ratio=MAX_RATIO,
+        ramp_gain_rad_s_per_nm=_finite(gain.ramp),
+        worst_gain_rad_s_per_nm=_finite(gain.worst),
+        formula_rad_s_per_nm=found.formula,
+        floor_rad_s_per_nm=found.floor,
+        is_observed=get_law(configuration.law).estimate == "observer",
+        fastest_observer_rad_per_s=found.fastest_observer,
+        encoders=_name_encoders(configuration),
+    )
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

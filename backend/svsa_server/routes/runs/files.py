@@ -1,0 +1,92 @@
+"""What takes seconds to make of a recorded run: exports, the replay page, a comparison."""
+
+import asyncio
+import os
+from collections.abc import Iterator, Mapping
+from functools import partial
+from typing import IO, Annotated, Any
+
+from fastapi import Query
+from fastapi.responses import StreamingResponse
+
+from svsa.runs.records.export.formats import EXPORT_KINDS, build_file_name, get_kind
+from svsa.runs.records.resimulation import Comparison, check_simulated
+from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
+from svsa_server.routing import build_router
+from svsa_server.runs.work import compare, write_export, write_replay
+from svsa_server.schemas.runs.run import ExportName
+
+CHUNK_BYTES = 1 << 18
+REPLAY_AGE_S = 600
+_FILES = {
+    kind.media_type.partition(";")[0]: {"schema": {"type": "string", "format": "binary"}}
+    for kind in EXPORT_KINDS.values()
+}
+PAGE: dict[int | str, dict[str, Any]] = {
+    200: {"content": {"text/html": {"schema": {"type": "string"}}}, "description": "The page"}
+}
+router = build_router(tags=["runs"], responses=REFUSALS | BUSY)
+
+
+@router.get(
+    "/runs/{run_id}/export",
+    response_class=StreamingResponse,
+    responses={200: {"content": _FILES, "description": "The file"}},
+)
+async def export_run(
+    runs: Runs,
+    work: Work,
+    run_id: RunId,
+    kind: Annotated[ExportName, Query(description="Format of the file")],
+) -> StreamingResponse:
+    """The run as a file of another program."""
+    record = await asyncio.to_thread(runs.open, run_id)
+    file = await work.write(partial(write_export, kind), runs.find_folder(run_id))
+    name = build_file_name(record, kind)
+    return _send(
+        file, get_kind(kind).media_type, {"Content-Disposition": f'attachment; filename="{name}"'}
+    )
+
+
+@router.get("/runs/{run_id}/replay", response_class=StreamingResponse, responses=PAGE)
+async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
+    """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
+    file = await work.write(write_replay, await asyncio.to_thread(runs.find_folder, run_id))
+    return send_page(file)
+
+
+@router.get("/runs/{run_id}/replay.html", response_class=StreamingResponse, responses=PAGE)
+async def download_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
+    """The run as one page with 3D replay and plots together; opens from a file, offline."""
+    record = await asyncio.to_thread(runs.open, run_id)
+    file = await work.write(write_replay, runs.find_folder(run_id))
+    name = f"{record.header.run_id}.html"
+    return _send(file, "text/html", {"Content-Disposition": f'attachment; filename="{name}"'})
+
+
+@router.post("/runs/{run_id}/compare")
+async def compare_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
+    """Simulate a run again from its record alone and compare every bit."""
+    check_simulated(await asyncio.to_thread(runs.open, run_id))
+    return await work.run(compare, runs.find_folder(run_id))
+
+
+def send_page(file: IO[bytes]) -> StreamingResponse:
+    """A replay's page, to be looked at in place; a browser keeps it for the person who got it."""
+    kept = {"Cache-Control": f"private, max-age={REPLAY_AGE_S}", "Vary": "Cookie, Authorization"}
+    return _send(file, "text/html", kept)
+
+
+def _send(file: IO[bytes], media_type: str, headers: Mapping[str, str]) -> StreamingResponse:
+    size = os.fstat(file.fileno()).st_size
+    return StreamingResponse(
+        _read_chunks(file),
+        headers={**headers, "Content-Length": str(size)},
+        media_type=media_type,
+    )
+
+
+def _read_chunks(file: IO[bytes]) -> Iterator[bytes]:
+    with file:
+        while chunk := file.read(CHUNK_BYTES):
+            yield chunk

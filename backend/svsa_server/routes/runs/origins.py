@@ -1,0 +1,81 @@
+"""What decides the samples of a run, live or recorded: enough to do it again in a script."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from fastapi import Request
+
+from svsa.runs.command import Command, read_command
+from svsa.runs.configuration import Design
+from svsa.runs.records.catalogue.entry import RunEntry
+from svsa.runs.records.header import BranchPoint, PlantKind
+from svsa_server.routes.depends import REFUSALS, NamedSession, RunId, Runs
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.session import SessionRequest
+from svsa_server.schemas.runs.run import BranchOrigin, GivenCommand, RunOrigin
+
+router = build_router(tags=["runs"], responses=REFUSALS)
+
+
+@router.get("/sessions/{session}/origin")
+async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
+    """The run that a session is on: how it stood at t = 0 and what was changed since."""
+    return _tell(
+        hosted.session.journal.initial.model_dump(mode="json"),
+        hosted.session.journal.commands,
+        hosted.session.run.tick,
+        hosted.session.run.period_s,
+        hosted.session.plant,
+        request.app.state.design,
+    )
+
+
+@router.get("/runs/{run_id}/origin")
+def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
+    """A recorded run: how it stood at its t = 0 and what was changed, to its last sample."""
+    record = runs.open(run_id)
+    header = record.header
+    return _tell(
+        header.configuration,
+        (read_command(written) for _, written in record.commands),
+        record.first_tick + record.tick_count,
+        header.period_s,
+        header.plant,
+        request.app.state.design,
+    )
+
+
+def name_origin(
+    branch_of: BranchPoint | None, known: Mapping[str, RunEntry]
+) -> BranchOrigin | None:
+    """Where a run goes on from, as far as the list of runs still knows it."""
+    if branch_of is None:
+        return None
+    run_id, tick = branch_of.run_id, branch_of.tick
+    origin = known.get(run_id)
+    if origin is None:
+        return BranchOrigin(run_id=run_id, tick=tick, title=None, time_s=None)
+    time_s = (tick - origin.first_tick) * origin.period_s
+    return BranchOrigin(run_id=run_id, tick=tick, title=origin.title, time_s=time_s)
+
+
+def _tell(
+    configuration: dict[str, Any],
+    commands: Iterable[Command],
+    tick: int,
+    period_s: float,
+    plant: PlantKind,
+    design: Design,
+) -> RunOrigin:
+    return RunOrigin(
+        configuration=configuration,
+        commands=[GivenCommand(tick=command.tick, command=command) for command in commands],
+        tick=tick,
+        period_s=period_s,
+        plant=plant,
+        defaults=_build_defaults(design),
+    )
+
+
+def _build_defaults(design: Design) -> dict[str, Any]:
+    return SessionRequest(load=False).build_configuration(design).model_dump(mode="json")

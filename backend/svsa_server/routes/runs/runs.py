@@ -1,0 +1,171 @@
+"""Recorded runs: list, read, rename, delete, take back."""
+
+import dataclasses
+from typing import Annotated, Any
+
+from fastapi import Body, Header, Query
+
+from svsa.errors import Fault
+from svsa.runs.fault_labels import label_fault
+from svsa.runs.records.catalogue.entry import (
+    LONGEST_SEARCH,
+    MAX_PAGE_SIZE,
+    MAX_PAGES,
+    SORTS,
+    Reader,
+    RunEntry,
+)
+from svsa.runs.records.catalogue.entry import Query as RunQuery
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.records.measured_window import trace_record
+from svsa_server.access.roles import Role
+from svsa_server.routes.depends import CHANGED, REFUSALS, ChangedRunId, NamedPerson, RunId, Runs
+from svsa_server.routes.runs.origins import name_origin
+from svsa_server.routing import build_router
+from svsa_server.runs.lanes import build_window, list_record_stretches, name_lanes
+from svsa_server.schemas.runs.run import (
+    RunCommand,
+    RunDetails,
+    RunFault,
+    RunList,
+    RunPatch,
+    RunSummary,
+)
+from svsa_server.sessions.laboratory import SHARED_SESSION
+
+MAX_COMMANDS = 1000
+LONGEST_FACET = 60
+router = build_router(tags=["runs"], responses=REFUSALS)
+
+
+Facet = Annotated[str | None, Query(max_length=LONGEST_FACET)]
+
+
+@router.get("/runs")
+def list_runs(
+    runs: Runs,
+    person: NamedPerson,
+    search: Annotated[
+        str,
+        Query(
+            max_length=LONGEST_SEARCH,
+            description="Words of which each must stand, but for its case, in what the list shows"
+            " of a run besides numbers and times: name, settings, tags, notes, origin; or its id",
+        ),
+    ] = "",
+    tag: Annotated[Facet, Query(description="Only runs with this tag")] = None,
+    law: Annotated[
+        Facet, Query(description="Only runs in which this law controlled a lane at some time")
+    ] = None,
+    load: Annotated[
+        Facet, Query(description="Only runs with this kind of load on at some time, or none")
+    ] = None,
+    figure: Annotated[
+        Facet, Query(description="Only runs with the references of this figure, as 4a")
+    ] = None,
+    plant: Annotated[Facet, Query(description="simulated, emulated or bench")] = None,
+    sort: Annotated[
+        str,
+        Query(
+            description="A column; - before it turns it round. What is not known comes last;"
+            " errors are those of the first lane in its `window`.",
+            json_schema_extra={"enum": [f"{sign}{name}" for name in SORTS for sign in ("", "-")]},
+            examples=["-created"],
+        ),
+    ] = "-created",
+    page: Annotated[int, Query(ge=1, le=MAX_PAGES)] = 1,
+    page_size: Annotated[int, Query(ge=1, le=MAX_PAGE_SIZE)] = 50,
+    trash: Annotated[bool, Query(description="What was deleted instead")] = False,
+) -> RunList:
+    """The runs, newest first, a page at a time.
+
+    In a class: those of the shared session, and of private ones one's own; for instructors all.
+    """
+    wanted = RunQuery(search, tag, law, load, figure, plant, sort, page, page_size, trash)
+    if person.role is not Role.INSTRUCTOR:
+        wanted = dataclasses.replace(wanted, reader=Reader(person.id, SHARED_SESSION))
+    found, facets = runs.query(wanted), runs.list_facets(wanted.reader)
+    return RunList(
+        runs=[RunSummary(**values) for values in _list_values(runs, *found.runs)],
+        total=found.total,
+        page=found.page,
+        page_size=found.page_size,
+        tags=facets["tag"],
+        facets=facets,
+    )
+
+
+@router.get("/runs/{run_id}")
+def read_run(runs: Runs, run_id: RunId) -> RunDetails:
+    """A run with its configuration, its channels and the commands given while it went on."""
+    entry, record = runs.get(run_id), runs.open(run_id)
+    timeline = trace_record(record)
+    stretches = list_record_stretches(record, timeline)
+    windows = [] if timeline is None else timeline.windows
+    return RunDetails(
+        **_tell(runs, entry),
+        lane_names=name_lanes(stretches),
+        stretches=stretches,
+        windows=[build_window(window, record.header.period_s) for window in windows],
+        seed=record.header.seed,
+        configuration=record.header.configuration,
+        channels=list(record.header.channels),
+        commands=[RunCommand(tick=t, command=c) for t, c in record.commands[:MAX_COMMANDS]],
+        command_count=len(record.commands),
+    )
+
+
+@router.patch("/runs/{run_id}", responses=CHANGED)
+def change_run(
+    runs: Runs,
+    run_id: ChangedRunId,
+    patch: Annotated[RunPatch, Body(examples=[{"name": "Group 3", "tags": ["class"]}])],
+    if_match: Annotated[
+        str | None,
+        Header(description="The run's `revision`: refused where it was changed meanwhile"),
+    ] = None,
+) -> RunSummary:
+    """Rename a run, tag it, write notes."""
+    expected = if_match and if_match.strip('"')
+    entry = runs.update(
+        run_id, name=patch.name, tags=patch.tags, notes=patch.notes, expected=expected
+    )
+    return RunSummary(**_tell(runs, entry))
+
+
+@router.delete("/runs/{run_id}")
+def delete_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
+    """Put a run into the trash, from which `restore` takes it back."""
+    return RunSummary(**_tell(runs, runs.delete(run_id)))
+
+
+@router.post("/runs/{run_id}/restore")
+def restore_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
+    """Take a run out of the trash."""
+    return RunSummary(**_tell(runs, runs.restore(run_id)))
+
+
+def _tell_fault(fault: Fault) -> RunFault:
+    return RunFault(
+        code=fault.code, label=label_fault(fault.code), message=fault.message, time_s=fault.time_s
+    )
+
+
+def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:
+    (values,) = _list_values(runs, entry)
+    return values
+
+
+def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
+    """The fields of the runs on the wire, each with the run that it branched from."""
+    origins = runs.find(entry.branch_of.run_id for entry in entries if entry.branch_of)
+    return [
+        {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}
+        | {
+            "title": entry.title,
+            "revision": entry.revision,
+            "branch_of": name_origin(entry.branch_of, origins),
+            "fault": entry.fault and _tell_fault(entry.fault),
+        }
+        for entry in entries
+    ]

@@ -1,0 +1,77 @@
+"""Whether a recorded run is another within tolerances, with the band to draw."""
+
+from typing import Annotated
+
+import numpy as np
+from fastapi import Body
+
+from svsa.runs.records.decimation import decimate
+from svsa.runs.records.header import RecordError
+from svsa.runs.records.measured_window import find_measured_window
+from svsa.runs.records.reader import Record
+from svsa.runs.records.verdict import FROM_THE_FIRST, Tolerance, build_band, judge, read_channel
+from svsa_server.routes.depends import REFUSALS, RunId, Runs
+from svsa_server.routing import build_router
+from svsa_server.schemas.runs.verdict import Band, RunVerdict, VerdictRequest, tell_channel
+
+router = build_router(tags=["runs"], responses=REFUSALS)
+EXAMPLE = {
+    "other": "20260102-030405-9f8e7d6c",
+    "tolerances": {"position_rad": {"absolute": 0.001}},
+    "rest": None,
+}
+
+
+@router.post("/runs/{run_id}/verdict")
+def judge_run(
+    runs: Runs,
+    run_id: RunId,
+    wanted: Annotated[VerdictRequest, Body(examples=[EXAMPLE])],
+) -> RunVerdict:
+    """Judge a run against another: each channel held or not, with its worst moment and the band."""
+    run, other = runs.open(run_id), runs.open(wanted.other)
+    begins = FROM_THE_FIRST if wanted.align == "start" else _align_windows(run, other)
+    verdict = judge(run, other, wanted.tolerances, wanted.rest, begins)
+    points = wanted.points
+    return RunVerdict(
+        held=verdict.held,
+        ticks=verdict.ticks,
+        compared_s=verdict.ticks * run.header.period_s,
+        own_ticks=verdict.own_ticks,
+        other_ticks=verdict.other_ticks,
+        begin_s=(run.first_tick + begins[0]) * run.header.period_s,
+        other_begin_s=(other.first_tick + begins[1]) * other.header.period_s,
+        channels=[tell_channel(one) for one in verdict.channels],
+        bands={
+            name: _draw_bands(other, name, tolerance, begins[1], verdict.ticks, points)
+            for name, tolerance in (wanted.tolerances if points else {}).items()
+        },
+    )
+
+
+def _align_windows(run: Record, other: Record) -> tuple[int, int]:
+    """The first samples of both that are as far from the beginning of their measured windows."""
+    starts: list[int] = []
+    for one in (run, other):
+        window = find_measured_window(one)
+        if window is None:
+            text = "has no window that could be told: align them at the start."
+            raise RecordError(f"Run {one.header.run_id} {text}")
+        starts.append(window.first_tick - one.first_tick)
+    before = min(starts)
+    return starts[0] - before, starts[1] - before
+
+
+def _draw_bands(
+    run: Record, channel: str, tolerance: Tolerance, begin: int, ticks: int, points: int
+) -> dict[str, Band]:
+    """By lane the band about a channel, thinned out so that neither bound loses a peak."""
+    period = run.header.period_s
+    values = read_channel(run, channel, begin, ticks)
+    bounds = build_band(values, tolerance, round(tolerance.time_s / period))
+    thinned = decimate(np.stack(bounds, axis=-1), points)
+    time_s = ((run.first_tick + begin + thinned.rows) * period).tolist()
+    return {
+        lane: Band.build(time_s, thinned.values[:, number])
+        for number, lane in enumerate(run.header.lanes)
+    }

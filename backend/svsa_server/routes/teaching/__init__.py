@@ -1,0 +1,1 @@
+"""Course, grades, leaderboard and learning platforms."""

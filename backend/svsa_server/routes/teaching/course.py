@@ -1,0 +1,287 @@
+"""The course: exercises, one's progress in them, runs judged, and handing in."""
+
+import asyncio
+from collections.abc import Callable
+from datetime import UTC, datetime
+from typing import Annotated
+
+from fastapi import Body, Path, Request
+
+from svsa.errors import StateError
+from svsa.hardware.session.session import BenchSession
+from svsa.runs.records.catalogue.entry import UnknownRunError
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.result.recorded import open_run
+from svsa.runs.result.result import Result
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.judge import judge_hand_in, judge_step
+from svsa.teaching.course.judgement import CriterionResult, Judgement
+from svsa.teaching.course.kept_law import check_law_length
+from svsa.teaching.course.progress import (
+    ExerciseProgress,
+    ProgressStore,
+    begin_step,
+    check_takes_law,
+    find_missing,
+    keep_answer,
+    keep_law,
+    keep_run,
+    visit_step,
+)
+from svsa.teaching.course.steps import Experiment, Predict
+from svsa.teaching.course.submission import write_hand_in
+from svsa.teaching.grading import law_trial
+from svsa_server.access.roles import Person
+from svsa_server.problems import UnknownError
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Runs, Work
+from svsa_server.routing import build_router
+from svsa_server.schemas.lab.session import SessionState
+from svsa_server.schemas.teaching.course import (
+    AnswerRequest,
+    CourseState,
+    CriterionState,
+    ExerciseState,
+    HandInRequest,
+    JudgementState,
+    LawRequest,
+    PlaceRequest,
+    RunRequest,
+    SetupRequest,
+    describe_criterion,
+    describe_exercise,
+    describe_summary,
+)
+from svsa_server.sessions.bench_step import check_for_step, set_up_bench
+from svsa_server.sessions.lock import take_turn
+from svsa_server.sessions.state import build_state
+
+router = build_router(tags=["course"], responses=REFUSALS)
+ExerciseName = Annotated[
+    str, Path(description="Name of an exercise", examples=["feedback-linearization"])
+]
+StepInPath = Annotated[str, Path(description="Name of a step of it", examples=["load"])]
+_AT_HOME = "Student"
+
+
+@router.get("/course")
+def read_course(request: Request, person: NamedPerson) -> CourseState:
+    """The exercises, and how far one is in each."""
+    kept = find_store(request).read(person.id)
+    exercises = request.app.state.course
+    return CourseState(
+        exercises=[describe_summary(one, kept.get(one.name)) for one in exercises.values()]
+    )
+
+
+@router.get("/course/{exercise}")
+def read_exercise(request: Request, person: NamedPerson, exercise: ExerciseName) -> ExerciseState:
+    """An exercise with the text of its steps, and one's own progress in it."""
+    found = _find_exercise(request, exercise)
+    return describe_exercise(found, find_store(request).read(person.id).get(exercise))
+
+
+@router.put("/course/{exercise}/place")
+def visit(
+    request: Request,
+    person: NamedPerson,
+    exercise: ExerciseName,
+    wanted: Annotated[PlaceRequest, Body(examples=[{"step": "predict-error"}])],
+) -> ExerciseState:
+    """Where one is, for another browser; what is only read before it has been read."""
+    return _change(request, person, exercise, lambda e, p: visit_step(e, p, wanted.step))
+
+
+@router.put("/course/{exercise}/steps/{step}/answer")
+def answer(
+    request: Request,
+    person: NamedPerson,
+    exercise: ExerciseName,
+    step: StepInPath,
+    wanted: Annotated[AnswerRequest, Body(examples=[{"answer": 12.0}])],
+) -> ExerciseState:
+    """Keep a prediction, until the run that judges it is set up; or choose an answer, once."""
+
+    def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
+        progress = keep_answer(found, progress, step, wanted.answer)
+        one = found.find_step(step)
+        if isinstance(one, Predict):
+            return progress
+        results = judge_step(found, one, {step: wanted.answer}, {})
+        return progress.with_step(step, results=tuple(results))
+
+    return _change(request, person, exercise, keep)
+
+
+@router.post("/sessions/{session}/exercise")
+async def set_up(
+    request: Request,
+    hosted: NamedSession,
+    person: NamedPerson,
+    wanted: Annotated[
+        SetupRequest, Body(examples=[{"exercise": "feedback-linearization", "step": "load"}])
+    ],
+) -> SessionState:
+    """Set a session as an experiment asks, at t = 0 and paused; its predictions are kept now.
+
+    A bench has plant, effects and limits of its own: it gets law, references, loads, gains and
+    observer. Refused where a prediction is missing, and on a bench that moves, or for a step that
+    is simulated and nothing else.
+    """
+    found = _find_exercise(request, wanted.exercise)
+    step, session = found.find_step(wanted.step), hosted.session
+    if isinstance(session, BenchSession) and isinstance(step, Experiment):
+        check_for_step(session, step)
+    await asyncio.to_thread(
+        _change, request, person, found.name, lambda e, p: begin_step(e, p, wanted.step)
+    )
+    assert isinstance(step, Experiment)  # noqa: S101
+    if isinstance(session, BenchSession):
+        await take_turn(set_up_bench, session, step)
+    else:
+        await take_turn(session.pause)
+        await take_turn(session.load, step.configuration)
+    return build_state(hosted)
+
+
+@router.post("/course/{exercise}/steps/{step}/check")
+def check(
+    request: Request,
+    person: NamedPerson,
+    runs: Runs,
+    exercise: ExerciseName,
+    step: StepInPath,
+    wanted: Annotated[RunRequest, Body(examples=[{"run_id": "20260102-030405-9f8e7d6c"}])],
+) -> list[CriterionState]:
+    """Judge a recorded run of one's own, and with it the predictions; the best one is kept."""
+    found = _find_exercise(request, exercise)
+    if not isinstance(found.find_step(step), Experiment):
+        raise StateError(f"Step {step!r} is no experiment: no run is judged there.")
+    result = _open_own(runs, person, wanted.run_id)
+    judged: list[CriterionResult] = []
+
+    def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
+        judged[:] = _judge(found, progress, step, result)
+        return keep_run(found, progress, step, wanted.run_id, judged)
+
+    _change(request, person, exercise, keep)
+    return [describe_criterion(one) for one in judged]
+
+
+@router.put("/course/{exercise}/law", responses=BUSY)
+async def try_law(
+    request: Request,
+    person: NamedPerson,
+    work: Work,
+    exercise: ExerciseName,
+    wanted: Annotated[LawRequest, Body(examples=[{"text": "def law(*given): return 0.0, 0.0\n"}])],
+) -> ExerciseState:
+    """Try a law in a process of its own on a scenario that everybody may see, and keep it.
+
+    The one that was kept last is handed in. It is kept also where it fails, or where this machine
+    cannot isolate it and leaves it untried.
+    """
+    found = _find_exercise(request, exercise)
+    check_law_length(wanted.text.encode())
+    check_takes_law(found, find_store(request).read(person.id).get(exercise))
+    law = await work.run(law_trial.try_law, wanted.text)
+    return await asyncio.to_thread(
+        _change, request, person, exercise, lambda e, p: keep_law(e, p, law)
+    )
+
+
+@router.post("/course/{exercise}/hand-in", status_code=201)
+def hand_in(
+    request: Request,
+    person: NamedPerson,
+    runs: Runs,
+    exercise: ExerciseName,
+    wanted: Annotated[HandInRequest, Body(examples=[{"student": "Ada"}])],
+) -> JudgementState:
+    """Hand in what is kept of an exercise, once; it is judged from its runs, and stands in a file.
+
+    Refused while a step is not done, and while a law is missing that belongs to it.
+    """
+    store = find_store(request)
+    judged: list[Judgement] = []
+
+    def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
+        missing = find_missing(found, progress)
+        if progress.handed_in is not None:
+            raise StateError(f"Exercise {exercise!r} was handed in already.")
+        if missing:
+            raise StateError(f"Not done yet: {', '.join(missing)}.")
+        student = person.name or wanted.student.strip() or _AT_HOME
+        given = progress.build_hand_in(exercise, student)
+        path = store.find_hand_in(exercise, person.id)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if progress.law is not None:
+            law = path.with_suffix(".py")
+            law.write_bytes(progress.law.text.encode())
+            given = given.changed(law_file=law.name)
+        judged.append(judge_hand_in(found, given, lambda run: _open_own(runs, person, run)))
+        write_hand_in(path, given)
+        now = datetime.now(UTC).isoformat(timespec="seconds")
+        return progress.changed(handed_in=now, points=judged[0].points)
+
+    _change(request, person, exercise, keep)
+    one = judged[0]
+    criteria = [describe_criterion(each) for each in one.criteria]
+    return JudgementState(
+        exercise=exercise, points=one.points, max_points=one.max_points, criteria=criteria
+    )
+
+
+def _judge(
+    exercise: Exercise, progress: ExerciseProgress, step: str, result: Result
+) -> list[CriterionResult]:
+    """The criteria of an experiment, and those of the predictions that its run judges."""
+    answers = {name: one.answer for name, one in progress.steps.items() if one.answer is not None}
+    judged = [
+        one
+        for one in exercise.steps
+        if one.name == step
+        or (isinstance(one, Predict) and exercise.find_judge(one)[0].name == step)
+    ]
+    return [
+        result_ for one in judged for result_ in judge_step(exercise, one, answers, {step: result})
+    ]
+
+
+def _open_own(runs: Catalogue, person: Person, run_id: str) -> Result:
+    """A run that the person has recorded; raises `SvsaError` where it is none, or not finished."""
+    entry = runs.get(run_id)
+    if entry.owner != person.id:
+        raise UnknownRunError(f"There is no run {run_id!r:.80} of yours.")
+    if entry.state == "recording":
+        raise StateError(f"Run {run_id} is being recorded: stop the recording first.")
+    return open_run(runs.find_folder(run_id))
+
+
+def _change(
+    request: Request,
+    person: Person,
+    exercise: str,
+    change: Callable[[Exercise, ExerciseProgress], ExerciseProgress],
+) -> ExerciseState:
+    """Change and keep somebody's progress in an exercise."""
+    found, store = _find_exercise(request, exercise), find_store(request)
+    with store.lock:
+        kept = store.read(person.id)
+        before = kept.get(exercise)
+        progress = change(found, before).changed(changes=before.changes + 1)
+        exercises = {**kept.exercises, exercise: progress}
+        store.write(person.id, kept.changed(exercises=exercises))
+    return describe_exercise(found, progress)
+
+
+def _find_exercise(request: Request, name: str) -> Exercise:
+    found = request.app.state.course.get(name)
+    if found is None:
+        known = ", ".join(request.app.state.course)
+        raise UnknownError(f"There is no exercise {name!r:.80}; there are {known}.")
+    return found
+
+
+def find_store(request: Request) -> ProgressStore:
+    """Everybody's progress in this lab."""
+    return request.app.state.course_progress

@@ -1,0 +1,104 @@
+"""Grades: a class's, for its instructor, and one's own."""
+
+import asyncio
+from typing import Annotated, Any
+
+from fastapi import Body, Query, Request
+from fastapi.responses import HTMLResponse, Response
+
+from svsa.errors import StateError
+from svsa.teaching.grading.class_grades import BOOK_FOLDER, list_grades, list_handed
+from svsa.teaching.grading.report import write_csv, write_page
+from svsa.teaching.isolation.probe import find_isolation_problem
+from svsa_server.access.owned import Owned
+from svsa_server.jobs.gradings import Asked, grade_all
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
+from svsa_server.routes.evaluation.jobs import find_jobs
+from svsa_server.routes.teaching.course import find_store
+from svsa_server.routing import build_router
+from svsa_server.schemas.evaluation.job import JobState, describe_job
+from svsa_server.schemas.teaching.grades import (
+    GradesState,
+    GradingRequest,
+    HandedState,
+    describe_exercises,
+    describe_handed,
+    describe_students,
+)
+
+KIND = "grading"
+router = build_router("/grades", tags=["course"], responses=REFUSALS)
+_CSV: dict[int | str, dict[str, Any]] = {
+    200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}
+}
+_POLICY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"}
+_Person = Annotated[
+    str, Owned("person"), Query(description="Id of a person; left out, the whole class")
+]
+
+
+@router.get("")
+async def read_grades(request: Request) -> GradesState:
+    """Who handed in what, its points by criterion, and why something has no grade."""
+    handed = await asyncio.to_thread(list_handed, find_store(request))
+    return GradesState(
+        not_isolated=await asyncio.to_thread(find_isolation_problem),
+        exercises=describe_exercises(list(request.app.state.course.values())),
+        students=describe_students(handed),
+    )
+
+
+@router.post("", status_code=201, responses=BUSY)
+async def grade_class(
+    request: Request,
+    person: NamedPerson,
+    wanted: Annotated[GradingRequest, Body(examples=[{"again": False}])],
+) -> JobState:
+    """Grade what was handed in and has no grade, or all of it again: a job.
+
+    Runs are simulated again from their records, laws run in isolation on draws of the class's
+    secret and the submission: graded again, a submission has the grade that it had. Where nothing
+    isolates, a law gets no grade, and the table says why.
+    """
+    store = find_store(request)
+    files = tuple(await asyncio.to_thread(store.list_hand_ins))
+    if not files:
+        raise StateError("Nothing was handed in yet: there is nothing to grade.")
+    asked = Asked(
+        files,
+        request.app.state.course,
+        request.app.state.catalogue.folder,
+        store.folder / BOOK_FOLDER,
+        wanted.again,
+    )
+    title = "Everything again" if wanted.again else "What has no grade"
+    return describe_job(find_jobs(request).start(KIND, title, grade_all, asked, person.id))
+
+
+@router.get("/class.csv", response_class=Response, responses=_CSV)
+async def download_grades(request: Request) -> Response:
+    """All grades, a line each, with a column for every criterion."""
+    handed = await asyncio.to_thread(list_handed, find_store(request))
+    named = {"Content-Disposition": 'attachment; filename="grades.csv"'}
+    return Response(write_csv(list(list_grades(handed))), media_type="text/csv", headers=named)
+
+
+@router.get("/class.html", response_class=HTMLResponse)
+async def show_grades(request: Request, person: _Person = "") -> HTMLResponse:
+    """The same as a page to be read or printed, of the class or of one student."""
+    handed = await asyncio.to_thread(list_handed, find_store(request), person or None)
+    return HTMLResponse(write_page(list(list_grades(handed))), headers=_POLICY)
+
+
+@router.get("/mine")
+async def read_own_grades(request: Request, person: NamedPerson) -> list[HandedState]:
+    """What one handed in oneself, with points and reasons."""
+    handed = await asyncio.to_thread(list_handed, find_store(request), person.id)
+    return [describe_handed(one) for one in handed]
+
+
+@router.get("/mine.html", response_class=HTMLResponse)
+async def show_own_grades(request: Request, person: NamedPerson) -> HTMLResponse:
+    """The same as a page."""
+    handed = await asyncio.to_thread(list_handed, find_store(request), person.id)
+    return HTMLResponse(write_page(list(list_grades(handed))), headers=_POLICY)

@@ -1,0 +1,102 @@
+"""The leaderboard: laws on a season of the arena that nobody knows."""
+
+import asyncio
+from functools import partial
+from typing import Annotated
+
+from fastapi import Body, Path, Request
+from fastapi.responses import StreamingResponse
+
+from svsa.evaluation.ranking.seeds import SUITE_VERSION
+from svsa.teaching.course.kept_law import check_law_length
+from svsa.teaching.isolation.probe import check_isolation, find_isolation_problem
+from svsa.teaching.leaderboard.board import FOLDER, Board, digest_law
+from svsa_server.access.roles import Person
+from svsa_server.jobs.submissions import Asked, enter
+from svsa_server.problems import UnknownError
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
+from svsa_server.routes.evaluation.jobs import find_jobs
+from svsa_server.routes.runs.files import PAGE, send_page
+from svsa_server.routing import build_router
+from svsa_server.runs.work import write_worst_run
+from svsa_server.schemas.evaluation.job import JobState, describe_job
+from svsa_server.schemas.teaching.leaderboard import (
+    LawSubmission,
+    LeaderboardState,
+    SubmissionState,
+)
+
+KIND = "submission"
+router = build_router("/leaderboard", tags=["leaderboard"], responses=REFUSALS)
+
+
+@router.get("")
+async def read_leaderboard(request: Request) -> LeaderboardState:
+    """Every entry of the season, the best first: the lab's laws and those that were submitted."""
+    board = await _open_board(request)
+    entries = await asyncio.to_thread(board.list)
+    return LeaderboardState(
+        suite=SUITE_VERSION,
+        began=board.began,
+        not_isolated=await asyncio.to_thread(find_isolation_problem),
+        runs=board.season.run_count,
+        entries=entries,
+        missing=await asyncio.to_thread(board.list_missing),
+    )
+
+
+@router.get("/entries/{key}/replay", response_class=StreamingResponse, responses=PAGE | BUSY)
+async def show_worst_run(
+    request: Request,
+    work: Work,
+    key: Annotated[str, Path(description="Key of an entry", examples=["fl"])],
+) -> StreamingResponse:
+    """The entry's worst run in 3D as a page of its own; `?t=5` opens it at 5 s.
+
+    Beside NDOBC, and NDOBC beside FL, unless that one's run ends first: its notes say so then.
+
+    Of a submitted law, what it answered then is played: it does not run again.
+    """
+    board = await _open_board(request)
+    if await asyncio.to_thread(board.find, key) is None:
+        raise UnknownError(f"There is no entry {key:.80} in this season.")
+    return send_page(await work.write(partial(write_worst_run, key), board.folder))
+
+
+@router.post("/submissions", status_code=201, responses=BUSY)
+async def submit_law(
+    request: Request,
+    person: NamedPerson,
+    wanted: Annotated[
+        LawSubmission,
+        Body(examples=[{"name": "Nothing", "law": "def law(*given): return 0.0, 0.0\n"}]),
+    ],
+) -> SubmissionState:
+    """Put a law through the season, in a process of its own: a job of some minutes.
+
+    The same text has one entry, which stays as it is. Nothing is measured where this machine
+    cannot isolate a law.
+    """
+    law = wanted.law.encode()
+    check_law_length(law)
+    board, key = await _open_board(request), digest_law(law)
+    if board.find(key) is not None:
+        return SubmissionState(key=key, job=None)
+    await asyncio.to_thread(check_isolation)
+    asked = Asked(board.folder, wanted.name, law, person.name or wanted.author)
+    return SubmissionState(key=key, job=_begin(request, person, asked))
+
+
+@router.post("/laws", status_code=201, responses=BUSY)
+async def measure_installed_laws(request: Request, person: NamedPerson) -> JobState:
+    """Measure the lab's laws that have no entry on this season: a job of a minute or two."""
+    board = await _open_board(request)
+    return _begin(request, person, Asked(board.folder, "The laws of the lab", None))
+
+
+async def _open_board(request: Request) -> Board:
+    return await asyncio.to_thread(Board, request.app.state.catalogue.folder / FOLDER)
+
+
+def _begin(request: Request, person: Person, asked: Asked) -> JobState:
+    return describe_job(find_jobs(request).start(KIND, asked.name, enter, asked, person.id))

@@ -1,0 +1,125 @@
+"""Launches from a learning platform (LTI 1.3): login, launch, public keys. Off unless configured.
+
+Not part of the API of scripts and page: a browser comes here from the platform, top of its window.
+"""
+
+import asyncio
+from html import escape
+from typing import TYPE_CHECKING
+from urllib.parse import parse_qsl, urlencode
+
+from fastapi import APIRouter, Request
+from fastapi.responses import (
+    HTMLResponse,
+    JSONResponse,
+    PlainTextResponse,
+    RedirectResponse,
+    Response,
+)
+
+from svsa_server.lti.refusal import LaunchError
+from svsa_server.problems import UnknownError
+from svsa_server.routes.access.access import set_cookie
+from svsa_server.routes.access.classroom import find_class
+
+if TYPE_CHECKING:
+    from svsa_server.lti.tool import LtiTool
+
+router = APIRouter(prefix="/lti", include_in_schema=False)
+COOKIE = "svsa_lti"
+_FRAMES = ("iframe", "frame", "embed", "object")
+_STYLE = (
+    ":root { color-scheme: light dark } body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem }"
+    " a { display: inline-block; padding: .5rem 1rem; border: 1px solid; border-radius: .4rem }"
+)
+_COOKIE_AGE_S = 600
+
+
+@router.get("/keys")
+async def read_lti_keys(request: Request) -> JSONResponse:
+    """The lab's public keys (JWKS), with which a platform checks what the lab signs."""
+    return JSONResponse(_find_tool(request).list_keys())
+
+
+@router.api_route("/login", methods=["GET", "POST"])
+async def begin_login(request: Request) -> Response:
+    """The platform says that somebody comes: back to it, with a state and a nonce (OIDC)."""
+    tool = _find_tool(request)
+    asked = dict(request.query_params) | await _read_form(request)
+    try:
+        if request.headers.get("sec-fetch-dest", "") in _FRAMES:
+            tool.find_platform(asked)
+            return _offer_window(asked)
+        address, state = tool.begin(asked, f"{request.base_url}lti/launch")
+    except LaunchError as error:
+        return _refuse(request, error)
+    response = RedirectResponse(address, 302)
+    response.set_cookie(
+        COOKIE,
+        state,
+        max_age=_COOKIE_AGE_S,
+        path=f"{request.scope.get('root_path', '')}/lti",
+        httponly=True,
+        secure=True,
+        samesite="none",  # the platform's page posts the launch
+    )
+    return response
+
+
+@router.post("/launch")
+async def launch(request: Request) -> Response:
+    """Somebody comes, as a token of the platform says: into the class, to an exercise."""
+    tool, door, base = _find_tool(request), find_class(request), str(request.base_url)
+    given, cookie = await _read_form(request), request.cookies.get(COOKIE, "")
+    course = request.app.state.course
+    try:
+        platform, told = await tool.take(given, cookie)
+        place = tool.find_landing(told, base, course)
+        person = await tool.admit(door, platform, told)
+    except LaunchError as error:
+        return _refuse(request, error)
+    from svsa_server.lti.tool import find_exercise
+
+    await asyncio.to_thread(tool.learn, platform, told, person, find_exercise(place))
+    request.app.state.audit.write(
+        action="lti launch", person=person.id, name=person.name, role=person.role.word,
+        platform=platform.issuer, place=place, problem=None,
+    )  # fmt: skip
+    response = RedirectResponse(f"{base}{place}", 303)
+    set_cookie(request, response, door.keys.sign(person))
+    response.delete_cookie(COOKIE, path=f"{request.scope.get('root_path', '')}/lti")
+    return response
+
+
+async def _read_form(request: Request) -> dict[str, str]:
+    return dict(parse_qsl((await request.body()).decode("utf-8", "replace")))
+
+
+def _find_tool(request: Request) -> "LtiTool":
+    tool = request.app.state.lti
+    if tool is None:
+        raise UnknownError("This lab takes no launches: it is not told of any platform (SVSA_LTI).")
+    return tool
+
+
+def _offer_window(asked: dict[str, str]) -> HTMLResponse:
+    """The same login, in a window of its own: in a frame the lab's cookies would be a stranger's.
+
+    Any site may frame this page: it has one link and tells nothing.
+    """
+    link = escape(f"?{urlencode(asked)}")
+    return HTMLResponse(
+        '<!doctype html><html lang="en"><meta charset="utf-8"><title>SVSA Lab</title>'
+        f"<style>{_STYLE}</style><main><h1>SVSA Lab</h1>"
+        "<p>The lab opens in a window of its own, not inside this page.</p>"
+        f'<p><a href="{link}" target="_blank" rel="noopener">Open the lab</a></p></main></html>',
+        headers={"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"},
+    )
+
+
+def _refuse(request: Request, error: LaunchError) -> Response:
+    request.app.state.audit.write(
+        action="lti launch", person=None, name=None, role=None, platform=None, place=None,
+        problem=str(error)[:500],
+    )  # fmt: skip
+    return PlainTextResponse(f"This launch was refused. {error}\n", 401)

@@ -1,0 +1,82 @@
+"""What goes over the wire about who comes in, and as whom."""
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, BaseModel, Field
+
+from svsa.inputs.checked import Checked, quantity
+from svsa_server.access.authentication import DoorKind
+from svsa_server.access.roles import RoleName
+from svsa_server.leases.names import LONGEST_NAME, READABLE, check_printable
+
+PersonName = Annotated[
+    str,
+    Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": READABLE}),
+    AfterValidator(check_printable),
+]
+
+
+class LoginRequest(Checked):
+    """The shared secret, or the instructor token of a class."""
+
+    secret: Annotated[str, Field(max_length=1000)] = quantity(
+        "", "The lab's shared secret, or the instructor token of its class"
+    )
+
+
+class JoinRequest(Checked):
+    """Joins the class."""
+
+    name: PersonName = quantity("", "What everybody is told, in printable characters")
+    code: Annotated[str, Field(max_length=100)] = quantity("", "The class code")
+    role: Literal["observer", "operator"] = quantity(
+        "", "An observer only watches, and stops", default="operator"
+    )
+
+
+class ReturnRequest(Checked):
+    """Comes back as somebody who has joined before."""
+
+    code: Annotated[str, Field(max_length=100)] = quantity("", "One's own return code")
+
+
+class TokenRequest(Checked):
+    """Asks for a token with which a script comes in."""
+
+    role: Literal["observer", "operator"] = quantity(
+        "", "What the script may be; not more than one is oneself", default="operator"
+    )
+
+
+class TokenState(BaseModel):
+    """A bearer token, which is told once."""
+
+    token: str
+    name: str = Field(description="As whom a script with it comes in")
+    role: RoleName
+
+
+class AccessState(BaseModel):
+    """How one comes into this lab, and as whom this request has come."""
+
+    door: DoorKind = Field(
+        description="open: everybody on this machine; secret: with the shared secret;"
+        " class: with a name and the class code"
+    )
+    inside: bool = Field(description="Whether the lab knows who asks")
+    id: str = Field(description="Of the person, in a class; empty elsewhere")
+    name: str = Field(description="Of the person, in a class; empty elsewhere")
+    role: RoleName | None = Field(description="null: not inside")
+    removed: bool = Field(
+        default=False, description="The instructor has removed whoever this is from the class"
+    )
+
+
+class ReturnCode(BaseModel):
+    """A code by which a person comes back to their work from any browser; told once."""
+
+    return_code: str
+
+
+class JoinState(AccessState, ReturnCode):
+    """As whom one has joined."""

@@ -1,0 +1,1 @@
+"""Bodies of the routes of ranking, studies, falsifications and tunings."""

@@ -1,0 +1,79 @@
+"""Searches for what hurts a law on the wire: what is asked, how far one is, what it found."""
+
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, Field, model_validator
+
+from svsa.control.installed import InstalledLaw
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.file import list_adversaries, parse_adversary, read_adversary
+from svsa.inputs.checked import Checked, Whole, quantity
+from svsa_server.schemas.evaluation.job import JobState
+from svsa_server.schemas.evaluation.scenario import LawOutcomeState
+
+MAX_RUNS = 100_000
+LONGEST_TEXT = 100_000
+
+
+class FalsificationRequest(Checked):
+    """A search: an adversary of the package or one of one's own, and the law to be hurt."""
+
+    adversary: Annotated[str, Field(min_length=1, max_length=64)] | None = quantity(
+        "", "Name of one that comes with the lab", default=None
+    )
+    text: Annotated[str, Field(max_length=LONGEST_TEXT)] | None = quantity(
+        "", "An adversary as TOML, in place of a name", default=None
+    )
+    definition: Adversary | None = quantity(
+        "", "An adversary of one's own, in place of a name", default=None
+    )
+    law: InstalledLaw | None = quantity("", "Law to be hurt; else the adversary's", default=None)
+    runs: Whole = quantity("", "Runs at most", ge=1, le=MAX_RUNS, default=20_000)
+    seed: Whole = quantity("", "Seed of the search", ge=0, le=2**53 - 1, default=0)
+
+    @model_validator(mode="after")
+    def _check_one(self) -> Self:
+        if [self.adversary, self.text, self.definition].count(None) != 2:
+            bound = "given, or else text or definition, one of the three"
+            raise ParameterError(Violation("adversary", self.adversary, "", bound))
+        return self
+
+    def build(self) -> Adversary:
+        """The adversary; raises `ParameterError`, with the lines of a text."""
+        changes = {} if self.law is None else {"law": self.law}
+        if self.definition is not None:
+            return self.definition.changed(**changes)
+        if self.text is not None:
+            return parse_adversary(self.text, **changes)
+        name = str(self.adversary)
+        if name not in list_adversaries():
+            bound = "one of " + ", ".join(list_adversaries())
+            raise ParameterError(Violation("adversary", name, "", bound))
+        return read_adversary(name, **changes)
+
+
+class AdversaryState(BaseModel):
+    """An adversary that comes with the lab."""
+
+    name: str
+    title: str
+    text: str = Field(description="Its file, to be changed and sent back")
+    definition: dict[str, Any] = Field(description="The same as JSON")
+
+
+class FalsificationState(JobState):
+    """A search, and what it found."""
+
+    law: str
+    harm: str
+    seed: int
+    adversary: dict[str, Any] = Field(description="Within which bounds it searches")
+    worst: dict[str, Any] | None = Field(
+        description="The worst so far, as it was found; in `found` how much it hurts, in words"
+    )
+    scenario: dict[str, Any] | None = Field(
+        description="The simplest load that still does it; null before the end"
+    )
+    steps: list[str] = Field(description="How it was made simple, step by step")
+    outcomes: list[LawOutcomeState] = Field(description="Of the law, and of another one beside it")

@@ -1,0 +1,90 @@
+"""Scenarios on the wire: loads that any law can be put through, and what came of the laws."""
+
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, Field, model_validator
+
+from svsa.control.installed import InstalledLaw
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa.inputs.checked import Checked, quantity
+from svsa.runs.configuration import MAX_LANES, Configuration, Lane
+
+MAX_LAWS, MAX_DURATION_S = 32, 60.0
+
+
+class ScenarioRuns(Checked):
+    """Laws that are to be put through a scenario."""
+
+    scenario: LoadScenario = quantity("", "Loads, and settings")
+    laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] = quantity(
+        "", "Laws, each by itself"
+    )
+
+    @model_validator(mode="after")
+    def _check_duration(self) -> Self:
+        duration = self.scenario.duration_s
+        if duration > MAX_DURATION_S:
+            bound = f"at most {MAX_DURATION_S:g} s here; `svsa falsify run` takes more"
+            raise ParameterError(Violation("scenario.duration_s", duration, "s", bound))
+        return self
+
+
+class ScenarioSession(Checked):
+    """Laws beside each other in a scenario, to be seen."""
+
+    scenario: LoadScenario = quantity("", "Loads, and settings")
+    laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LANES)] = quantity(
+        "", "Laws, the first one's the run's own"
+    )
+
+    def build_configuration(self) -> Configuration:
+        """The run; raises `ParameterError`."""
+        law, *others = self.laws
+        rivals = tuple(Lane(law=other) for other in others)
+        return self.scenario.build_configuration(law).changed(rivals=rivals)
+
+
+class LawOutcomeState(BaseModel):
+    """What came of a law in a scenario."""
+
+    law: str
+    fault: str | None = Field(description="Code of the fault that the run ended in")
+    fault_s: float | None = Field(description="When, s")
+    metrics: dict[str, float | None] = Field(description="SI; of a fault those until then")
+
+
+class LawTraceState(LawOutcomeState):
+    """What came of a law, and its errors over time; null from a fault on."""
+
+    position_error_rad: list[float | None]
+    stiffness_error_nm_per_rad: list[float | None]
+
+
+class ScenarioTraceState(BaseModel):
+    """A scenario over time, thinned out with every peak kept."""
+
+    told: list[str] = Field(description="Its loads and settings, each in words")
+    time_s: list[float]
+    torque_nm: list[tuple[float, float, float]] = Field(
+        description="Of the loads on link, motor 1 and motor 2; a hung mass is none of them"
+    )
+    laws: list[LawTraceState]
+
+
+class KeptScenario(BaseModel):
+    """A scenario that is kept by a name."""
+
+    name: str
+    title: str
+    scenario: dict[str, Any] = Field(description="As it would stand in its file")
+
+
+def dump_scenario(scenario: LoadScenario) -> dict[str, Any]:
+    """A scenario as it would stand in its file."""
+    return scenario.model_dump(mode="json", exclude_none=True)
+
+
+def describe_kept(name: str, scenario: LoadScenario) -> KeptScenario:
+    """A kept scenario."""
+    return KeptScenario(name=name, title=scenario.title, scenario=dump_scenario(scenario))

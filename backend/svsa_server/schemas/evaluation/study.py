@@ -1,0 +1,273 @@
+"""Studies on the wire: what is asked, what is kept, and what came of one."""
+
+import itertools
+from typing import Annotated, Any, Literal, Self
+
+import pyarrow as pa
+from pydantic import BaseModel, Field, model_validator
+
+from svsa.control.installed import InstalledLaw
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.file import list_built_in, parse_study, read_study
+from svsa.evaluation.studies.metrics import METRICS, Metric
+from svsa.evaluation.studies.setting_name import SettingName, name_variation
+from svsa.evaluation.studies.store import StoredStudy, count_done, is_kept, open_study, read_owner
+from svsa.evaluation.studies.study import MAX_LAWS, MAX_RUNS, Study
+from svsa.evaluation.studies.success import Success
+from svsa.evaluation.studies.summary import SUCCEEDED
+from svsa.evaluation.studies.tables import tell_metric
+from svsa.evaluation.studies.work import build_schema
+from svsa.inputs.checked import Checked, Whole, quantity
+from svsa_server.access.owned import Owned
+from svsa_server.access.roles import Person
+from svsa_server.jobs.queue import Job
+from svsa_server.jobs.studies import MAX_ROWS
+from svsa_server.schemas.evaluation.job import JobState, describe_job
+
+LONGEST_TEXT = 100_000
+OWN_NAME = "own"
+
+StudyName = Annotated[str, Field(min_length=1, max_length=64)]
+
+
+class StudyRequest(Checked):
+    """A study to be run: a built-in or a kept one, or a text; and what is otherwise than there."""
+
+    source: Annotated[StudyName, Owned("study source")] | None = quantity(
+        "", "Name of a built-in or a kept study", default=None
+    )
+    text: Annotated[str, Field(max_length=LONGEST_TEXT)] | None = quantity(
+        "", "A study as TOML, in place of a source", default=None
+    )
+    name: StudyName | None = quantity("", "What it is kept by; else its source", default=None)
+    runs: Whole | None = quantity("", "How many draws", ge=1, le=MAX_RUNS, default=None)
+    laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] | None = (
+        quantity("", "Laws, each on the same draws", default=None)
+    )
+    metrics: Annotated[tuple[Metric, ...], Field(min_length=1)] | None = quantity(
+        "", "What its table keeps of each run", default=None
+    )
+    success: Success | None = quantity("", "What counts as success", default=None)
+
+    @model_validator(mode="after")
+    def _check_one(self) -> Self:
+        if (self.source is None) == (self.text is None):
+            given = None if self.source is None else self.source
+            raise ParameterError(Violation("source", given, "", "given, or else text, not both"))
+        return self
+
+    def build(self, person: Person) -> tuple[str, Study]:
+        """The name to keep it by, and the study; raises `ParameterError`.
+
+        person: the caller. Without a name in the request it is the source's, with a number if
+        another person's study has that one.
+        """
+        asked = ("runs", "laws", "metrics", "success")
+        changes = {name: one for name in asked if (one := getattr(self, name)) is not None}
+        if self.text is not None:
+            name, study = self.name or OWN_NAME, parse_study(self.text, **changes)
+        else:
+            source = str(self.source)
+            study = _find(source).changed(**changes)
+            name = self.name or source
+        if self.name is None:
+            name = _find_free(name, person)
+        if study.row_count > MAX_ROWS:
+            bound = f"so few that there are at most {MAX_ROWS} rows, not {study.row_count}"
+            raise ParameterError(Violation("runs", study.runs, "", bound))
+        return name, study
+
+
+def _find(source: str) -> Study:
+    if source in list_built_in():
+        return read_study(source)[1]
+    if is_kept(source):
+        return open_study(source).study
+    bound = "a kept study, or one of " + ", ".join(list_built_in())
+    raise ParameterError(Violation("source", source, "", bound))
+
+
+def _find_free(name: str, person: Person) -> str:
+    """The name, or with the first number under which nobody else keeps a study."""
+    numbered = (f"{name}-{number}" for number in itertools.count(2))
+    for one in itertools.chain([name], numbered):
+        owner = read_owner(one)
+        if owner is None or person.may_change(owner):
+            return one
+    raise AssertionError(name)
+
+
+class StudyColumn(BaseModel):
+    """A column of a study's table."""
+
+    name: str
+    label: str = Field(description="In words, without its unit")
+    role: Literal["row", "varied", "outcome", "metric"]
+    unit: str = Field(description="1 of a share; empty of a factor, and where there is none")
+    is_text: bool
+    is_log: bool = Field(description="Whether it was drawn by equal ratios")
+
+
+class StudyPlan(BaseModel):
+    """What a study would be."""
+
+    name: str = Field(description="What it is kept by")
+    title: str
+    laws: list[str]
+    draws: int
+    rows: int = Field(description="Runs: each draw under each law")
+    study: dict[str, Any] = Field(description="All of it, as it would stand in its file")
+    columns: list[StudyColumn]
+
+
+class StudyState(StudyPlan):
+    """A kept study."""
+
+    created: str = Field(description="When it was begun, ISO 8601 in UTC")
+    version: str = Field(description="Of SVSA Lab, that began it")
+    done: int = Field(description="Rows that are done")
+    job: JobState | None = Field(description="The last of this server that works or worked at it")
+
+
+class BuiltInStudy(BaseModel):
+    """A study that comes with the lab."""
+
+    name: str
+    title: str
+    text: str = Field(description="As TOML, to begin one's own from")
+
+
+class StudyMetric(BaseModel):
+    """What can be kept of a run, and asked of it."""
+
+    name: str
+    label: str = Field(description="In words, without its unit")
+    unit: str = Field(description="1 of a share")
+
+
+class StudyList(BaseModel):
+    """All that can be looked at or run, and what is measured of a run."""
+
+    built_in: list[BuiltInStudy]
+    kept: list[StudyState] = Field(description="The last begun first")
+    metrics: list[StudyMetric]
+
+
+class Estimate(BaseModel):
+    """An estimate, and between which ends the truth lies with 95 %; null where there is none."""
+
+    value: float | None
+    low: float | None
+    high: float | None
+
+
+class LawOutcome(BaseModel):
+    """How a law did."""
+
+    law: str
+    runs: int = Field(description="Without those that were refused")
+    refused: int = Field(description="Draws whose settings do not go together: nothing was run")
+    success: Estimate = Field(description="Share of the runs, with Wilson's interval")
+    faults: dict[str, int] = Field(description="How many runs ended in a fault, by code")
+    quantiles: dict[str, list[float | None]] = Field(
+        description="5, 50 and 95 % of each metric; null where so many ended in a fault"
+    )
+
+
+class LawPair(BaseModel):
+    """One law less another on the same draws."""
+
+    one: str
+    other: str
+    pairs: int
+    whole: int = Field(description="Pairs of which neither ended in a fault")
+    success: Estimate = Field(description="Difference of the shares, of all pairs")
+    only_one: int = Field(description="Draws on which only the one succeeded")
+    only_other: int
+    differences: dict[str, Estimate] = Field(
+        description="Mean difference of each metric over the whole pairs, bootstrap interval"
+    )
+
+
+class StudySummary(BaseModel):
+    """What came of a study so far."""
+
+    laws: list[LawOutcome]
+    pairings: list[LawPair] = Field(description="The first law less each other one")
+
+
+class SobolIndices(BaseModel):
+    """What decides an outcome under a law, by what varies."""
+
+    law: str
+    outcome: str
+    samples: int = Field(description="Base samples that were done")
+    first_order: dict[str, Estimate] = Field(description="Its own share of the variance")
+    total_order: dict[str, Estimate] = Field(description="With all its interactions")
+
+
+class RowReplay(BaseModel):
+    """A row as a recorded run."""
+
+    run_id: str
+    row: int
+    differing: list[str] = Field(
+        description="Metrics that are not to the bit those of the table; empty: all are the same"
+    )
+
+
+def describe_plan(name: str, study: Study) -> StudyPlan:
+    """What a study would be."""
+    return StudyPlan(
+        name=name,
+        title=study.title,
+        laws=[*study.laws],
+        draws=study.draw_count,
+        rows=study.row_count,
+        study=study.model_dump(mode="json"),
+        columns=_describe_columns(study),
+    )
+
+
+def describe_study(stored: StoredStudy, job: Job | None) -> StudyState:
+    """A kept study, and the job that works at it."""
+    return StudyState(
+        **describe_plan(stored.name, stored.study).model_dump(),
+        created=stored.created,
+        version=stored.version,
+        done=count_done(stored) * len(stored.study.laws),
+        job=describe_job(job) if job else None,
+    )
+
+
+def _describe_columns(study: Study) -> list[StudyColumn]:
+    varied = {variation.column: variation for variation in study.vary}
+    base = study.build_base(study.laws[0])
+    named = {column: name_variation(base, one) for column, one in varied.items()}
+    columns = []
+    for field in build_schema(study):
+        role = "row"
+        if field.name in varied:
+            role = "varied"
+        elif field.name in METRICS:
+            role = "metric"
+        elif field.name in (SUCCEEDED, "fault", "fault_tick"):
+            role = "outcome"
+        one = varied.get(field.name)
+        name = named.get(field.name) or SettingName(
+            tell_metric(field.name), METRICS.get(field.name, "")
+        )
+        is_log = one is not None and (
+            one.kind == "log_uniform" or getattr(one, "spacing", "") == "log"
+        )
+        columns.append(
+            StudyColumn(
+                name=field.name,
+                label=name.words,
+                role=role,
+                unit=name.unit,
+                is_text=pa.types.is_string(field.type),
+                is_log=is_log,
+            )
+        )
+    return columns

@@ -1,0 +1,1 @@
+"""Bodies of the session's routes and the stream."""

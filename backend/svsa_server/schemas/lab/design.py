@@ -1,0 +1,76 @@
+"""A design to be judged, and the judgement, on the wire."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.inputs.checked import Checked, quantity
+from svsa_server.schemas.lab.gain import GainsRequest, Root
+
+
+class PredictRequest(Checked):
+    """Gains and observer to try; what is left out is as it is set now."""
+
+    gains: GainsRequest | None = quantity("", "New gains, as for PUT …/gains", default=None)
+    observer: ObserverBandwidth | None = quantity(
+        "", "New observer, as for PUT …/observer", default=None
+    )
+
+
+class ReasonState(BaseModel):
+    """One thing to know about the design."""
+
+    kind: Literal["note", "warn", "refuse"]
+    code: str
+    message: str
+
+
+class SteadyErrorState(BaseModel):
+    """What the 3 kg (2 N·m on link and motors) leave of the errors, at rest."""
+
+    position_error_rad: float
+    stiffness_error_nm_per_rad: float
+    deflection_rad: float
+
+
+class LoopNoiseState(BaseModel):
+    """What the counts of the encoders become in the discrete loop; null where it is unstable."""
+
+    torque1_rms_nm: float | None
+    torque2_rms_nm: float | None
+    largest_pole: float = Field(description="Largest |z| of the loop's poles; stable below 1")
+    encoders: Literal["session", "rig"] = Field(
+        description="Whose encoders: the session's, or the paper's rig's where it has none"
+    )
+
+
+class TorqueDemandState(BaseModel):
+    """What the load asks of the motors, from a simulation of the session's motion."""
+
+    peak_torque1_nm: float = Field(description="Asked for where nothing limits it")
+    peak_torque2_nm: float = Field(description="Asked for where nothing limits it")
+    limited_s: float = Field(description="How long a torque is at its limit")
+    fault: str | None = Field(description="Why the run with the load would end")
+
+
+class Prediction(BaseModel):
+    """The judgement; numbers are null for gains that are refused as such."""
+
+    verdict: Literal["ok", "warn", "refuse"]
+    reasons: list[ReasonState]
+    stiffness_nm_per_rad: float = Field(description="The σ at which all this holds")
+    position_roots_rad_per_s: list[Root]
+    stiffness_roots_rad_per_s: list[Root]
+    law: str = Field(description="Of which law all this is, by its title")
+    steady: SteadyErrorState | None = Field(
+        description="What the law leaves, simulated without counts, noise and friction until"
+        " nothing moves; null where it finds no rest"
+    )
+    adds_estimate: bool = Field(
+        description="Whether the law takes these gains and adds an estimate to them; then `fl` is"
+        " what the gains leave by themselves"
+    )
+    fl: SteadyErrorState | None = Field(description="Null where FL finds no rest")
+    noise: LoopNoiseState | None
+    demand: TorqueDemandState | None

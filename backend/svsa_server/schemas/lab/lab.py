@@ -1,0 +1,27 @@
+"""What goes over the wire about the lab: its figures, its health."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+
+
+class FigureState(BaseModel):
+    """A figure of the paper as data."""
+
+    key: str
+    title: str
+    position: PositionReference
+    stiffness: StiffnessReference
+    claim: str
+
+
+class Health(BaseModel):
+    """That the server lives."""
+
+    status: Literal["ok"] = "ok"
+    version: str
+    sessions_silent_s: float = Field(
+        default=0.0, description="For how long no session has responded, s; 0 while they do"
+    )

@@ -1,0 +1,144 @@
+"""What goes over the wire about laws: what each says of itself, as a form and a legend need it."""
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, BaseModel, Field, computed_field
+
+from svsa.control.installed import (
+    LawError,
+    check_installed,
+    get_law,
+    get_notes,
+    has_own_parameters,
+    list_law_inks,
+)
+from svsa.control.law import EstimateSource
+from svsa.control.parameters import LawParameters
+from svsa.errors import ParameterError
+from svsa.inputs.checked import read_quantity
+from svsa.runs.configuration import Lane
+
+
+def _check_lane(lane: Lane) -> Lane:
+    try:
+        check_installed(lane.law)
+    except ParameterError as error:
+        raise error.within("law") from None
+    return lane
+
+
+InstalledLane = Annotated[Lane, AfterValidator(_check_lane)]
+"""A lane whose law is installed: one that can be run."""
+Value = float | bool | str | list[float]
+
+
+class ParameterState(BaseModel):
+    """A parameter of a law."""
+
+    name: str
+    symbol: str = Field(description="What it is called in short")
+    meaning: str
+    unit: str = Field(description='"1" or empty where it has none')
+    kind: Literal["number", "numbers", "flag", "text"]
+    default: Value
+    low: float | None = Field(description="Null where nothing bounds it from below")
+    high: float | None = Field(description="Null where nothing bounds it from above")
+
+    @computed_field(description="Now `low`", json_schema_extra={"deprecated": True})
+    @property
+    def least(self) -> float | None:
+        """`low`, as it was called."""
+        return self.low
+
+    @computed_field(description="Now `high`", json_schema_extra={"deprecated": True})
+    @property
+    def most(self) -> float | None:
+        """`high`, as it was called."""
+        return self.high
+
+
+class LawState(BaseModel):
+    """A law that is installed, in its own words."""
+
+    name: str
+    title: str
+    ink: int = Field(description="Which look its curves have, from 0, where its colour is free")
+    summary: str
+    equation: str = Field(description="KaTeX")
+    source: str = Field(description="Number of the paper's equation, a citation, or empty")
+    notes: str = Field(description="Idea, equations and limits in words, or empty")
+    estimate: EstimateSource = Field(description="Whose ŵ it acts on")
+    takes_gains: bool = Field(description="Its parameters are the session's gains, of Eq 25")
+    parameters: list[ParameterState] = Field(description="Its own; none where it takes gains")
+    problem: str | None = Field(description="Why it cannot be used; null where it can")
+
+
+def list_laws() -> list[LawState]:
+    """Every law that is installed; one that does not work says why."""
+    return [_describe(name, ink) for name, ink in list_law_inks().items()]
+
+
+def _describe(name: str, ink: int) -> LawState:
+    try:
+        law, is_own = get_law(name), has_own_parameters(name)
+    except LawError as error:
+        return LawState(
+            name=name,
+            title=name,
+            ink=ink,
+            summary="",
+            equation="",
+            source="",
+            notes="",
+            estimate="none",
+            takes_gains=False,
+            parameters=[],
+            problem=str(error),
+        )
+    return LawState(
+        name=name,
+        title=law.title,
+        ink=ink,
+        summary=law.summary,
+        equation=law.equation,
+        source=law.source,
+        notes=get_notes(name),
+        estimate=law.estimate,
+        takes_gains=not is_own,
+        parameters=_list_parameters(law.parameters) if is_own else [],
+        problem=None,
+    )
+
+
+def _list_parameters(model: type[LawParameters]) -> list[ParameterState]:
+    defaults = model().model_dump(mode="json")
+    listed = []
+    for name, field in model.model_fields.items():
+        declared = read_quantity(model, name)
+        bounds = {
+            side: next((getattr(m, side) for m in field.metadata if hasattr(m, side)), None)
+            for side in ("ge", "gt", "le", "lt")
+        }
+        low = bounds["ge"] if bounds["ge"] is not None else bounds["gt"]
+        high = bounds["le"] if bounds["le"] is not None else bounds["lt"]
+        listed.append(
+            ParameterState(
+                name=name,
+                symbol=declared.symbol,
+                meaning=declared.meaning,
+                unit=declared.unit,
+                kind=_find_kind(defaults[name]),
+                default=defaults[name],
+                low=low,
+                high=high,
+            )
+        )
+    return listed
+
+
+def _find_kind(value: Value) -> Literal["number", "numbers", "flag", "text"]:
+    if isinstance(value, bool):
+        return "flag"
+    if isinstance(value, list):
+        return "numbers"
+    return "text" if isinstance(value, str) else "number"

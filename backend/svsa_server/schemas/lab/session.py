@@ -1,0 +1,148 @@
+"""What goes over the wire about a session: how it is started and moved, and its state."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.control.installed import PAPERS_LAW, InstalledLaw
+from svsa.errors import Fault
+from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.runs.configuration import MAX_LANES, Configuration, Design
+from svsa.runs.events import Event
+from svsa.runs.paper import get_figure
+from svsa.simulation.plant.effects import IDEAL, Effects
+from svsa.simulation.plant.loads import Load
+from svsa_server.schemas.hardware.bench import BenchState
+from svsa_server.schemas.lab.law import InstalledLane
+from svsa_server.schemas.lab.lease import ControlState, QueueState
+from svsa_server.schemas.lab.setting import ConfigurationState
+from svsa_server.schemas.runs.lane import EndedWindowState, LaneMetrics, LaneState, WindowState
+from svsa_server.schemas.runs.recording import ExcitationState, RecordingState
+
+
+class StepRequest(Checked):
+    """How far to go by hand."""
+
+    ticks: Whole = quantity("ticks", "Control periods to run", ge=1, le=10_000, default=1)
+
+
+class SpeedRequest(Checked):
+    """How fast session time goes."""
+
+    factor: Annotated[Number, Field(ge=0.05, le=20)] | Literal["max"] = quantity(
+        "1", "Session seconds a wall second, 0.05 to 20, or max for as fast as it goes"
+    )
+
+
+class FigureRequest(Checked):
+    """One of the paper's figures; with other lanes and effects than it has."""
+
+    figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
+    law: InstalledLaw = quantity(
+        "", "Name of a law that is installed: see GET /laws", default=PAPERS_LAW
+    )
+    load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
+    rivals: tuple[InstalledLane, ...] = quantity(
+        "", "Up to three", max_length=MAX_LANES - 1, default=()
+    )
+    effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
+
+    def build_configuration(self, design: Design) -> Configuration:
+        """What the session is set to, with the lab's design; raises `ParameterError`."""
+        figure = get_figure(self.figure).build_configuration(self.law, self.load, design)
+        return figure.changed(rivals=self.rivals, effects=self.effects)
+
+
+class ExperimentRequest(FigureRequest):
+    """One of the paper's figures, from t = 0."""
+
+    start: Flag = quantity("", "Begins at once; else it is at rest at t = 0", default=True)
+
+
+class SessionRequest(FigureRequest):
+    """A private session: a figure of the paper to start from, and the seed of its noise."""
+
+    figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
+
+    def build_configuration(self, design: Design) -> Configuration:
+        """What the session is set to, with the lab's design; raises `ParameterError`."""
+        return super().build_configuration(design).changed(seed=self.seed)
+
+
+class BranchRequest(Checked):
+    """Where to go on from."""
+
+    tick: Whole = quantity("ticks", "Tick of the recorded run, from its t = 0", ge=0, le=10**9)
+
+
+class LoadState(BaseModel):
+    """A load of the session; `end_s` is null for one that stays."""
+
+    id: int
+    start_s: float
+    end_s: float | None
+    active: bool
+    load: Load
+
+
+class SessionProgress(BaseModel):
+    """What of a session moves by itself: where it is and how well it does."""
+
+    status: Literal["running", "paused", "fault"]
+    run_number: int = Field(description="Counts up whenever a run begins anew at t = 0")
+    tick: int
+    time_s: float
+    speed: float | Literal["max"]
+    real_time_factor: float = Field(description="Session seconds a wall second, as measured")
+    stretched_s: float = Field(description="Wall time given up because ticks came too late")
+    fault: Fault | None
+    window: WindowState = Field(description="Since the last change of anything, or the last load")
+    load_window: WindowState | None = Field(
+        description="From the newest load's onset to the next change; null where none came"
+    )
+    metrics: LaneMetrics = Field(description="Of lane 1")
+    lanes: list[LaneState]
+    recording: RecordingState | None
+    excitation: ExcitationState | None = Field(
+        description="The identification excitation, while it is being played"
+    )
+    bench: BenchState | None = Field(description="Null for a simulated session")
+
+
+class BranchState(BaseModel):
+    """The recorded run that a session goes on from, and the tick at which it left it."""
+
+    run_id: str
+    tick: int
+
+
+class SessionState(SessionProgress):
+    """A session: where it is, how well it does, and how it is set."""
+
+    session: str
+    instance: str = Field(
+        description="Another one for every session, also of the same name: after a server was"
+        " started anew, or a session was ended and opened again"
+    )
+    revision: str = Field(description="Of settings and loads: for If-Match of a change of them")
+    branch_of: BranchState | None = Field(description="null unless its run is a branch")
+    note: str = Field(
+        description="What it was opened with to be known: why a law of the arena has none beside"
+        " it; empty where nothing is"
+    )
+    control: ControlState
+    queue: QueueState | None = Field(
+        description="null where nobody waits in turn: in a lab without a class, and in private"
+        " sessions"
+    )
+    rate_hz: float
+    configuration: ConfigurationState
+    loads: list[LoadState]
+    events: list[Event]
+    ended_windows: list[EndedWindowState] = Field(
+        description="Those that reach into the last 60 s, the newest last, at most 50; not `window`"
+    )
+    sample: dict[str, float | None] | None = Field(
+        description="The newest sample, by channel; null where a bench does not know it"
+    )

@@ -1,0 +1,90 @@
+"""What goes over the wire about how a session is set."""
+
+from typing import Annotated, Any, ClassVar
+
+from pydantic import BaseModel, Field, create_model
+
+from svsa.actuators.parameters import ActuatorParameters, Limits
+from svsa.control.installed import InstalledLaw
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.errors import ParameterError
+from svsa.inputs.checked import Checked, quantity
+from svsa.runs.configuration import MAX_LANES, Lane
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa_server.schemas.lab.gain import GainsState
+from svsa_server.schemas.lab.law import InstalledLane
+
+LONGEST_PARAMETER_FILE = 100_000
+
+
+class LawRequest(Checked):
+    """Which law controls, and which the lanes beside; every plant stays where it is."""
+
+    law: InstalledLaw = quantity("", "Name of a law that is installed: see GET /laws")
+    rival_laws: tuple[InstalledLaw, ...] = quantity(
+        "",
+        "Laws of the lanes beside, from the first on; those left out keep theirs",
+        max_length=MAX_LANES - 1,
+        default=(),
+    )
+
+
+class _Patch(Checked):
+    """Changes to a section, which its errors name: two sections may have the same fields."""
+
+    section: ClassVar[str] = ""
+
+    def __init__(self, /, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ParameterError as error:
+            raise error.within(self.section) from None
+
+
+def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
+    """`model` with every field left out at will, for PATCH; bounds, units and words stay.
+
+    What is given must be a value: null would be refused by the model, and not silently kept.
+    """
+    fields: dict[str, Any] = {
+        name: (field.annotation, field.merge_field_infos(field, default=None))
+        for name, field in model.model_fields.items()
+    }
+    patch = create_model(f"{section.title()}Patch", __base__=_Patch, **fields)
+    patch.section = section
+    return patch
+
+
+class LanesRequest(Checked):
+    """The controllers beside the session's own."""
+
+    rivals: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MAX_LANES - 1)
+
+
+class ParameterFileRequest(Checked):
+    """A parameter file as `svsa identify` writes it."""
+
+    toml: Annotated[str, Field(max_length=LONGEST_PARAMETER_FILE)] = quantity(
+        "", "The text of the file"
+    )
+
+
+class ConfigurationState(BaseModel):
+    """Everything that is set."""
+
+    law: str
+    position: PositionReference
+    stiffness: StiffnessReference
+    gains: GainsState
+    parameters: dict[str, dict[str, Any]] = Field(
+        description="Of laws that have their own, by the law's name: all that were set, and those"
+        " of the laws that control lanes"
+    )
+    observer: ObserverBandwidth
+    limits: Limits
+    actuator: ActuatorParameters
+    nominal: ActuatorParameters
+    rivals: tuple[Lane, ...]
+    effects: Effects
+    seed: int

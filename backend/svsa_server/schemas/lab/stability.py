@@ -1,0 +1,125 @@
+"""What the design page asks about stability, and what it is told, on the wire."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.control.installed import InstalledLaw
+from svsa.inputs.checked import Number, Whole, quantity
+from svsa_server.schemas.lab.design import PredictRequest
+from svsa_server.schemas.lab.gain import Root
+
+MAX_STARTS = 61
+MAX_AT_ONCE = 400
+
+
+class DesignRequest(PredictRequest):
+    """A design to try, stable or not; what is left out is as it is set now."""
+
+    law: InstalledLaw | None = quantity("", "Another law: see GET /laws", default=None)
+    stiffness_nm_per_rad: Number | None = quantity(
+        "N·m/rad", "σ_d at which to look; left out, that of now", gt=0, default=None
+    )
+
+
+class RegionRequest(DesignRequest):
+    """A part of the map of starts, from coarse to fine: ask on until `next` is null."""
+
+    starts: Whole = quantity("", "Starts along each side", ge=3, le=MAX_STARTS, default=31)
+    first: Whole = quantity("", "First start of this part", ge=0, le=MAX_STARTS**2, default=0)
+    count: Whole = quantity("", "Starts of this part", ge=1, le=MAX_AT_ONCE, default=100)
+
+
+class LoadResponseState(BaseModel):
+    """The 3 kg come at rest at t = 0, simulated as the session is set."""
+
+    time_s: list[float]
+    position_error_rad: list[float]
+    peak_error_rad: float
+    fault: str | None = Field(description="Why the run ended before its time")
+
+
+class FrequencyResponseState(BaseModel):
+    """Position error for a torque on the link, of the sampled loop about rest."""
+
+    frequency_hz: list[float]
+    magnitude_rad_per_nm: list[float]
+
+
+class ResponseState(BaseModel):
+    """What a design does, quickly told."""
+
+    law: str
+    stiffness_nm_per_rad: float
+    load: LoadResponseState
+    disturbance: FrequencyResponseState | None = Field(description="Null where it is unstable")
+    largest_pole: float = Field(
+        description="Largest |z| of the loop with the sensing named; from 1 on the curves are not"
+        " what it would do there"
+    )
+    encoders: Literal["session", "rig"] = Field(
+        description="Whose sensing that is: the session's, or else the paper's rig's, whose counts"
+        " and delay the curves do not have"
+    )
+
+
+class StableRangeState(BaseModel):
+    """True over nominal value of a parameter for which the loop is Hurwitz, the others nominal."""
+
+    parameter: str
+    symbol: str
+    low: float | None = Field(description="Null where it is stable down to least_ratio")
+    high: float | None = Field(description="Null where it is stable up to greatest_ratio")
+    present: float
+
+
+class StabilityState(BaseModel):
+    """Theorem 1 for a design about rest."""
+
+    law: str
+    stiffness_nm_per_rad: float
+    poles_rad_per_s: list[Root] = Field(
+        description="Of the closed loop in continuous time, true plant and observer included"
+    )
+    slowest_rad_per_s: float = Field(description="Largest real part; stable below 0")
+    least_damping: float
+    largest_pole: float = Field(description="Largest |z| of the sampled loop; stable below 1")
+    ranges: list[StableRangeState] = Field(description="Empty where it is unstable as it is")
+    least_ratio: float
+    greatest_ratio: float
+    ramp_gain_rad_s_per_nm: float | None = Field(
+        description="|e| per ẇ2 that a ramp leaves; null where a constant torque does already"
+    )
+    worst_gain_rad_s_per_nm: float | None = Field(
+        description="The most that any w2 of a bounded rate can do, per rate"
+    )
+    formula_rad_s_per_nm: float | None = Field(description="The ramp's gain in closed form, NDOBC")
+    floor_rad_s_per_nm: float | None = Field(description="What the formula tends to as β → ∞")
+    is_observed: bool = Field(description="Whether the law acts on the observer")
+    fastest_observer_rad_per_s: float | None = Field(
+        description="Largest β of a stable sampled loop; null above 1000 or without an observer"
+    )
+    encoders: Literal["session", "rig"] = Field(
+        description="Whose sensing bounds the observer: the session's, or else the paper's rig's"
+    )
+
+
+class FateState(BaseModel):
+    """What becomes of a start."""
+
+    row: int
+    column: int
+    outcome: Literal["rest", "fault", "astray"]
+    after_s: float = Field(description="Close for good since then, or the fault's time")
+
+
+class RegionState(BaseModel):
+    """A part of the map: the actuator starts as one body at q0, q̇0, and is to come to rest."""
+
+    law: str
+    stiffness_nm_per_rad: float
+    encoders: Literal["session", "rig"]
+    positions_rad: list[float] = Field(description="q0 of the columns")
+    velocities_rad_per_s: list[float] = Field(description="q̇0 of the rows")
+    fates: list[FateState]
+    next: int | None = Field(description="Where the next part begins")

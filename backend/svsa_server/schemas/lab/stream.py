@@ -1,0 +1,170 @@
+"""What a stream sends: its messages, and in words the layout of `svsa.runs.session.frame`."""
+
+import struct
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.actuators.signals import PLOTTED
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.runs.configuration import MAX_LANES
+from svsa.runs.result.channels import ChannelName
+from svsa.runs.session.frame import (
+    HEADER,
+    HEADER_FIELDS,
+    LANE_ID,
+    MAGIC,
+    TYPES,
+    VALUE,
+    FieldName,
+    FieldType,
+)
+from svsa_server.schemas.lab.session import SessionProgress, SessionState
+
+
+class StreamRequest(Checked):
+    """What a stream carries."""
+
+    rate_hz: Number = quantity("Hz", "Samples a second", ge=1, le=10_000, default=200.0)
+    lanes: tuple[Annotated[Whole, Field(ge=1, le=MAX_LANES)], ...] | None = quantity(
+        "", "Numbers of the lanes, from 1; None is all there are", default=(1,)
+    )
+    history_s: Number = quantity("s", "Past to send first", ge=0, le=20, default=0.0)
+
+
+class StreamChannel(BaseModel):
+    """A column of the batches."""
+
+    name: ChannelName
+    unit: str
+    label: str
+
+
+class BatchField(BaseModel):
+    """A field of a batch's header."""
+
+    name: FieldName
+    type: FieldType
+    byte: int = Field(description="Of the message, at which it begins")
+
+
+class BatchLayout(BaseModel):
+    """A binary message, little-endian: its header, every lane's id, every sample's values."""
+
+    magic: str = Field(default=MAGIC.decode(), description="The text that a batch begins with")
+    header_bytes: int = HEADER.size
+    header: list[BatchField]
+    lane_id: Literal["uint32"] = LANE_ID
+    value: Literal["float32"] = VALUE
+
+
+class Hello(BaseModel):
+    """The first message: what the batches will hold, and how they are packed."""
+
+    type: Literal["hello"] = "hello"
+    session: str
+    period_s: float
+    rate_hz: float = Field(description="Samples a second that are sent at speed 1")
+    lanes: list[int] = Field(description="Numbers of the lanes, from 1")
+    channels: list[StreamChannel]
+    batch: BatchLayout
+    state: SessionState
+
+
+class StateMessage(BaseModel):
+    """The state after every change; without one what moves by itself, 1 or 5 times a second."""
+
+    type: Literal["state"] = "state"
+    since_tick: int = Field(
+        description="Of `events`, of `ended_windows` and of the lanes' `stretches` that have ended"
+        " only those at or after this tick are told, or that ended then; what was told of the time"
+        " before holds. 0: all are told, and nothing else holds"
+    )
+    state: SessionState | SessionProgress
+
+
+class StreamError(BaseModel):
+    """What is wrong with the address of the stream, which is closed then."""
+
+    type: Literal["error"] = "error"
+    message: str
+
+
+StreamMessage = Hello | StateMessage | StreamError
+
+
+def lay_out_batch() -> BatchLayout:
+    """Where each field of a batch's header stands, as `pack_batch` packs it."""
+    codes = [code for _, code, _ in HEADER_FIELDS]
+    return BatchLayout(
+        header=[
+            BatchField(name=name, type=TYPES[code], byte=struct.calcsize("<" + "".join(codes[:n])))
+            for n, (name, code, _) in enumerate(HEADER_FIELDS)
+        ]
+    )
+
+
+def describe_stream(batch_period_s: float) -> str:
+    """The stream in words (Markdown), with the layout of a batch as it is packed."""
+    rows = [
+        f"| {field.byte} | {field.type} | {field.name} | {meaning} |"
+        for field, (_, _, meaning) in zip(lay_out_batch().header, HEADER_FIELDS, strict=True)
+    ]
+    return "\n".join(
+        [
+            "Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a"
+            " plain GET is answered with 426.",
+            "",
+            "Text messages are JSON, told apart by `type`: `hello` first, `state` after every"
+            " change, and with the fields that move by themselves five times a second in the first"
+            " seconds of a window and once a second later, `error` before the stream is closed for"
+            " a wrong address. Their schema is that of the answer 101. What is over is told once: a"
+            " `state` has events, windows and stretches that have ended from its `since_tick` on,"
+            " and those before stay as they were told.",
+            "",
+            f"Binary messages are batches of samples, about {1 / batch_period_s:.0f} a second,"
+            f" little-endian: a header of {HEADER.size} bytes,",
+            "",
+            "| byte | type | field | meaning |",
+            "|---|---|---|---|",
+            *rows,
+            "",
+            f"then `{LANE_ID}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
+            " that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come"
+            " and go beside it; its place among them, which `hello.lanes` tells of the first batch,"
+            " may change.",
+            "",
+            f"Then `{VALUE}[count][lanes][channels]` from byte {HEADER.size} + 4 · lanes on, in the"
+            " order of these ids and of `hello.channels`; NaN is a value that is not known. A slow"
+            " client gets the newest samples, with what it lost in `missed`. Of a session that runs"
+            " many times faster than time each batch has the newest samples only, close together:"
+            " where the first tick is not the one that would follow, samples are missing.",
+            "",
+            f"Left out, `channels` is `{','.join(PLOTTED)}`.",
+            "",
+            "Whatever the client sends holds the dead-man's switch of a bench for 0.1 s, as long as"
+            " the client may command.",
+        ]
+    )
+
+
+def list_stream_parameters() -> list[dict[str, Any]]:
+    """What may stand in the address of a stream, as OpenAPI parameters."""
+    bounds = StreamRequest.model_json_schema()["properties"]
+    words = {
+        "lanes": f"`all`, or numbers from 1 to {MAX_LANES} with commas; lane 1 if left out",
+        "channels": "Names with commas between them; left out, those of the plots",
+        "client": "Who watches, as the header SVSA-Client; a browser cannot send that here",
+    }
+    schemas = {name: bounds[name] for name in ("rate_hz", "history_s")}
+    schemas |= {name: {"type": "string", "description": text} for name, text in words.items()}
+    return [
+        {
+            "name": name,
+            "in": "query",
+            "required": False,
+            "description": schema.get("description", ""),
+            "schema": schema,
+        }
+        for name, schema in schemas.items()
+    ]

@@ -1,0 +1,68 @@
+"""What goes over the wire about lanes: who controlled them when, and how well they did."""
+
+from pydantic import BaseModel, Field
+
+from svsa.runs.metrics import Metrics
+from svsa.runs.timeline import WindowKind
+
+
+class Period(BaseModel):
+    """A part of a run, from start to before end."""
+
+    start_tick: int
+    start_s: float
+    end_tick: int | None = Field(description="Null: until now")
+    end_s: float | None
+
+
+class StretchState(Period):
+    """A controller (a law with its gains and observer) on a lane, from start to before end."""
+
+    number: int = Field(
+        description="Which controller, counted in the order in which they came in the run"
+    )
+    name: str = Field(description="Its law, and what tells it from others of the same law")
+    ink: int = Field(description="Which look its curves have, from 0; shared by no other on screen")
+
+
+class WindowState(Period):
+    """A part of the run in which nothing was changed, from start to before end."""
+
+    kind: WindowKind = Field(description="What began it")
+    label: str = Field(description="What began it, in words; empty for the start of the run")
+
+
+class EndedWindowState(WindowState):
+    """A window after which something was changed, and how well the lanes did in it."""
+
+    lanes: list[Metrics | None] = Field(
+        description="Of the present lanes in their order; null for one that was not there"
+    )
+
+
+class LaneMetrics(BaseModel):
+    """How well a lane does; null where it was not there at the beginning of what is measured, and
+    half a second after it ended: a twin of a bench that left the domain of the model.
+    """
+
+    since_start: Metrics | None = Field(description="Of the whole run, whatever was changed")
+    in_window: Metrics | None = Field(description="Since the last change: of `window`")
+    since_load: Metrics | None = Field(
+        description="Of `load_window`, with which it ends: of who controls the lane now, on the"
+        " lane that it had when the load came; its recovery time is the load's"
+    )
+
+
+class LaneState(LaneMetrics):
+    """A lane; lane 1 is the session's own controller."""
+
+    lane: int
+    id: int = Field(
+        description="Its own for the whole run: a lane keeps it where lanes before it are taken"
+        " away, and none gets that of a lane that went"
+    )
+    law: str
+    name: str = Field(description="Of who controls it now")
+    stretches: list[StretchState] = Field(
+        description="Who controlled it in the last 60 s, the present one last"
+    )

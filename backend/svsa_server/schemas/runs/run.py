@@ -1,0 +1,202 @@
+"""What goes over the wire about recorded runs."""
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from svsa.actuators.signals import Channel
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, quantity
+from svsa.runs.command import Command
+from svsa.runs.metrics import Metrics
+from svsa.runs.records.catalogue.entry import RunState
+from svsa.runs.records.header import (
+    LONGEST_NAME,
+    LONGEST_NOTES,
+    LONGEST_TAG,
+    MAX_TAGS,
+    PlantKind,
+)
+from svsa.runs.records.measured_window import MeasuredWindow
+from svsa.runs.records.settings import RunSettings
+from svsa_server.schemas.runs.lane import StretchState, WindowState
+
+ExportName = Literal["csv", "parquet", "mat", "mcap"]
+RunName = Annotated[str, Field(max_length=LONGEST_NAME)]
+Notes = Annotated[str, Field(max_length=LONGEST_NOTES)]
+Tags = Annotated[
+    tuple[Annotated[str, Field(min_length=1, max_length=LONGEST_TAG)], ...],
+    Field(max_length=MAX_TAGS, json_schema_extra={"uniqueItems": True}),
+]
+
+
+class RunPatch(Checked):
+    """What to change of a run; what is left out, or null, stays."""
+
+    model_config = ConfigDict(json_schema_extra={"minProperties": 1})
+
+    name: RunName | None = quantity("", "Its name", default=None)
+    tags: Tags | None = quantity("", "Words to find it by, each once", default=None)
+    notes: Notes | None = quantity("", "Notes", default=None)
+
+    @model_validator(mode="after")
+    def _check_some(self) -> Self:
+        if not self.model_fields_set:
+            raise ParameterError(Violation("change", {}, "", "of name, tags or notes"))
+        return self
+
+
+class BranchOrigin(BaseModel):
+    """The recorded run that a run or session goes on from."""
+
+    run_id: str = Field(description="Id of that run")
+    tick: int = Field(description="Tick of it from which this one goes on")
+    title: str | None = Field(description="What it is called; null where it is gone for good")
+    time_s: float | None = Field(
+        description="The same moment in its replay, s after its first sample; null as title"
+    )
+
+
+class RunFault(BaseModel):
+    """The fault that a run ended in."""
+
+    code: str
+    label: str = Field(description="In a few words")
+    message: str = Field(description="In a sentence, with the values that it was about")
+    time_s: float = Field(description="Time of the run")
+
+
+class RunSummary(BaseModel):
+    """A run in the list."""
+
+    id: str
+    name: str = Field(description="What people call it; empty where nobody named it")
+    title: str = Field(description="Its name, or where nobody gave one that of its settings")
+    settings: RunSettings | None = Field(
+        description="What it was set to, in words; null while it is recorded"
+    )
+    branch_of: BranchOrigin | None = Field(description="The run that it goes on from")
+    tags: list[str]
+    notes: str
+    revision: str = Field(description="Of name, tags and notes: for If-Match of a change")
+    session: str
+    created: str = Field(description="UTC, ISO 8601")
+    version: str = Field(description="Version of svsa that recorded")
+    state: RunState = Field(
+        description="failed: it ended early, message says why; damaged: it cannot be read"
+    )
+    message: str
+    plant: PlantKind = Field(description="What lane 1 was; only a simulated run can be branched")
+    lanes: list[str]
+    period_s: float
+    first_tick: int
+    ticks: int
+    duration_s: float
+    bytes: int
+    metrics: list[Metrics] | None = Field(description="Of every lane in `window`")
+    window: MeasuredWindow | None = Field(
+        description="What `metrics` are of: the window of the last load, or the last window; in it"
+        " nothing was changed. Null as long as the run is recorded, and where that is not known"
+    )
+    fault: RunFault | None = Field(description="What the run ended in; null where nobody wrote it")
+    deleted: str | None = Field(description="When it went into the trash, UTC")
+
+
+class RunList(BaseModel):
+    """A page of runs."""
+
+    runs: list[RunSummary]
+    total: int = Field(description="Runs on all pages")
+    page: int
+    page_size: int
+    tags: dict[str, int] = Field(description="Every tag in use, and how many runs have it")
+    facets: dict[str, dict[str, int]] = Field(
+        description="What the list can be filtered by: facet (tag, law, load, figure, plant),"
+        " value, and how many of all runs outside the trash have it"
+    )
+
+
+class RunCommand(BaseModel):
+    """A command that was given while the run went on."""
+
+    tick: int
+    command: dict[str, Any]
+
+
+class GivenCommand(BaseModel):
+    """A command as this version of the lab gives it again."""
+
+    tick: int
+    command: Command
+
+
+class RunDetails(RunSummary):
+    """A run with everything that decided its samples."""
+
+    lane_names: list[str] = Field(description="What to call the lanes: by their laws")
+    stretches: list[list[StretchState]] = Field(description="Of every lane, who controlled it when")
+    windows: list[WindowState] = Field(
+        description="Between the changes of the run; the newest 1000"
+    )
+    seed: int
+    configuration: dict[str, Any] = Field(description="At tick 0")
+    channels: list[Channel]
+    commands: list[RunCommand] = Field(description="The first 1000")
+    command_count: int
+
+
+class RunOrigin(BaseModel):
+    """What decides the samples of a run: simulated again, they are the same bits."""
+
+    configuration: dict[str, Any] = Field(description="At tick 0")
+    commands: list[GivenCommand] = Field(description="In the order in which they were given")
+    tick: int = Field(description="How far the run is, or where its record ends")
+    period_s: float
+    plant: PlantKind
+    defaults: dict[str, Any] = Field(description="Of a new private session, `load` false")
+
+
+class RunMetrics(BaseModel):
+    """How good a stretch of a run is, from every sample in it."""
+
+    start_s: float
+    end_s: float
+    windows: list[WindowState] = Field(
+        description="The windows that it reaches into: where there is more than one, the numbers"
+        " are of what was before and after a change or a load; empty where that is not known"
+    )
+    lanes: dict[str, Metrics | None] = Field(description="null where samples are no numbers")
+
+
+class RunSamples(BaseModel):
+    """Samples of a run, thinned out for a plot.
+
+    Where stride is greater than 1, every two points are least and greatest of `stride`
+    ticks, in the order in which they came, each channel by itself.
+    """
+
+    stride: int
+    first_tick: int
+    time_s: list[float]
+    lanes: dict[str, dict[str, list[float | None]]] = Field(
+        description="By lane and channel; null where a value is no finite number"
+    )
+
+
+class SettingDifference(BaseModel):
+    """A setting that is not the same in every run."""
+
+    group: str
+    name: str
+    unit: str = Field(description="SI, of values that are numbers")
+    values: list[str | float | bool | None] = Field(
+        description="Run by run; null where a run has no such setting"
+    )
+
+
+class RunDifference(BaseModel):
+    """What of the settings differs between runs; what is not listed is the same in all."""
+
+    runs: list[str] = Field(description="Their ids, in the order of the values")
+    titles: list[str]
+    differences: list[SettingDifference]

@@ -1,0 +1,99 @@
+"""What goes over the wire about a verdict between recorded runs."""
+
+import math
+from dataclasses import asdict
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import BaseModel, Field
+
+from svsa.inputs.checked import Checked, quantity
+from svsa.runs.records.verdict import EXACT, ChannelVerdict, Tolerance
+from svsa_server.access.owned import Owned
+
+MAX_TOLERANCES = 100
+MAX_POINTS = 20_000
+
+
+class VerdictRequest(Checked):
+    """Against which run a run is judged, and by how much each channel may differ."""
+
+    other: Annotated[str, Owned("run")] = quantity(
+        "", "Id of the run that it should be", min_length=1, max_length=200
+    )
+    tolerances: dict[str, Tolerance] = quantity(
+        "", "By channel", default_factory=dict, max_length=MAX_TOLERANCES
+    )
+    rest: Tolerance | None = quantity(
+        "", "Of every other channel; null: these are not judged", default=EXACT
+    )
+    align: Literal["start", "window"] = quantity(
+        "",
+        "What is laid over each other: the first samples, or where the windows of the runs'"
+        " numbers begin, such as their last load",
+        default="start",
+    )
+    points: Annotated[int, Field(ge=0, le=MAX_POINTS)] = quantity(
+        "", "Of each bound of the bands of `tolerances` at most so many; 0: none", default=0
+    )
+
+
+class ChannelJudged(BaseModel):
+    """How a channel of a lane was judged; times are those of the run that is judged."""
+
+    lane: str
+    channel: str
+    unit: str
+    held: bool
+    worst_s: float = Field(description="When it leaves the band furthest, or is nearest to it")
+    value: float | None = Field(description="Then; null where it is no finite number")
+    low: float | None
+    high: float | None
+    excess: float | None = Field(
+        description="How far outside then, negative inside; null where one of both is not known"
+    )
+    outside: list[tuple[float, float]] = Field(
+        description="From when to when it is outside; what is nearly one stretch is one"
+    )
+    outside_s: float = Field(description="How long in all, every tick counted")
+
+
+class Band(BaseModel):
+    """What a channel may be, in the time of the run that it should be; null: not known there."""
+
+    time_s: list[float]
+    low: list[float | None]
+    high: list[float | None]
+
+    @classmethod
+    def build(cls, time_s: list[float], bounds: np.ndarray) -> Self:
+        """bounds: least and greatest, (times, 2)."""
+        low, high = ([_tell(value) for value in column] for column in bounds.T.tolist())
+        return cls(time_s=time_s, low=low, high=high)
+
+
+class RunVerdict(BaseModel):
+    """A run judged against another. held: every channel, and both are as long from there on."""
+
+    held: bool
+    ticks: int = Field(description="So many were compared")
+    compared_s: float = Field(description="As a time")
+    own_ticks: int
+    other_ticks: int
+    begin_s: float = Field(description="Time of the first sample compared")
+    other_begin_s: float = Field(description="The same of the other run")
+    channels: list[ChannelJudged]
+    bands: dict[str, dict[str, Band]] = Field(description="By channel and lane")
+
+
+def tell_channel(verdict: ChannelVerdict) -> ChannelJudged:
+    """A channel's verdict on the wire."""
+    numbers = ("value", "low", "high", "excess")
+    told: dict[str, Any] = asdict(verdict) | {
+        name: _tell(getattr(verdict, name)) for name in numbers
+    }
+    return ChannelJudged(**told)
+
+
+def _tell(value: float) -> float | None:
+    return value if math.isfinite(value) else None

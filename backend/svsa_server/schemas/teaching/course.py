@@ -1,0 +1,255 @@
+"""What goes over the wire about the course: exercises, progress, judgements."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.inputs.checked import Checked, quantity
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.judgement import CriterionResult
+from svsa.teaching.course.kept_law import MAX_LAW_BYTES, KeptLaw
+from svsa.teaching.course.progress import ExerciseProgress, find_done, find_missing
+from svsa.teaching.course.steps import Experiment, Explain, HandInStep, Predict, Step
+from svsa.teaching.course.submission import LONGEST_NAME, Answer, StepName
+from svsa.teaching.course.text import render_text
+from svsa.teaching.grading.law_runs import POINTS
+from svsa_server.access.owned import Owned
+
+
+class SetupRequest(Checked):
+    """An experiment of the course."""
+
+    exercise: StepName = quantity("", "Name of the exercise")
+    step: StepName = quantity("", "Name of the step")
+
+
+class AnswerRequest(Checked):
+    """What was predicted, in the step's unit, or the name of the option that was chosen."""
+
+    answer: Answer
+
+
+class PlaceRequest(Checked):
+    """Where the reader is."""
+
+    step: StepName = quantity("", "Name of the step")
+
+
+class RunRequest(Checked):
+    """The run that is to be judged."""
+
+    run_id: Annotated[str, Field(min_length=1, max_length=80), Owned("run")] = quantity(
+        "", "Id of a recorded run"
+    )
+
+
+class HandInRequest(Checked):
+    """Who hands in; in a class it is the person who asks."""
+
+    student: str = quantity("", "Name", max_length=LONGEST_NAME, default="")
+
+
+class LawRequest(Checked):
+    """A law that is to be tried and kept."""
+
+    text: Annotated[str, Field(min_length=1, max_length=MAX_LAW_BYTES)] = quantity(
+        "", "Text of a law's Python file"
+    )
+
+
+class CriterionState(BaseModel):
+    """A criterion as it was judged."""
+
+    step: str
+    name: str
+    points: float
+    max_points: float
+    feedback: str
+    channel: str | None = Field(description="Where to look; null where it is about no sample")
+    time_s: float | None = Field(description="When, in the run's time")
+
+
+class OptionState(BaseModel):
+    """An answer that can be chosen."""
+
+    name: str
+    text: str
+
+
+class HandState(BaseModel):
+    """A time at which somebody hangs or takes off a load of a bench by hand."""
+
+    time_s: float = Field(description="Of the run")
+    is_on: bool = Field(description="Whether it is hung then, or taken off")
+
+
+class BenchStepState(BaseModel):
+    """An experiment as it is run on a bench."""
+
+    criteria: list[str] = Field(description="What is asked of its run")
+    by_hand: str = Field(description="What whoever stands at the bench does with its loads")
+    hands: list[HandState] = Field(description="When, in the order of time")
+
+
+class StepState(BaseModel):
+    """A step, what is known of it, and what may be done."""
+
+    name: str
+    kind: Literal["read", "predict", "experiment", "explain", "hand-in"]
+    title: str
+    html: str = Field(description="Its text; what is of class math is TeX")
+    max_points: float
+    asks: str = Field(default="", description="What is predicted")
+    unit: str = ""
+    low: float | None = Field(default=None, description="Least plausible value")
+    high: float | None = Field(default=None, description="Greatest plausible value")
+    judged_by: str | None = Field(default=None, description="Step whose run judges it")
+    options: list[OptionState] = []
+    duration_s: float | None = Field(default=None, description="How long its run is")
+    free: list[str] = Field(default=[], description="What may be chosen before its run")
+    criteria: list[str] = Field(default=[], description="What is asked of its run")
+    bench: BenchStepState | None = Field(
+        description="How it is run on a bench; null where it is simulated only"
+    )
+    law: bool = Field(default=False, description="Whether a law's file is handed in")
+    answer: Answer | None = None
+    is_kept: bool = Field(description="Whether the answer cannot be changed any more")
+    begun: bool
+    run_id: str | None
+    done: bool
+    results: list[CriterionState]
+
+
+class ExerciseSummary(BaseModel):
+    """An exercise in the list."""
+
+    name: str
+    number: int
+    title: str
+    goal: str
+    minutes: int
+    max_points: float
+    law_points: float = Field(description="Points of a law besides, which svsa grade gives")
+    steps: int
+    done: int
+    at: str | None = Field(description="Step that was looked at last")
+    handed_in: str | None = Field(description="When, as ISO 8601; null where it was not")
+    points: float | None = Field(description="Of the hand-in")
+    changes: int = Field(description="How often one's progress in it was changed")
+
+
+class ExerciseState(ExerciseSummary):
+    """An exercise with its steps."""
+
+    html: str
+    missing: list[str] = Field(description="Steps that are to be done before it is handed in")
+    law: KeptLaw | None = Field(description="The law that was tried last, which is handed in")
+    parts: list[StepState]
+
+
+class CourseState(BaseModel):
+    """The exercises, in their order."""
+
+    exercises: list[ExerciseSummary]
+
+
+class JudgementState(BaseModel):
+    """A hand-in as it was judged."""
+
+    exercise: str
+    points: float
+    max_points: float
+    criteria: list[CriterionState]
+
+
+def describe_summary(exercise: Exercise, progress: ExerciseProgress) -> ExerciseSummary:
+    """An exercise in the list."""
+    return ExerciseSummary(
+        name=exercise.name,
+        number=exercise.number,
+        title=exercise.title,
+        goal=exercise.goal,
+        minutes=exercise.minutes,
+        max_points=exercise.max_points,
+        law_points=sum(POINTS.values()) if exercise.takes_law else 0.0,
+        steps=len(exercise.steps),
+        done=len(find_done(exercise, progress)),
+        at=progress.at,
+        handed_in=progress.handed_in,
+        points=progress.points,
+        changes=progress.changes,
+    )
+
+
+def describe_exercise(exercise: Exercise, progress: ExerciseProgress) -> ExerciseState:
+    """An exercise with its steps; which answers are right is not told."""
+    return ExerciseState(
+        **describe_summary(exercise, progress).model_dump(),
+        html=render_text(exercise.text),
+        missing=find_missing(exercise, progress),
+        law=progress.law,
+        parts=[_describe_step(exercise, step, progress) for step in exercise.steps],
+    )
+
+
+def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -> StepState:
+    known = progress.get(step.name)
+    state = StepState(
+        name=step.name,
+        kind=step.kind,
+        title=step.title,
+        html=render_text(step.text),
+        max_points=0.0,
+        answer=known.answer,
+        is_kept=progress.handed_in is not None,
+        begun=known.begun,
+        run_id=known.run,
+        bench=None,
+        done=step.name in find_done(exercise, progress),
+        results=[describe_criterion(one) for one in known.results],
+    )
+    match step:
+        case Predict():
+            judge, _ = exercise.find_judge(step)
+            state.asks, state.unit, state.low, state.high = (
+                step.asks,
+                step.unit,
+                step.low,
+                step.high,
+            )
+            state.judged_by, state.max_points = judge.name, step.points
+            state.is_kept = state.is_kept or progress.get(judge.name).begun
+        case Experiment():
+            state.duration_s, state.free = step.duration_s, list(step.free)
+            state.criteria = [one.title for one in step.list_criteria(is_bench=False)]
+            state.bench = _describe_bench(step)
+            state.max_points = sum(one.points for one in step.criteria)
+        case Explain():
+            state.options = [OptionState(name=one.name, text=one.text) for one in step.options]
+            state.max_points = step.points
+            state.is_kept = state.is_kept or known.answer is not None
+        case HandInStep():
+            state.law = step.law
+    return state
+
+
+def _describe_bench(step: Experiment) -> BenchStepState | None:
+    if step.bench is None:
+        return None
+    hands: list[HandState] = []
+    for load in step.bench_configuration.loads:
+        begin_s = load.start_s or 0.0
+        hands.append(HandState(time_s=begin_s, is_on=True))
+        end_s = begin_s + load.get_duration()
+        if end_s < step.duration_s:
+            hands.append(HandState(time_s=end_s, is_on=False))
+    return BenchStepState(
+        criteria=[one.title for one in step.list_criteria(is_bench=True)],
+        by_hand=step.bench.by_hand,
+        hands=sorted(hands, key=lambda one: one.time_s),
+    )
+
+
+def describe_criterion(result: CriterionResult) -> CriterionState:
+    """A criterion on the wire."""
+    return CriterionState(**result._asdict())

@@ -1,0 +1,69 @@
+"""Grades on the wire."""
+
+from pydantic import BaseModel, Field
+
+from svsa.inputs.checked import Checked, Flag, quantity
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.grading.class_grades import Handed
+from svsa.teaching.grading.grade import Grade
+
+
+class GradingRequest(Checked):
+    """What is to be graded: what was handed in and has no grade, or all of it."""
+
+    again: Flag = quantity("", "Run again also what has its grade", default=False)
+
+
+class HandedState(BaseModel):
+    """What somebody handed in of an exercise."""
+
+    exercise: str
+    grade: Grade | None = Field(description="Null where it is not graded yet")
+    problem: str = Field(description="Why it got no grade when it was graded last, or empty")
+
+
+class StudentState(BaseModel):
+    """A student with what was handed in."""
+
+    person: str = Field(description="Id of the person")
+    name: str
+    handed: list[HandedState]
+
+
+class GradedExercise(BaseModel):
+    """An exercise of the table."""
+
+    name: str
+    number: int
+    title: str
+
+
+class GradesState(BaseModel):
+    """A class's grades, students in the order of their names."""
+
+    not_isolated: str | None = Field(
+        description="Why no law is graded on this machine; null where laws can be isolated"
+    )
+    exercises: list[GradedExercise]
+    students: list[StudentState]
+
+
+def describe_handed(one: Handed) -> HandedState:
+    """A hand-in on the wire."""
+    return HandedState(exercise=one.exercise, grade=one.grade, problem=one.problem)
+
+
+def describe_students(handed: list[Handed]) -> list[StudentState]:
+    """By person, each under the name of the last hand-in."""
+    students: dict[str, StudentState] = {}
+    for one in handed:
+        known = students.setdefault(
+            one.person, StudentState(person=one.person, name=one.student, handed=[])
+        )
+        known.handed.append(describe_handed(one))
+    return list(students.values())
+
+
+def describe_exercises(exercises: list[Exercise]) -> list[GradedExercise]:
+    """The exercises in their order."""
+    return [GradedExercise(name=one.name, number=one.number, title=one.title) for one in exercises]

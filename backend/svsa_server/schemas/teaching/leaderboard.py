@@ -1,0 +1,40 @@
+"""The leaderboard on the wire."""
+
+from pydantic import BaseModel, Field
+
+from svsa.inputs.checked import Checked, quantity
+from svsa.teaching.course.kept_law import MAX_LAW_BYTES
+from svsa.teaching.leaderboard.board import MAX_NAME, Author, Entry, EntryName
+from svsa_server.schemas.evaluation.job import JobState
+
+
+class LawSubmission(Checked):
+    """A law that is to be put through the season."""
+
+    name: EntryName = quantity("", "What it is called on the board", max_length=MAX_NAME)
+    law: str = quantity(
+        "", "Text of its file, Python: see docs/grading.md", min_length=1, max_length=MAX_LAW_BYTES
+    )
+    author: Author = quantity(
+        "", "Who submits it; in a class it is the person who asks", max_length=MAX_NAME, default=""
+    )
+
+
+class SubmissionState(BaseModel):
+    """What becomes of a law."""
+
+    key: str = Field(description="Of its entry: SHA-256 of its text")
+    job: JobState | None = Field(description="To be followed; null where it has its entry already")
+
+
+class LeaderboardState(BaseModel):
+    """A season: who is on the board, the best first."""
+
+    suite: str = Field(description="Version of the suite; scores compare within one")
+    began: str = Field(description="When the season began, UTC, ISO 8601")
+    not_isolated: str | None = Field(
+        description="Why this machine takes no law, as it cannot isolate one; null where it can"
+    )
+    runs: int = Field(description="How many runs a law is put through")
+    entries: list[Entry]
+    missing: list[str] = Field(description="Laws of the lab that are not measured on it yet")

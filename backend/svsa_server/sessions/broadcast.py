@@ -1,0 +1,85 @@
+"""What streams are told of a session: made once for all who are told the same.
+
+What is over is told once: a message has it from the tick on up to which its stream knows the past,
+so that it does not grow with the changes of a minute.
+"""
+
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from svsa_server.runs.lanes import list_kept_stretches
+from svsa_server.schemas.lab.session import SessionProgress
+from svsa_server.schemas.lab.stream import StateMessage
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.state import build_control, build_progress, build_queue, build_state
+
+FRESH_S = 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """Up to where a stream knows the past: of which run, which lanes, and under which names."""
+
+    run_number: int
+    tick: int
+    lane_ids: tuple[int, ...]
+    names: Mapping[int, str]
+
+    @classmethod
+    def all_of(cls, hosted: HostedSession) -> "Told":
+        """The past up to now."""
+        session = hosted.session
+        timeline = session.journal.timeline
+        names = timeline.name_stretches(list_kept_stretches(session))
+        lane_ids = tuple(timeline.lane_ids)
+        return cls(session.journal.run_number, session.run.tick, lane_ids, names)
+
+    def find_since(self, now: "Told") -> int:
+        """From which tick on the past is to be told; 0, all, where it reads otherwise now."""
+        if (self.run_number, self.lane_ids) != (now.run_number, now.lane_ids):
+            return 0
+        if self.names is not now.names and any(
+            now.names.get(number, name) != name for number, name in self.names.items()
+        ):
+            return 0
+        return self.tick
+
+
+class News(NamedTuple):
+    """A message, and what its reader knows then."""
+
+    text: str
+    told: Told
+
+
+def write_news(hosted: HostedSession, told: Told) -> News:
+    """The message of a stream after a change: made once for all clients that are told the same.
+
+    What moves by itself in it is of the first that was told.
+    """
+    control, queue = build_control(hosted), build_queue(hosted.hand)
+    key = (told, control.mine, queue and queue.place)
+    return hosted.news.get(hosted.version, key, lambda: _write(hosted, told, build_state))
+
+
+def write_progress(hosted: HostedSession, told: Told, period: Hashable) -> News:
+    """What moves by itself, for a stream that was told of every change: once in each period."""
+    version = (hosted.version, period)
+    return hosted.progress.get(version, told, lambda: _write(hosted, told, build_progress))
+
+
+def is_fresh(hosted: HostedSession) -> bool:
+    """Whether the window has begun so lately that its numbers still move fast."""
+    run, window = hosted.session.run, hosted.session.journal.timeline.window
+    return (run.tick - window.first_tick) * run.period_s < FRESH_S
+
+
+def _write(
+    hosted: HostedSession, told: Told, build: Callable[[HostedSession, int], SessionProgress]
+) -> News:
+    version = (hosted.version, hosted.session.run.tick)
+    now = hosted.told.get(version, None, lambda: Told.all_of(hosted))
+    since = told.find_since(now)
+    message = StateMessage(since_tick=since, state=build(hosted, since))
+    return News(message.model_dump_json(), now)

@@ -1,0 +1,114 @@
+/** An adversary as it stands in the form, and as it is sent. */
+import type { Adversary, Term } from "../../core/api/falsifications";
+
+export const HARMS = ["fault", "peak", "recovery"] as const;
+export const KINDS = ["step", "pulse", "sine"] as const;
+export const BODIES = ["link", "motor1", "motor2"] as const;
+export const EFFECTS = ["ideal", "rig", "every"] as const;
+export const FIGURES = ["4a", "4b", "5"] as const;
+export type Kind = (typeof KINDS)[number];
+export type Body = (typeof BODIES)[number];
+type Ends = readonly [number, number];
+
+/** A load of the family, its own range beside the onset: length or frequency. */
+export interface TermForm {
+  kind: Kind;
+  bodies: readonly Body[];
+  torqueNm: number;
+  startS: Ends;
+  own: Ends;
+}
+
+export interface AdversaryForm {
+  title: string;
+  law: string;
+  harm: Adversary["harm"];
+  base: Adversary["base"];
+  durationS: number;
+  measureFromS: number;
+  terms: readonly TermForm[];
+  /** By how much of itself the model may be off, %. */
+  offPercent: number;
+  /** Perturbations that are no such share. */
+  vary: Adversary["vary"];
+}
+
+const OWN: Readonly<Record<Kind, Ends>> = { step: [0, 0], pulse: [0.01, 2], sine: [0.1, 20] };
+const OFF_PATHS = ["actuator.link_inertia_kg_m2", "actuator.spring_stiffness_n_per_m"] as const;
+
+export const changeKind = (term: TermForm, kind: Kind): TermForm => ({
+  ...term,
+  kind,
+  own: OWN[kind],
+});
+
+function readTerm(term: Term): TermForm {
+  const own =
+    term.kind === "pulse" ? term.duration_s : term.kind === "sine" ? term.frequency_hz : OWN.step;
+  const { kind, bodies, torque_nm: torqueNm, start_s: startS } = term;
+  return { kind, bodies, torqueNm, startS: startS as Ends, own: own as Ends };
+}
+
+function writeTerm({ kind, bodies, torqueNm, startS, own }: TermForm): Term {
+  const shared = { bodies: [...bodies], torque_nm: torqueNm, start_s: [...startS] };
+  if (kind === "step") return { ...shared, kind } as Term;
+  const range = kind === "pulse" ? { duration_s: [...own] } : { frequency_hz: [...own] };
+  return { ...shared, ...range, kind } as Term;
+}
+
+/** The share of a perturbation that is one of the form's, %; null of any other. */
+function readOff(one: Adversary["vary"][number]): number | null {
+  const isOff = one.kind === "uniform" && one.relative && OFF_PATHS.some((p) => p === one.path);
+  return isOff && Math.abs(one.low + one.high - 2) < 1e-9 ? 100 * (one.high - 1) : null;
+}
+
+export function readForm(from: Adversary): AdversaryForm {
+  const shares = from.vary.map(readOff);
+  const share = shares[0] ?? 0;
+  const isForm = shares.length === OFF_PATHS.length && shares.every((one) => one === share);
+  return {
+    title: from.title,
+    law: from.law,
+    harm: from.harm,
+    base: from.base,
+    durationS: from.duration_s,
+    measureFromS: from.measure_from_s,
+    terms: from.terms.map(readTerm),
+    offPercent: isForm ? Number(share.toPrecision(6)) : 0,
+    vary: isForm ? [] : from.vary,
+  };
+}
+
+export function writeForm(form: AdversaryForm): Adversary {
+  const share = form.offPercent / 100;
+  const off = OFF_PATHS.map((path) => ({
+    kind: "uniform" as const,
+    path,
+    low: 1 - share,
+    high: 1 + share,
+    relative: true,
+  }));
+  return {
+    title: form.title,
+    law: form.law,
+    harm: form.harm,
+    base: form.base,
+    duration_s: form.durationS,
+    measure_from_s: form.measureFromS,
+    terms: form.terms.map(writeTerm),
+    vary: [...form.vary, ...(share > 0 ? off : [])] as Adversary["vary"],
+  };
+}
+
+/** What a family may do in a few words, for the title of a search that was changed. */
+export const describeTerms = (
+  terms: readonly TermForm[],
+  words: { kinds: Record<Kind, string>; bodies: Record<Body, string> },
+): string =>
+  terms
+    .map(
+      ({ kind, bodies, torqueNm }) =>
+        `${words.kinds[kind]} of at most ${torqueNm} N·m on ${bodies.map((body) => words.bodies[body]).join(", ")}`,
+    )
+    .join("; ")
+    .slice(0, 200);

@@ -1,0 +1,182 @@
+/** The searches and scenarios of this lab, the one that is looked at, and laws that are put through it. */
+import { computed, signal } from "@preact/signals";
+import {
+  type AdversaryState,
+  type KeptScenario,
+  keepScenario,
+  listAdversaries,
+  listScenarios,
+  listSearches,
+  readSearch,
+  runLaws,
+  type Scenario,
+  type Search,
+  type SearchWish,
+  seeLaws,
+  startSearch,
+  stopSearch,
+  type Trace,
+} from "../../core/api/falsifications";
+import type { Law } from "../../core/api/types";
+import { polling } from "../../core/jobs/poll";
+import { isGoing } from "../../core/jobs/progress";
+import { asking, telling } from "../../core/state/attempt";
+import { goTo, place } from "../../runs/list/place";
+
+const PAPERS_LAW = "ndobc";
+const BASELINE = "fl";
+
+export const adversaries = signal<readonly AdversaryState[]>([]);
+export const searches = signal<readonly Search[] | null>(null);
+export const kept = signal<readonly KeptScenario[] | null>(null);
+export const search = signal<Search | null>(null);
+/** What came of the laws, of which scenario and laws it is, and where that is looked at. */
+export const traced = signal<{ at: string; key: string; trace: Trace } | null>(null);
+export const problem = signal("");
+export const isBusy = signal("");
+
+export const chosen = computed(() =>
+  place.value.kind === "falsifier" ? place.value : { search: "", scenario: "", laws: [] },
+);
+
+const at = computed(() => `${chosen.value.search} ${chosen.value.scenario}`);
+
+/** What came of the laws here, of whichever came last. */
+export const shown = computed(() => (traced.value?.at === at.value ? traced.value.trace : null));
+
+/** The scenario that is looked at: a kept one, or the simplest or the worst of a search. */
+export const scenario = computed((): Scenario | null => {
+  const { scenario: name } = chosen.value;
+  if (name !== "") return kept.value?.find((one) => one.name === name)?.scenario ?? null;
+  return search.value?.scenario ?? search.value?.worst ?? null;
+});
+
+export interface Finding {
+  adversary: string;
+  law: Law;
+  harm: string;
+  outcome: string;
+  at_run: number;
+  runs: number;
+  seed: number;
+}
+export const findingOf = (one: Scenario): Finding | null => (one.found as Finding) ?? null;
+
+/** A law, and NDOBC beside it; beside NDOBC what the paper compares it with. */
+export const besideOf = (law: Law): readonly [Law, Law] => [
+  law,
+  law === PAPERS_LAW ? BASELINE : PAPERS_LAW,
+];
+
+/** The laws that are put through it: those that are asked for; else the one that it hurts, and
+ * another one beside it once the search has ended. */
+export const laws = computed((): readonly Law[] => {
+  if (chosen.value.laws.length > 0) return chosen.value.laws;
+  const hurt = (scenario.value && findingOf(scenario.value)?.law) ?? PAPERS_LAW;
+  return isGoing(search.value) ? [hurt] : besideOf(hurt);
+});
+
+const attempt = asking(problem);
+
+export async function openLists(): Promise<void> {
+  const [known, ended, named] = await Promise.all([
+    adversaries.peek().length > 0 ? adversaries.peek() : attempt(listAdversaries),
+    attempt(listSearches),
+    attempt(listScenarios),
+  ]);
+  adversaries.value = known ?? [];
+  searches.value = ended ?? searches.peek();
+  kept.value = named ?? kept.peek();
+}
+
+const poll = polling(telling(problem));
+export const { leave } = poll;
+
+/** Looks at a search, and follows it until it has ended. */
+export async function follow(id: string): Promise<void> {
+  leave();
+  problem.value = "";
+  search.value = null;
+  if (id === "") return;
+  const ending = await poll.follow(
+    () => readSearch(id),
+    (found) => {
+      search.value = found;
+      return !isGoing(found);
+    },
+  );
+  if (ending === "ended") void openLists();
+  else if (ending === "refused") search.value = null;
+}
+
+export const keyOf = (one: Scenario, names: readonly Law[]): string =>
+  JSON.stringify([one.loads, one.settings, one.base, one.duration_s, names]);
+
+let isTracing = false;
+
+/** Puts the laws through what is looked at; what was asked for meanwhile comes next. */
+export async function runThem(): Promise<void> {
+  if (isTracing) return;
+  isTracing = true;
+  try {
+    for (;;) {
+      const [one, names, here] = [scenario.peek(), laws.peek(), at.peek()];
+      if (one === null) return;
+      const key = keyOf(one, names);
+      const last = traced.peek();
+      if (last?.key === key && last.at === here) return;
+      const found = await attempt(() => runLaws(one, names));
+      if (here !== at.peek()) continue;
+      if (found === null) return;
+      traced.value = { at: here, key, trace: found };
+    }
+  } finally {
+    isTracing = false;
+  }
+}
+
+/** Whether it was begun. */
+export async function begin(wish: SearchWish): Promise<boolean> {
+  problem.value = "";
+  isBusy.value = "begin";
+  const begun = await attempt(() => startSearch(wish));
+  isBusy.value = "";
+  if (begun === null) return false;
+  void openLists();
+  goTo({ kind: "falsifier", search: begun.id, scenario: "", laws: [] });
+  return true;
+}
+
+export async function cancel(): Promise<void> {
+  const going = search.peek();
+  if (going !== null) await attempt(() => stopSearch(going.id));
+}
+
+/** Keeps what is looked at by a name, and goes there. */
+export async function keep(name: string): Promise<void> {
+  const one = scenario.peek();
+  if (one === null) return;
+  problem.value = "";
+  isBusy.value = "keep";
+  const made = await attempt(() => keepScenario(name, one));
+  if (made !== null) {
+    await openLists();
+    goTo({ kind: "falsifier", search: "", scenario: made.name, laws: chosen.peek().laws });
+  }
+  isBusy.value = "";
+}
+
+/** Opens a private session of a law in it, beside the one that it was found for. */
+export async function see(law: Law): Promise<void> {
+  const one = scenario.peek();
+  if (one === null) return;
+  problem.value = "";
+  isBusy.value = `see ${law}`;
+  const hurt = findingOf(one)?.law ?? law;
+  const pair = law === hurt ? besideOf(law) : [law, hurt];
+  const made = await attempt(() => seeLaws(one, pair));
+  isBusy.value = "";
+  if (made !== null) {
+    location.assign(`${location.pathname}?session=${encodeURIComponent(made.session)}`);
+  }
+}

@@ -1,0 +1,133 @@
+import { useState } from "preact/hooks";
+import { type Scenario, scenarioFileOf, searchFileOf } from "../../core/api/falsifications";
+import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { copyText } from "../../lab/script/copy";
+import { cancel, chosen, findingOf, isBusy, keep, search, shown } from "./falsifier";
+
+const words = text.falsifier;
+
+/** A link to what is looked at; of a search one that lasts as long as the lab. */
+function Link() {
+  const [told, setTold] = useState("");
+  const copy = async () => {
+    setTold((await copyText(location.href)) ? words.copied : words.notCopied);
+  };
+  return (
+    <>
+      <button type="button" class="button" onClick={() => void copy()}>
+        {words.copy}
+      </button>
+      <span role="status">{told}</span>
+    </>
+  );
+}
+
+function Keep({ offered }: { offered: string }) {
+  const [name, setName] = useState(offered);
+  return (
+    <form
+      class="desk-buttons falsifier-keep"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void keep(name);
+      }}
+    >
+      <label class="desk-label" title={words.nameHint}>
+        <span>{words.name}</span>
+        <input
+          type="text"
+          required
+          maxLength={64}
+          pattern="[0-9A-Za-z][0-9A-Za-z_\-]*"
+          value={name}
+          onInput={(event) => setName(event.currentTarget.value)}
+        />
+      </label>
+      <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
+        {words.keep}
+      </button>
+    </form>
+  );
+}
+
+/** What was found in words: who is hurt how, by what, at which run of the search. */
+function Facts({ scenario }: { scenario: Scenario }) {
+  const finding = findingOf(scenario);
+  const told = shown.value?.told ?? [];
+  return (
+    <>
+      {finding && (
+        <p class="falsifier-outcome">
+          <b>{words.found(titleOf(finding.law), finding.outcome)}</b>{" "}
+          <span class="hint">
+            {words.foundAt(finding.at_run, finding.runs, finding.seed)},{" "}
+            {words.lasts(formatNumber(Number(scenario.duration_s), 3))}
+          </span>
+        </p>
+      )}
+      <ul class="falsifier-told">
+        {told.map((one) => (
+          <li key={one}>{one}</li>
+        ))}
+      </ul>
+    </>
+  );
+}
+
+/** A scenario with a name, or a search: how far it is, and what it has found. */
+export function Found({ scenario }: { scenario: Scenario | null }) {
+  const name = chosen.value.scenario;
+  const at = name === "" ? search.value : null;
+  const isUnderWay = isGoing(at);
+  if (scenario === null && at === null) return null;
+  const title = (scenario && findingOf(scenario)?.adversary) ?? scenario?.title ?? "";
+  return (
+    <section class="surface card desk-wide" aria-label={name || at?.title}>
+      <h3>{name !== "" ? `${name}: ${title}` : at?.title}</h3>
+      {at && (
+        <JobProgress
+          job={at}
+          done={words.state(at.done, at.total)}
+          total={at.total}
+          label={words.progress(titleOf(at.law))}
+          onCancel={() => void cancel()}
+        />
+      )}
+      {scenario === null ? (
+        <p class="hint">{isUnderWay ? words.nothingYet : null}</p>
+      ) : (
+        <>
+          {at && <h4>{at.scenario ? words.simplest : words.worstSoFar}</h4>}
+          <Facts scenario={scenario} />
+          {at && at.steps.length > 0 && (
+            <details>
+              <summary>{words.steps(at.steps.length)}</summary>
+              <ol class="falsifier-steps">
+                {at.steps.map((step, number) => (
+                  <li key={`${number} ${step}`}>{step}</li>
+                ))}
+              </ol>
+            </details>
+          )}
+          {!isUnderWay && (
+            <div class="desk-buttons">
+              {at && <Keep key={at.id} offered={`${at.law}-${at.id.slice(0, 4)}`} />}
+              <a
+                class="button"
+                href={name !== "" ? scenarioFileOf(name) : searchFileOf(at?.id ?? "")}
+                download
+              >
+                {words.file}
+              </a>
+              <Link />
+            </div>
+          )}
+          {at && <p class="hint">{isUnderWay ? words.noProof : words.passing}</p>}
+        </>
+      )}
+    </section>
+  );
+}

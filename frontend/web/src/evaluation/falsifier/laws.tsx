@@ -1,0 +1,155 @@
+import type { LawTrace } from "../../core/api/falsifications";
+import type { Law } from "../../core/api/types";
+import { LawBoxes } from "../../core/jobs/lawboxes";
+import type { Ink } from "../../core/plots/definitions";
+import { dotOf } from "../../core/plots/lawinks";
+import { titleOf, usableLaws } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
+import { keepLaws } from "../../runs/list/place";
+import { besideOf, findingOf, isBusy, laws, scenario, see } from "./falsifier";
+import type { DrawnLaw } from "./picture";
+
+const words = text.falsifier;
+
+const metricOf = (one: LawTrace, name: string, factor = 1): string => {
+  const value = one.metrics[name];
+  return formatNumber(value === null || value === undefined ? null : value * factor, 3);
+};
+
+const endOf = ({ fault, fault_s: timeS }: LawTrace): string =>
+  fault === null
+    ? words.whole
+    : words.fault(
+        text.arena.faults[fault] ?? fault.replaceAll("_", " "),
+        formatNumber(timeS, 4, 3),
+      );
+
+/** Recovery is none of a run that ended; of another one without it: it never did. */
+const recoveryOf = (one: LawTrace): string =>
+  one.fault === null && one.metrics.recovery_time_s === null
+    ? words.never
+    : metricOf(one, "recovery_time_s");
+
+const peakOf = (one: LawTrace): number => one.metrics.peak_position_error_rad ?? Infinity;
+
+/** Those that held first, the least error first; then those that ended, the last one first. */
+export const rankLaws = (traces: readonly LawTrace[]): LawTrace[] =>
+  [...traces].sort((a, b) => {
+    if (a.fault === null || b.fault === null) {
+      return a.fault === b.fault ? peakOf(a) - peakOf(b) : a.fault === null ? -1 : 1;
+    }
+    return (b.fault_s ?? 0) - (a.fault_s ?? 0);
+  });
+
+interface RowProps {
+  one: LawTrace;
+  /** undefined: it is not drawn. */
+  ink: Ink | undefined;
+  onDraw: (law: Law) => void;
+}
+
+function Row({ one, ink, onDraw }: RowProps) {
+  const title = titleOf(one.law);
+  return (
+    <tr class={one.fault === null ? undefined : "is-ended"}>
+      <th scope="row">
+        <button
+          type="button"
+          class="falsifier-law"
+          aria-pressed={ink !== undefined}
+          title={words.draw(title)}
+          onClick={() => onDraw(one.law)}
+        >
+          <i aria-hidden="true" style={dotOf(ink)} />
+          {title}
+        </button>
+      </th>
+      <td>{endOf(one)}</td>
+      <td>{metricOf(one, "peak_position_error_rad", DEGREES_PER_RADIAN)}</td>
+      <td>{metricOf(one, "settled_position_error_rad", DEGREES_PER_RADIAN)}</td>
+      <td>{recoveryOf(one)}</td>
+      <td>{metricOf(one, "peak_stiffness_error_nm_per_rad")}</td>
+      <td>
+        <button
+          type="button"
+          class="button"
+          title={words.seeHint}
+          aria-label={words.seeLabel(title)}
+          disabled={isBusy.value !== ""}
+          onClick={() => void see(one.law)}
+        >
+          {words.see}
+        </button>
+      </td>
+    </tr>
+  );
+}
+
+/** Which laws are put through it. */
+function Choice() {
+  const hurt = scenario.value && findingOf(scenario.value)?.law;
+  return (
+    <details class="falsifier-choice">
+      <summary>{words.choice}</summary>
+      <LawBoxes laws={laws.value} onChange={keepLaws} />
+      <div class="desk-buttons">
+        <button
+          type="button"
+          class="button"
+          onClick={() => keepLaws(usableLaws.value.map(({ name }) => name))}
+        >
+          {words.all}
+        </button>
+        {hurt && (
+          <button type="button" class="button" onClick={() => keepLaws(besideOf(hurt))}>
+            {words.few}
+          </button>
+        )}
+      </div>
+    </details>
+  );
+}
+
+interface LawsProps {
+  traces: readonly LawTrace[];
+  drawn: readonly DrawnLaw[];
+  isRunning: boolean;
+  onDraw: (law: Law) => void;
+}
+
+/** Which laws held, and which ended in a fault. */
+export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
+  const held = traces.filter(({ fault }) => fault === null).length;
+  return (
+    <section class="surface card desk-wide" aria-label={words.laws}>
+      <h3>{words.laws}</h3>
+      <p role="status">{isRunning ? words.running : words.held(held, traces.length)}</p>
+      <Choice />
+      <div class="desk-scroll">
+        <table class="desk-table falsifier-table">
+          <thead>
+            <tr>
+              {Object.entries(words.columns).map(([key, name]) => (
+                <th key={key} scope="col">
+                  {name}
+                </th>
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {rankLaws(traces).map((one) => (
+              <Row
+                key={one.law}
+                one={one}
+                ink={drawn.find(({ law }) => law === one.law)?.ink}
+                onDraw={onDraw}
+              />
+            ))}
+          </tbody>
+        </table>
+      </div>
+      <p class="hint">{words.lawsHint}</p>
+    </section>
+  );
+}

@@ -1,0 +1,146 @@
+import { useMemo } from "preact/hooks";
+import type uPlot from "uplot";
+import type { LawTrace, Scenario, Trace } from "../../core/api/falsifications";
+import type { Ink } from "../../core/plots/definitions";
+import { DASHED, DOTTED, PLAIN } from "../../core/plots/inks";
+import { palette } from "../../core/plots/palette";
+import { type StaticContent, type StaticCurve, spanWithin } from "../../core/plots/staticchart";
+import { useStaticChart } from "../../core/plots/usestaticchart";
+import { text } from "../../core/text/en";
+import { DEGREES_PER_RADIAN } from "../../core/units";
+import { BODIES } from "./definition";
+import { spanOf } from "./span";
+
+const words = text.falsifier;
+const TIME_AXIS_PX = 26;
+const CROSS_PX = 5;
+const NONE: ReadonlySet<string> = new Set();
+const TORQUE_INKS: readonly Ink[] = (
+  [
+    ["reference", PLAIN],
+    ["orange", DASHED],
+    ["purple", DOTTED],
+  ] as const
+).map(([colour, dash]) => ({ colour, dash, width: 2 }));
+const MIN_SPANS = { torque: 0.1, position: 0.01, stiffness: 0.01 } as const;
+/** A law whose errors are in the picture. */
+export interface DrawnLaw extends LawTrace {
+  ink: Ink;
+}
+
+type Chart = keyof typeof MIN_SPANS;
+
+function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): StaticCurve[] {
+  if (chart === "torque") {
+    return BODIES.map((body, at) => ({
+      key: body,
+      ...(TORQUE_INKS[at] as Ink),
+      values: trace.torque_nm.map((torques) => torques[at] as number),
+    })).filter(({ values }, at) => at === 0 || values.some((value) => value !== 0));
+  }
+  return drawn.map((one) => ({
+    key: one.law,
+    ...one.ink,
+    values:
+      chart === "position"
+        ? one.position_error_rad.map((value) => value && value * DEGREES_PER_RADIAN)
+        : one.stiffness_error_nm_per_rad,
+  }));
+}
+
+/** A cross where a run ended in a fault. */
+function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly DrawnLaw[]): void {
+  const { ctx: context } = plot;
+  const reach = CROSS_PX * devicePixelRatio;
+  drawn.forEach((one, at) => {
+    const values = plot.data[at + 1] ?? [];
+    const last = one.position_error_rad.filter((value) => value !== null).length - 1;
+    if (one.fault === null || last < 0) return;
+    const x = plot.valToPos(trace.time_s[last] as number, "x", true);
+    const y = plot.valToPos(values[last] as number, "y", true);
+    context.save();
+    context.strokeStyle = palette.peek()[one.ink.colour];
+    context.lineWidth = 2.5 * devicePixelRatio;
+    context.setLineDash([]);
+    context.beginPath();
+    for (const slope of [1, -1]) {
+      context.moveTo(x - reach, y - slope * reach);
+      context.lineTo(x + reach, y + slope * reach);
+    }
+    context.stroke();
+    context.restore();
+  });
+}
+
+interface ChartProps {
+  chart: Chart;
+  trace: Trace;
+  drawn: readonly DrawnLaw[];
+  view: ReturnType<typeof spanWithin>;
+}
+
+function describeChart({ chart, trace, drawn, view }: ChartProps): StaticContent {
+  const hasTimes = chart === "stiffness";
+  return {
+    time: trace.time_s,
+    curves: curvesOf(chart, trace, drawn),
+    minSpan: MIN_SPANS[chart],
+    padding: [8, 14, hasTimes ? 0 : 8, 0],
+    timeAxis: { size: hasTimes ? TIME_AXIS_PX : 0, tick: words.secondTick },
+    group: "falsifier",
+    ...view,
+    drawBelow: () => undefined,
+    ...(chart !== "torque" && { drawAbove: (plot: uPlot) => drawCrosses(plot, trace, drawn) }),
+  };
+}
+
+function ErrorChart(props: ChartProps) {
+  const { chart, trace, drawn, view } = props;
+  const content = useMemo(() => describeChart(props), [chart, trace, drawn, view]);
+  const host = useStaticChart(content, NONE);
+  const { title, unit } = words.charts[chart];
+  const bodies = content.curves.filter(({ key }) => BODIES.some((body) => body === key));
+  return (
+    <section class="falsifier-plot" aria-label={title}>
+      <h4>
+        {title} <span class="unit">{unit}</span>
+        {bodies.length > 1 &&
+          bodies.map(({ key, colour }) => (
+            <span key={key} class={`falsifier-body ink-${colour}`}>
+              {words.bodies[key as (typeof BODIES)[number]]}
+            </span>
+          ))}
+      </h4>
+      <div
+        class={`falsifier-canvas is-${chart}`}
+        ref={host}
+        role="img"
+        aria-label={`${title}, ${unit}`}
+        title={words.pictureHint}
+      />
+    </section>
+  );
+}
+
+interface PictureProps {
+  scenario: Scenario;
+  trace: Trace;
+  drawn: readonly DrawnLaw[];
+}
+
+/** The torques of the loads, and below them the errors that they cause. */
+export function Picture({ scenario, trace, drawn }: PictureProps) {
+  const view = useMemo(() => spanWithin(spanOf(scenario, trace.time_s)), [trace]);
+  return (
+    <section class="surface card desk-wide" aria-label={words.picture}>
+      <h3>{words.picture}</h3>
+      {(["torque", "position", "stiffness"] as const).map((chart) => (
+        <ErrorChart key={chart} {...{ chart, trace, drawn, view }} />
+      ))}
+      <p class="hint">
+        {drawn.some(({ fault }) => fault !== null) && <>{words.crosses}. </>}
+        {words.pictureHint}
+      </p>
+    </section>
+  );
+}

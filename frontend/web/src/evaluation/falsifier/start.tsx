@@ -1,0 +1,241 @@
+import { useState } from "preact/hooks";
+import type { Adversary } from "../../core/api/falsifications";
+import { titleOf, usableLaws } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import {
+  type AdversaryForm,
+  describeTerms,
+  EFFECTS,
+  FIGURES,
+  HARMS,
+  readForm,
+  type TermForm,
+  writeForm,
+} from "./definition";
+import { adversaries, begin, isBusy } from "./falsifier";
+import { TermFields } from "./term";
+
+const words = text.falsifier;
+const OWN = "";
+const RUNS = 20_000;
+
+interface ChooseProps<T extends string> {
+  label: string;
+  value: T;
+  options: readonly T[];
+  name: (value: T) => string;
+  title?: string;
+  onChoose: (value: T) => void;
+}
+
+function Choose<T extends string>({
+  label,
+  value,
+  options,
+  name,
+  title,
+  onChoose,
+}: ChooseProps<T>) {
+  return (
+    <label title={title}>
+      <span>{label}</span>
+      <select value={value} onChange={(event) => onChoose(event.currentTarget.value as T)}>
+        {options.map((one) => (
+          <option key={one} value={one}>
+            {name(one)}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+interface NumberProps {
+  label: string;
+  value: number;
+  min: number;
+  max?: number;
+  title?: string;
+  onChange: (value: number) => void;
+}
+
+function NumberField({ label, value, title, onChange, ...ends }: NumberProps) {
+  return (
+    <label title={title}>
+      <span>{label}</span>
+      <input
+        type="number"
+        step="any"
+        required
+        {...ends}
+        value={value}
+        onInput={(event) => onChange(event.currentTarget.valueAsNumber)}
+      />
+    </label>
+  );
+}
+
+/** What the runs begin from: effects, references. */
+function Base({ form, onChange }: FieldsProps) {
+  const { base } = form;
+  const effects = EFFECTS.find((one) => one === (base.effects ?? "ideal"));
+  return (
+    <div class="desk-fields">
+      <Choose
+        label={words.effects}
+        value={effects ?? "given"}
+        options={effects ? EFFECTS : [...EFFECTS, "given" as const]}
+        name={(one) => words.effect[one]}
+        onChoose={(one) => one !== "given" && onChange({ base: { ...base, effects: one } })}
+      />
+      <Choose
+        label={words.figure}
+        value={String(base.figure ?? FIGURES[0])}
+        options={FIGURES}
+        name={(one) => text.figures.name[one as (typeof FIGURES)[number]]}
+        onChoose={(figure) => onChange({ base: { ...base, figure } })}
+      />
+    </div>
+  );
+}
+
+interface FieldsProps {
+  form: AdversaryForm;
+  onChange: (changed: Partial<AdversaryForm>) => void;
+}
+
+function Loads({ form, onChange }: FieldsProps) {
+  const { terms } = form;
+  const set = (next: readonly TermForm[]) =>
+    onChange({ terms: next, title: describeTerms(next, words) });
+  return (
+    <fieldset class="falsifier-loads">
+      <legend>{words.loads}</legend>
+      {terms.map((term, at) => (
+        <TermFields
+          key={at}
+          number={at + 1}
+          term={term}
+          canBeRemoved={terms.length > 1}
+          onChange={(changed) => set(terms.map((one, place) => (place === at ? changed : one)))}
+          onRemove={() => set(terms.filter((_, place) => place !== at))}
+        />
+      ))}
+      <button
+        type="button"
+        class="button"
+        disabled={terms.length >= 8}
+        onClick={() => set([...terms, terms.at(-1) as TermForm])}
+      >
+        {words.add}
+      </button>
+    </fieldset>
+  );
+}
+
+/** Bounds within which is searched, and what is after: a built-in adversary, changed, or a text. */
+export function Start() {
+  const known = adversaries.value;
+  const first = known[0];
+  const [source, setSource] = useState<string | null>(null);
+  const [changed, setChanged] = useState<Partial<AdversaryForm>>({});
+  const [own, setOwn] = useState("");
+  const [law, setLaw] = useState("");
+  const [runs, setRuns] = useState(RUNS);
+  const [seed, setSeed] = useState(0);
+  if (first === undefined) return null;
+  const chosen = source ?? first.name;
+  const from = known.find(({ name }) => name === chosen);
+  const form = from && { ...readForm(from.definition as Adversary), ...changed };
+  const hurt = law || (form?.law ?? "");
+  const change = (more: Partial<AdversaryForm>) => setChanged({ ...changed, ...more });
+  const choose = (name: string) => {
+    if (name === OWN && own === "") setOwn((from ?? first).text);
+    setSource(name);
+    setChanged({});
+  };
+  return (
+    <form
+      class="surface card desk-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        const asked = form ? { definition: writeForm({ ...form, law: hurt }) } : { text: own };
+        void begin({ ...asked, ...(law !== "" && { law }), runs, seed });
+      }}
+    >
+      <h3>{words.begin}</h3>
+      <Choose
+        label={words.adversary}
+        value={chosen}
+        options={[...known.map(({ name }) => name), OWN]}
+        name={(name) => (name === OWN ? words.own : name)}
+        onChoose={choose}
+      />
+      {from && <p class="hint">{from.title}</p>}
+      <Choose
+        label={words.law}
+        value={hurt}
+        options={[...(form ? [] : [""]), ...usableLaws.value.map(({ name }) => name)]}
+        name={(name) => (name === "" ? text.studies.asInStudy : titleOf(name))}
+        onChoose={setLaw}
+      />
+      {form ? (
+        <>
+          <Choose
+            label={words.harm}
+            value={form.harm}
+            options={HARMS}
+            name={(harm) => words.harms[harm]}
+            title={words.harmHint}
+            onChoose={(harm) => change({ harm })}
+          />
+          <Base form={form} onChange={change} />
+          <Loads form={form} onChange={change} />
+          <div class="desk-fields">
+            <NumberField
+              label={words.off}
+              title={words.offHint}
+              min={0}
+              max={90}
+              value={form.offPercent}
+              onChange={(offPercent) => change({ offPercent })}
+            />
+            <NumberField
+              label={words.duration}
+              min={0.1}
+              max={60}
+              value={form.durationS}
+              onChange={(durationS) => change({ durationS })}
+            />
+          </div>
+        </>
+      ) : (
+        <label>
+          <span>{words.text}</span>
+          <textarea
+            rows={12}
+            spellcheck={false}
+            value={own}
+            onInput={(event) => setOwn(event.currentTarget.value)}
+          />
+        </label>
+      )}
+      <div class="desk-fields">
+        <NumberField
+          label={words.runs}
+          title={words.runsHint}
+          min={1}
+          max={100_000}
+          value={runs}
+          onChange={setRuns}
+        />
+        <NumberField label={words.seed} min={0} value={seed} onChange={setSeed} />
+      </div>
+      <div class="desk-buttons">
+        <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
+          {words.search}
+        </button>
+      </div>
+    </form>
+  );
+}

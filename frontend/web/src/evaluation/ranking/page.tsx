@@ -1,0 +1,102 @@
+import { useEffect } from "preact/hooks";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { ScoreKey } from "../../core/widgets/scorebar";
+import { measureAll, measuring, openArena, problem, results, stopMeasuring } from "./arena";
+import { COLUMNS, versionsOf } from "./columns";
+import { LawCard } from "./law";
+import { Radar } from "./radar";
+import { ArenaTable } from "./table";
+
+const words = text.arena;
+
+function Measure() {
+  const now = measuring.value;
+  if (now === null) {
+    return (
+      <button
+        type="button"
+        class="button"
+        title={words.measureHint}
+        onClick={() => void measureAll()}
+      >
+        {words.measure}
+      </button>
+    );
+  }
+  return (
+    <div class="arena-measuring">
+      <span role="status">{words.measuring(titleOf(now.law), now.done, now.of)}</span>
+      <progress value={now.done} max={now.of} aria-label={words.measure} />
+      <button type="button" class="button" onClick={stopMeasuring}>
+        {words.stop}
+      </button>
+    </div>
+  );
+}
+
+/** Which colour of the score's bar is which of its parts. */
+function ScoreParts() {
+  return (
+    <span class="arena-parts">
+      {words.columns.score.name}:
+      <ScoreKey names={words.parts} />
+    </span>
+  );
+}
+
+/** What every column was measured on. */
+function Legend() {
+  return (
+    <details class="surface card arena-legend">
+      <summary>{words.legend}</summary>
+      <dl>
+        {COLUMNS.map(({ key }) => (
+          <div key={key}>
+            <dt>{words.columns[key].name}</dt>
+            <dd>{words.columns[key].hint}</dd>
+          </div>
+        ))}
+      </dl>
+    </details>
+  );
+}
+
+/** Every law on the same plant, limits, noise and loads. */
+export function ArenaPage() {
+  useEffect(() => {
+    void openArena();
+    return stopMeasuring;
+  }, []);
+  const found = results.value;
+  return (
+    <main class="page" aria-label={words.title}>
+      <div class="page-head arena-head">
+        <div>
+          <h2>{words.title}</h2>
+          <p>{words.lead}</p>
+        </div>
+        {found && <Measure />}
+      </div>
+      <p class="problem" role="alert" hidden={problem.value === ""}>
+        {problem.value}
+      </p>
+      {found === null ? (
+        problem.value === "" && <p class="hint">{words.loading}</p>
+      ) : (
+        <>
+          <ArenaTable />
+          <p class="hint arena-note">
+            <ScoreParts />
+            {words.bars} {words.provenance(versionsOf(found.rows), found.suite)}
+          </p>
+          <Legend />
+          <div class="arena-cards">
+            <Radar />
+            <LawCard />
+          </div>
+        </>
+      )}
+    </main>
+  );
+}

@@ -1,0 +1,140 @@
+import type { Row } from "../../core/api/arena";
+import { dotOf } from "../../core/plots/lawinks";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { ScoreBar } from "../../core/widgets/scorebar";
+import { SortHead } from "../../core/widgets/sorthead";
+import { choose, confirmed, inks, measuring, opening, rows, see, sort } from "./arena";
+import { barOf, COLUMNS, type Column, formatValue, isBest } from "./columns";
+
+const words = text.arena;
+
+function Head({ column }: { column: Column }) {
+  const { name, hint } = words.columns[column.key];
+  return (
+    <SortHead
+      column={column.key}
+      sort={sort.value}
+      hint={hint}
+      isDownFirst={column.isHighBetter}
+      onSort={(next) => {
+        sort.value = next;
+      }}
+    >
+      {name}
+      {column.unit && <span class="unit">{`\u00a0${column.unit}`}</span>}
+    </SortHead>
+  );
+}
+
+function Score({ row }: { row: Row }) {
+  const { robustness, draws, accuracy } = row.parts;
+  return (
+    <td class="arena-score" title={words.scoreOf(robustness, draws, accuracy)}>
+      <span class="arena-value">{row.score.toFixed(2)}</span>
+      <ScoreBar parts={row.parts} />
+    </td>
+  );
+}
+
+/** What stands where there is no number: why the run ended, or that it never settled. */
+const wordsOf = (column: Column, row: Row): string => {
+  const fault = column.faultOf(row);
+  if (fault !== null) return words.faults[fault] ?? fault.replaceAll("_", " ");
+  return column.key === "recovery" ? words.never : words.noNumber;
+};
+
+function Cell({ column, row }: { column: Column; row: Row }) {
+  const value = column.read(row);
+  const scenario = column.scenarioOf(row);
+  const shown = value === null ? wordsOf(column, row) : formatValue(column, value);
+  const best = isBest(column, row, rows.value);
+  const look = value === null ? "is-fault" : best ? "is-best" : "";
+  const law = titleOf(row.law);
+  if (column.key === "score" || scenario === null) return <Score row={row} />;
+  return (
+    <td class={look}>
+      <button
+        type="button"
+        title={words.see(law, words.columns[column.key].name)}
+        aria-label={words.seeLabel(law, words.columns[column.key].name, shown, best)}
+        disabled={opening.value !== ""}
+        onClick={() => void see(row.law, scenario)}
+      >
+        <span class="arena-value">{shown}</span>
+        {value !== null && (
+          <span class="arena-bar" aria-hidden="true">
+            <i
+              class={column.isHighBetter ? "is-good" : "is-bad"}
+              style={{ width: `${100 * barOf(column, value, rows.value)}%` }}
+            />
+          </span>
+        )}
+      </button>
+    </td>
+  );
+}
+
+/** Whether the published row came out again here. */
+function Confirmed({ row }: { row: Row }) {
+  const same = confirmed.value[row.law];
+  if (measuring.value?.law === row.law) {
+    return <span class="arena-confirmed is-busy" role="img" aria-label={words.measuringLaw} />;
+  }
+  if (same === undefined) return null;
+  return (
+    <span
+      class={`arena-confirmed ${same ? "" : "is-other"}`}
+      role="img"
+      aria-label={same ? words.same : words.other}
+      title={same ? words.same : words.other}
+    >
+      {same ? "✓" : "≠"}
+    </span>
+  );
+}
+
+/** A law a row; a press on a name brings it into the radar, a press on a number its run. */
+export function ArenaTable() {
+  return (
+    <section class="surface arena-scroll" aria-label={words.table}>
+      <table class="arena-table">
+        <caption class="visually-hidden">{words.tableHint}</caption>
+        <thead>
+          <tr>
+            <th scope="col" class="arena-law">
+              {words.law}
+            </th>
+            {COLUMNS.map((column) => (
+              <Head key={column.key} column={column} />
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {rows.value.map((row) => {
+            const ink = inks.value.get(row.law);
+            return (
+              <tr key={row.law}>
+                <th scope="row" class="arena-law">
+                  <button
+                    type="button"
+                    aria-pressed={ink !== undefined}
+                    title={words.chooseHint}
+                    onClick={() => choose(row.law)}
+                  >
+                    <i class="arena-dot" aria-hidden="true" style={dotOf(ink)} />
+                    {titleOf(row.law)}
+                  </button>
+                  <Confirmed row={row} />
+                </th>
+                {COLUMNS.map((column) => (
+                  <Cell key={column.key} column={column} row={row} />
+                ))}
+              </tr>
+            );
+          })}
+        </tbody>
+      </table>
+    </section>
+  );
+}

@@ -1,0 +1,120 @@
+import { useSignalEffect } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import uPlot from "uplot";
+import { otherAxis, plainAxis } from "../../core/plots/axes";
+import { palette } from "../../core/plots/palette";
+import { text } from "../../core/text/en";
+import { nameColumn } from "./names";
+import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
+import { ColumnChoice } from "./scatter";
+import { columnOf, ended, lawInks, marks, marksOf, show } from "./shown";
+import { axes, brush, rows, study } from "./studies";
+import { LawName } from "./tables";
+
+const words = text.studies;
+const POINTS = 240;
+
+/** Places on the axis of the metric, evenly or by equal ratios. */
+function placeLimits(values: Float64Array): { at: number[]; isLog: boolean } {
+  const { isLog } = scaleOf(values, spreadsByRatios(values));
+  const extent = extentOf(values);
+  if (extent === null) return { at: [0, 1], isLog: false };
+  const { low, high } = extent;
+  const at = Array.from({ length: POINTS + 1 }, (_, index) => {
+    const share = index / POINTS;
+    return isLog ? low * (high / low) ** share : low + (high - low || 1) * share;
+  });
+  at[POINTS] = Math.max(high, at[POINTS - 1] as number);
+  return { at, isLog };
+}
+
+/** Of each law, which share of its brushed runs lies below a value. */
+export function Distribution() {
+  const host = useRef<HTMLDivElement>(null);
+  const plot = useRef<uPlot | null>(null);
+  const metric = axes.value.metric ?? "";
+  const values = show(rows.value, metric);
+  const laws = study.value?.laws ?? [];
+  const inks = lawInks.value;
+  const held = marks.value;
+  const { at, isLog } = placeLimits(values);
+  const curves = laws.map((_, place) => distribute(values, ended.value, marksOf(place), at));
+  const column = columnOf(metric);
+  useEffect(() => {
+    const element = host.current;
+    if (element === null) return;
+    const x = plainAxis();
+    const made = new uPlot(
+      {
+        width: Math.max(1, element.clientWidth),
+        height: Math.max(1, element.clientHeight),
+        padding: [8, 12, 0, 0],
+        legend: { show: false },
+        cursor: { show: false },
+        scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: () => [0, 102] } },
+        axes: [
+          isLog
+            ? {
+                ...x,
+                size: 26,
+                values: (_, splits) =>
+                  splits.map((one) => (one === null ? "" : String(Number(one.toPrecision(3))))),
+              }
+            : otherAxis(26),
+          {
+            ...otherAxis(44),
+            space: 26,
+            label: words.below,
+            labelSize: 16,
+            labelFont: "12px system-ui, sans-serif",
+          },
+        ],
+        series: [
+          {},
+          ...inks.map(({ colour, dash }) => ({
+            stroke: () => palette.peek()[colour],
+            dash: [...dash],
+            width: 2,
+            points: { show: false },
+          })),
+        ],
+      },
+      [at, ...curves],
+      element,
+    );
+    plot.current = made;
+    const observer = new ResizeObserver(() =>
+      made.setSize({ width: element.clientWidth, height: element.clientHeight }),
+    );
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      made.destroy();
+      plot.current = null;
+    };
+  }, [rows.value, metric, held, inks]);
+  useSignalEffect(() => {
+    void palette.value;
+    plot.current?.redraw(false);
+  });
+  return (
+    <section class="surface card" aria-label={words.distribution}>
+      <h3>{words.distribution}</h3>
+      <ColumnChoice part="metric" label={words.metric} isMetric />
+      <div
+        class="studies-canvas is-low"
+        ref={host}
+        role="img"
+        aria-label={`${words.distribution}: ${column ? nameColumn(column) : metric}`}
+      />
+      <p class="studies-laws">
+        {laws.map((law, place) => (
+          <LawName key={law} law={law} place={place} />
+        ))}
+      </p>
+      <p class="hint">
+        {words.of(brush.value !== null)}; {words.distributionHint}
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,74 @@
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { countCells, cutBins, estimateShare, tellPercents } from "./points";
+import { valuesOf } from "./rows";
+import { good, planes, shownMarks } from "./shown";
+import { axes, brush, rows, setBrush } from "./studies";
+
+const words = text.studies;
+const WIDTH = 320;
+const HEIGHT = 240;
+
+/** From vermilion, none, to blue, all. */
+export const shadeOf = (share: number): string =>
+  `color-mix(in oklab, var(--plot-blue) ${Math.round(100 * share)}%, var(--plot-vermilion))`;
+
+const tellSpan = (label: string, edges: readonly number[]): string =>
+  `${label}: ${formatNumber(edges[0], 3)} – ${formatNumber(edges.at(-1), 3)}`;
+
+/** Which share of the brushed runs succeeded, over the first plane. */
+export function SuccessMap() {
+  const { x, y, across, up } = planes.s.value;
+  const flat = (part: "sx" | "sy", shown: Float64Array, labels: readonly string[] | null) =>
+    labels === null ? shown : valuesOf(rows.value, axes.value[part] ?? "");
+  const [at, height] = [flat("sx", x, across.labels), flat("sy", y, up.labels)];
+  const edges = [cutBins(at, across.isLog), cutBins(height, up.isLog)] as const;
+  const cells = countCells(at, height, good.value, shownMarks.value, edges);
+  const [columns, lines] = [edges[0].length - 1, edges[1].length - 1];
+  return (
+    <section class="surface card" aria-label={words.map}>
+      <h3>{words.map}</h3>
+      <svg
+        class="studies-map"
+        viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+        preserveAspectRatio="none"
+        role="img"
+        aria-label={`${words.map}: ${up.label} / ${across.label}`}
+      >
+        {cells.map(({ column, line, runs, good: held }) => {
+          const estimate = estimateShare(held, runs);
+          return (
+            // biome-ignore lint/a11y/noStaticElementInteractions: the brush has its own number fields
+            <rect
+              key={`${column} ${line}`}
+              x={(WIDTH * column) / columns}
+              y={HEIGHT - (HEIGHT * (line + 1)) / lines}
+              width={WIDTH / columns}
+              height={HEIGHT / lines}
+              style={{ fill: shadeOf(estimate[0]) }}
+              onClick={() =>
+                setBrush({
+                  plane: "s",
+                  x: [edges[0][column] as number, edges[0][column + 1] as number],
+                  y: [edges[1][line] as number, edges[1][line + 1] as number],
+                })
+              }
+            >
+              <title>{`${held}/${runs}: ${words.interval(...tellPercents(estimate))}`}</title>
+            </rect>
+          );
+        })}
+      </svg>
+      <p class="studies-spans">
+        <span>↑ {tellSpan(up.label, edges[1])}</span>
+        <span>→ {tellSpan(across.label, edges[0])}</span>
+      </p>
+      <p class="studies-scale" aria-hidden="true">
+        {words.mapScale(0)} <i /> {words.mapScale(100)}
+      </p>
+      <p class="hint">
+        {words.of(brush.value !== null)}, {words.mapHint}
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,91 @@
+import type { StudyRow } from "../../core/api/studies";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { factorOf } from "./look";
+import { nameColumn } from "./names";
+import { isBusy, picked, see, study } from "./studies";
+
+const words = text.studies;
+
+const outcomeOf = (row: StudyRow): string =>
+  row.fault !== null
+    ? words.outcome.fault(String(row.fault).replaceAll("_", " "))
+    : row.succeeded
+      ? words.outcome.good
+      : words.outcome.missed;
+
+function Cell({ row, name, unit }: { row: StudyRow; name: string; unit: string }) {
+  const value = row[name];
+  return (
+    <td>{typeof value === "number" ? formatNumber(value * factorOf(unit), 4) : (value ?? "–")}</td>
+  );
+}
+
+/** What was picked: how it was set, how it went, and the way to its 3D. */
+export function Picked() {
+  const found = picked.value;
+  const columns = (study.value?.columns ?? []).filter(
+    ({ role }) => role === "varied" || role === "metric",
+  );
+  const numbers = found.map((row) => Number(row.row));
+  return (
+    <section
+      class="surface card studies-picked"
+      aria-label={words.row(numbers.at(-1) ?? 0)}
+      aria-live="polite"
+    >
+      {found.length === 0 ? (
+        <p class="hint">{words.pickHint}</p>
+      ) : (
+        <>
+          <table class="desk-table">
+            <thead>
+              <tr>
+                <td />
+                {found.map((row) => (
+                  <th key={Number(row.row)} scope="col">
+                    {words.row(Number(row.row))}
+                    <small>
+                      {titleOf(String(row.law))}, {outcomeOf(row)}
+                    </small>
+                    <button
+                      type="button"
+                      class="button"
+                      title={words.seeHint}
+                      disabled={isBusy.value !== ""}
+                      onClick={() => void see([Number(row.row)])}
+                    >
+                      {words.see}
+                    </button>
+                  </th>
+                ))}
+              </tr>
+            </thead>
+            <tbody>
+              {columns.map(({ name, label, unit }) => (
+                <tr key={name}>
+                  <th scope="row">{nameColumn({ label, unit })}</th>
+                  {found.map((row) => (
+                    <Cell key={Number(row.row)} row={row} name={name} unit={unit} />
+                  ))}
+                </tr>
+              ))}
+            </tbody>
+          </table>
+          {found.length > 1 && (
+            <button
+              type="button"
+              class="button"
+              disabled={isBusy.value !== ""}
+              onClick={() => void see(numbers)}
+            >
+              {words.overlay}
+            </button>
+          )}
+          {isBusy.value === "see" && <p role="status">{words.seeing}</p>}
+        </>
+      )}
+    </section>
+  );
+}

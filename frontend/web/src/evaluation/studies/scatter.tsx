@@ -1,0 +1,211 @@
+import { useSignalEffect } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import type uPlot from "uplot";
+import { palette } from "../../core/plots/palette";
+import { text } from "../../core/text/en";
+import { paintDots } from "./dots";
+import { PlotFrame } from "./frame";
+import { axesOf, type Plane } from "./look";
+import { nameColumn } from "./names";
+import { findNearest } from "./points";
+import { valuesOf } from "./rows";
+import { brushedCount, ended, good, lawInks, lawPlaces, planes, shownMarks } from "./shown";
+import {
+  axes,
+  brush,
+  chosenName,
+  fetchRows,
+  pick,
+  picked,
+  rows,
+  setBrush,
+  setLook,
+  study,
+} from "./studies";
+
+const words = text.studies;
+const REACH_PX = 14;
+
+export function ColumnChoice({
+  part,
+  label,
+  isMetric,
+}: {
+  part: string;
+  label: string;
+  isMetric?: boolean;
+}) {
+  const columns = study.value?.columns ?? [];
+  const offered = isMetric ? columns.filter(({ role }) => role === "metric") : axesOf(columns);
+  return (
+    <label class="desk-label">
+      <span>{label}</span>
+      <select
+        value={axes.value[part]}
+        onChange={(event) => {
+          const held = brush.peek();
+          setLook({
+            [part]: event.currentTarget.value,
+            ...(held !== null && part.startsWith(held.plane) && { brush: "" }),
+          });
+          void fetchRows(chosenName.peek());
+        }}
+      >
+        {offered.map((column) => (
+          <option key={column.name} value={column.name}>
+            {nameColumn(column)}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+/** The ends of the brush as numbers: what the mouse draws, by keyboard. */
+function Ends({ plane }: { plane: Plane }) {
+  const held = brush.value?.plane === plane ? brush.value : null;
+  const { across, up } = planes[plane].value;
+  const set = (way: "x" | "y", end: 0 | 1, typed: string) => {
+    const value = Number(typed);
+    if (typed.trim() === "" || !Number.isFinite(value)) return;
+    const now = held ?? { plane, x: across.span, y: up.span };
+    const span: [number, number] = [...now[way]];
+    span[end] = value;
+    setBrush({ ...now, plane, [way]: span });
+  };
+  return (
+    <div class="studies-ends">
+      {(["x", "y"] as const).map((way) => {
+        const axis = way === "x" ? words.x : words.y;
+        return ([0, 1] as const).map((end) => (
+          <label class="desk-label" key={`${way}${end}`}>
+            <span>{end === 0 ? words.from(axis) : words.to(axis)}</span>
+            <input
+              type="number"
+              step="any"
+              value={held === null ? "" : Number(held[way][end].toPrecision(4))}
+              onChange={(event) => set(way, end, event.currentTarget.value)}
+            />
+          </label>
+        ));
+      })}
+    </div>
+  );
+}
+
+const nextRow = (step: number): number | null => {
+  const numbers = valuesOf(rows.peek(), "row");
+  const inBrush = shownMarks.peek();
+  const at = numbers.indexOf(Number(picked.peek().at(-1)?.row ?? -1));
+  for (let moved = 1; moved <= numbers.length; moved++) {
+    const index = (at + step * moved + 2 * numbers.length) % numbers.length;
+    if (inBrush[index] === 1) return numbers[index] as number;
+  }
+  return null;
+};
+
+function onKey(event: KeyboardEvent): void {
+  const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+  if (event.key === "Escape") setBrush(null);
+  else if (step === undefined) return;
+  else {
+    const row = nextRow(step);
+    if (row !== null) void pick(row);
+  }
+  event.preventDefault();
+}
+
+/** Any two columns over each other, a dot a run; what is brushed here is followed everywhere. */
+export function Scatter({ plane }: { plane: Plane }) {
+  const host = useRef<HTMLDivElement>(null);
+  const frame = useRef<PlotFrame | null>(null);
+  const { x, y, across, up } = planes[plane].value;
+  useEffect(() => {
+    const element = host.current;
+    if (element === null) return;
+    const made = new PlotFrame(element, {
+      x: across,
+      y: up,
+      paint: (plot) => {
+        const colours = lawInks.peek().map(({ colour }) => palette.peek()[colour]);
+        paintDots(plot, {
+          x,
+          y,
+          inks: lawPlaces.peek(),
+          good: good.peek(),
+          ended: ended.peek(),
+          marks: shownMarks.peek(),
+          colours,
+          faint: palette.peek().axis,
+        });
+        circlePicked(plot, x, y);
+      },
+      onBrush: (drawn) => setBrush(drawn && { ...drawn, plane }),
+      onPick: (plot, left, top) => {
+        const place = (at: number, height: number) =>
+          [plot.valToPos(at, "x"), plot.valToPos(height, "y")] as const;
+        const found = findNearest(x, y, shownMarks.peek(), place, [left, top], REACH_PX);
+        if (found !== null) void pick(valuesOf(rows.peek(), "row")[found] as number);
+        else if (brush.peek() !== null) setBrush(null);
+      },
+    });
+    frame.current = made;
+    made.show(brush.peek()?.plane === plane ? brush.peek() : null);
+    const observer = new ResizeObserver(() =>
+      made.resize(element.clientWidth, element.clientHeight),
+    );
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      made.destroy();
+      frame.current = null;
+    };
+  }, [x, y, plane]);
+  useSignalEffect(() => {
+    void [palette.value, lawInks.value, shownMarks.value, picked.value, good.value];
+    frame.current?.show(brush.value?.plane === plane ? brush.value : null);
+  });
+  const missing = x.reduce(
+    (sum, value, at) => sum + (Number.isNaN(value + (y[at] ?? 0)) ? 1 : 0),
+    0,
+  );
+  return (
+    <section class="surface card" aria-label={words.plane[plane]}>
+      <div class="studies-choices">
+        <ColumnChoice part={`${plane}y`} label={words.y} />
+        <ColumnChoice part={`${plane}x`} label={words.x} />
+      </div>
+      <div
+        class="studies-canvas"
+        ref={host}
+        role="application"
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: arrow keys go from dot to dot
+        tabIndex={0}
+        aria-label={words.dotsLabel(across.label, up.label, brushedCount.value)}
+        title={words.dotsHint}
+        onKeyDown={onKey}
+      />
+      <Ends plane={plane} />
+      {missing > 0 && <p class="hint">{words.missing(missing)}</p>}
+    </section>
+  );
+}
+
+function circlePicked(plot: uPlot, x: Float64Array, y: Float64Array): void {
+  const numbers = valuesOf(rows.peek(), "row");
+  for (const { row } of picked.peek()) {
+    const index = numbers.indexOf(Number(row));
+    if (index < 0) continue;
+    const [left, top] = [
+      plot.valToPos(x[index] as number, "x", true),
+      plot.valToPos(y[index] as number, "y", true),
+    ];
+    plot.ctx.save();
+    plot.ctx.strokeStyle = palette.peek().reference;
+    plot.ctx.lineWidth = 2 * devicePixelRatio;
+    plot.ctx.beginPath();
+    plot.ctx.arc(left, top, 7 * devicePixelRatio, 0, 2 * Math.PI);
+    plot.ctx.stroke();
+    plot.ctx.restore();
+  }
+}

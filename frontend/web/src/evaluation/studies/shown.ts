@@ -1,0 +1,77 @@
+/** The rows as they are drawn: shown units, who is in the brush, which colour, which law. */
+import { computed } from "@preact/signals";
+import type { StudyColumn } from "../../core/api/studies";
+import { inksOfLaws } from "../../core/plots/lawinks";
+import type { Axis } from "./frame";
+import { factorOf, type Plane } from "./look";
+import { nameColumn } from "./names";
+import { markBrushed, scaleOf, spreadNames, spreadsByRatios } from "./points";
+import { type Rows, valuesOf } from "./rows";
+import { axes, brush, rows, shownLaw, study } from "./studies";
+
+export const columnOf = (name: string): StudyColumn | undefined =>
+  study.value?.columns.find((column) => column.name === name);
+
+/** Values as they are read on screen; names spread about their places. */
+export function show(found: Rows, name: string): Float64Array {
+  const column = found.columns.get(name);
+  if (column === undefined) return new Float64Array(found.count).fill(Number.NaN);
+  if (column.labels !== null) return spreadNames(column.values);
+  const factor = factorOf(columnOf(name)?.unit ?? "");
+  return factor === 1 ? column.values : column.values.map((value) => value * factor);
+}
+
+function buildAxis(found: Rows, name: string, values: Float64Array): Axis {
+  const column = columnOf(name);
+  const labels = found.columns.get(name)?.labels ?? null;
+  const wantsLog = column?.is_log || (column?.role === "metric" && spreadsByRatios(values));
+  const { span, isLog } = scaleOf(values, labels === null && wantsLog === true);
+  return { label: column ? nameColumn(column) : name, span, isLog, labels };
+}
+
+const buildPlane = (plane: Plane) =>
+  computed(() => {
+    const found = rows.value;
+    const [xName, yName] = [axes.value[`${plane}x`] ?? "", axes.value[`${plane}y`] ?? ""];
+    const [x, y] = [show(found, xName), show(found, yName)];
+    return { x, y, across: buildAxis(found, xName, x), up: buildAxis(found, yName, y) };
+  });
+
+export const planes = { s: buildPlane("s"), t: buildPlane("t") } as const;
+
+export const marks = computed(() => {
+  const held = brush.value;
+  const { x, y } = planes[held?.plane ?? "s"].value;
+  return markBrushed(x, y, held);
+});
+
+export const brushedCount = computed(() => marks.value.reduce((sum, mark) => sum + mark, 0));
+
+/** 1 for a run that ended in a fault. */
+export const ended = computed(() =>
+  Uint8Array.from(valuesOf(rows.value, "fault"), (code) => (Number.isNaN(code) ? 0 : 1)),
+);
+export const good = computed(() => valuesOf(rows.value, "succeeded"));
+
+/** Of each run the place of its law in the study's order. */
+export const lawPlaces = computed(() => {
+  const column = rows.value.columns.get("law");
+  const order = study.value?.laws ?? [];
+  const places = (column?.labels ?? []).map((law) => order.indexOf(law));
+  return (column?.values ?? new Float64Array(0)).map((code) => places[code] ?? 0);
+});
+
+/** The inks of the laws of the study, in its order. */
+export const lawInks = computed(() => inksOfLaws(study.value?.laws ?? []));
+
+/** Of the brushed runs those of the law that is shown: laws on one draw lie at one place. */
+export const shownMarks = computed(() => {
+  const place = study.value?.laws.indexOf(shownLaw.value) ?? -1;
+  return place < 0 ? marks.value : marksOf(place);
+});
+
+/** The marks of one law's runs alone. */
+export const marksOf = (place: number): Uint8Array => {
+  const laws = lawPlaces.value;
+  return marks.value.map((mark, index) => (laws[index] === place ? mark : 0));
+};

@@ -1,0 +1,166 @@
+import { useState } from "preact/hooks";
+import { checkStudy, type StudyPlan, type StudyWish } from "../../core/api/studies";
+import { Boxes } from "../../core/jobs/boxes";
+import { LawBoxes } from "../../core/jobs/lawboxes";
+import { tell } from "../../core/state/actions";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { factorOf } from "./look";
+import { nameColumn } from "./names";
+import { begin, isBusy, list, problem } from "./studies";
+
+const words = text.studies;
+const OWN = "";
+const FIRST = "load";
+
+/** Choose, change, check and begin a study; a wrong one is told with its line, name and bound. */
+export function Start() {
+  const [source, setSource] = useState(FIRST);
+  const [own, setOwn] = useState("");
+  const [name, setName] = useState("");
+  const [runs, setRuns] = useState("");
+  const [laws, setLaws] = useState<readonly string[]>([]);
+  const [kept, setKept] = useState<readonly string[]>([]);
+  const [metric, setMetric] = useState("");
+  const [bound, setBound] = useState("");
+  const [plan, setPlan] = useState<StudyPlan | null>(null);
+  const builtIn = list.value?.built_in ?? [];
+  const metrics = list.value?.metrics ?? [];
+  const offered = metrics.map((one) => ({ name: one.name, title: nameColumn(one) }));
+  const asked = metrics.find((one) => one.name === metric);
+  const build = (): StudyWish => ({
+    ...(source === OWN ? { text: own } : { source }),
+    ...(name !== "" && { name }),
+    ...(runs !== "" && { runs: Number(runs) }),
+    ...(laws.length > 0 && { laws }),
+    ...(kept.length > 0 && { metrics: kept }),
+    ...(asked && { success: { [asked.name]: Number(bound) / factorOf(asked.unit) } }),
+  });
+  const check = async () => {
+    try {
+      setPlan(await checkStudy(build()));
+      problem.value = "";
+    } catch (error) {
+      setPlan(null);
+      problem.value = tell(error);
+    }
+  };
+  const change = (next: () => void) => {
+    next();
+    setPlan(null);
+  };
+  return (
+    <form
+      class="surface card desk-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void begin(build());
+      }}
+    >
+      <h3>{words.begin}</h3>
+      <label>
+        <span>{words.source}</span>
+        <select
+          value={source}
+          onChange={(event) => {
+            const chosen = event.currentTarget.value;
+            const template = builtIn.find((one) => one.name === source)?.text ?? "";
+            change(() => setSource(chosen));
+            if (chosen === OWN && own === "") setOwn(template);
+          }}
+        >
+          {builtIn.map((one) => (
+            <option key={one.name} value={one.name}>
+              {one.name}
+            </option>
+          ))}
+          <option value={OWN}>{words.own}</option>
+        </select>
+      </label>
+      <p class="hint">{builtIn.find((one) => one.name === source)?.title}</p>
+      {source === OWN && (
+        <label>
+          <span>{words.text}</span>
+          <textarea
+            rows={12}
+            spellcheck={false}
+            value={own}
+            onInput={(event) => change(() => setOwn(event.currentTarget.value))}
+          />
+        </label>
+      )}
+      <label title={words.runsHint}>
+        <span>{words.runs}</span>
+        <input
+          type="number"
+          min={1}
+          placeholder={words.asInStudy}
+          value={runs}
+          onInput={(event) => change(() => setRuns(event.currentTarget.value))}
+        />
+      </label>
+      <label title={words.nameHint}>
+        <span>{words.name}</span>
+        <input
+          type="text"
+          maxLength={64}
+          placeholder={source || "own"}
+          value={name}
+          onInput={(event) => change(() => setName(event.currentTarget.value))}
+        />
+      </label>
+      <details>
+        <summary>
+          {words.laws}: {laws.length === 0 ? words.asInStudy : laws.map(titleOf).join(", ")}
+        </summary>
+        <p class="hint">{words.lawsHint}</p>
+        <LawBoxes laws={laws} onChange={(next) => change(() => setLaws(next))} />
+      </details>
+      <details>
+        <summary>
+          {words.metrics}: {kept.length === 0 ? words.asInStudy : kept.length}
+        </summary>
+        <p class="hint">{words.metricsHint}</p>
+        <Boxes offered={offered} chosen={kept} onChange={(next) => change(() => setKept(next))} />
+      </details>
+      <label title={words.successHint}>
+        <span>{words.success}</span>
+        <select
+          value={metric}
+          onChange={(event) => change(() => setMetric(event.currentTarget.value))}
+        >
+          <option value="">{words.asInStudy}</option>
+          {offered.map((one) => (
+            <option key={one.name} value={one.name}>
+              {one.title}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label>
+        <span>{words.most}</span>
+        <input
+          type="number"
+          step="any"
+          required={metric !== ""}
+          disabled={metric === ""}
+          value={bound}
+          onInput={(event) => change(() => setBound(event.currentTarget.value))}
+        />
+      </label>
+      <div class="desk-buttons">
+        <button type="button" class="button" onClick={() => void check()}>
+          {words.check}
+        </button>
+        <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
+          {words.start}
+        </button>
+      </div>
+      {plan && (
+        <p class="hint" role="status">
+          {words.checked(plan.draws, plan.rows, plan.laws.map(titleOf).join(", "))}
+        </p>
+      )}
+    </form>
+  );
+}

@@ -1,0 +1,178 @@
+import type { Estimate } from "../../core/api/studies";
+import { isGoing } from "../../core/jobs/progress";
+import { dotOf } from "../../core/plots/lawinks";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { factorOf, shownUnit } from "./look";
+import { nameColumn } from "./names";
+import { estimateShare, tellPercents } from "./points";
+import { columnOf, ended, good, lawInks, marksOf } from "./shown";
+import { axes, brush, indices, study, summary } from "./studies";
+
+const words = text.studies;
+const percent = (value: number | null): string =>
+  formatNumber(value === null ? null : 100 * value, 3, 1);
+
+const tellShare = ({ value, low, high }: Estimate): string =>
+  value === null ? "–" : words.interval(...tellPercents([value, low ?? 0, high ?? 1]));
+
+/** How a law did in the brush, with Wilson's interval. */
+function inBrush(place: number): string {
+  const [marks, isGood, isEnded] = [marksOf(place), good.value, ended.value];
+  let [runs, held] = [0, 0];
+  marks.forEach((mark, index) => {
+    if (mark === 0) return;
+    runs++;
+    if (isGood[index] === 1 && isEnded[index] === 0) held++;
+  });
+  const [value, low, high] = estimateShare(held, runs);
+  return runs === 0 ? "–" : `${held}/${runs}: ${tellShare({ value, low, high })}`;
+}
+
+/** A law with the colour of its runs. place: among the laws of the study. */
+export const LawName = ({ law, place }: { law: string; place: number }) => (
+  <span class="studies-law">
+    <i style={dotOf(lawInks.value[place])} aria-hidden="true" />
+    {titleOf(law)}
+  </span>
+);
+
+export function LawTable() {
+  const found = summary.value;
+  const metric = columnOf(axes.value.metric ?? "");
+  const tellMetric = (value: number | null | undefined) =>
+    value === null
+      ? words.fault
+      : formatNumber((value ?? Number.NaN) * factorOf(metric?.unit ?? ""), 3);
+  return (
+    <section class="surface card desk-wide" aria-label={words.byLaw}>
+      <h3>{words.byLaw}</h3>
+      {found === null && (
+        <p class="hint" role="status">
+          {isGoing(study.value?.job ?? null) ? words.later : words.summing}
+        </p>
+      )}
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
+      <div class="desk-scroll" tabIndex={0}>
+        <table class="desk-table studies-by-law">
+          <thead>
+            <tr>
+              {[
+                words.law,
+                words.all,
+                words.succeeded,
+                brush.value ? words.inBrush : null,
+                words.faults,
+              ]
+                .filter((head) => head !== null)
+                .map((head) => (
+                  <th key={head} scope="col">
+                    {head}
+                  </th>
+                ))}
+              {metric && <th scope="col">{words.median(nameColumn(metric))}</th>}
+            </tr>
+          </thead>
+          <tbody>
+            {(study.value?.laws ?? []).map((law, place) => {
+              const one = found?.laws.find((told) => told.law === law);
+              const faults = Object.entries(one?.faults ?? {}).map(
+                ([code, count]) => `${count} ${code.replaceAll("_", " ")}`,
+              );
+              return (
+                <tr key={law}>
+                  <th scope="row">
+                    <LawName law={law} place={place} />
+                  </th>
+                  <td>{one?.runs.toLocaleString("en") ?? "–"}</td>
+                  <td>{one ? tellShare(one.success) : "–"}</td>
+                  {brush.value && <td>{inBrush(place)}</td>}
+                  <td>
+                    {one ? faults.join(", ") || words.noFaults : "–"}
+                    {one && one.refused > 0 && `; ${words.refused(one.refused)}`}
+                  </td>
+                  {metric && (
+                    <td>{one ? one.quantiles[metric.name]?.map(tellMetric).join(" / ") : "–"}</td>
+                  )}
+                </tr>
+              );
+            })}
+          </tbody>
+        </table>
+      </div>
+      {(found?.pairings ?? []).map((pair) => {
+        const difference = metric && pair.differences[metric.name];
+        const scale = factorOf(metric?.unit ?? "");
+        const shown = (value: number | null) =>
+          formatNumber(value === null ? null : value * scale, 3);
+        return (
+          <p key={pair.other} class="studies-pair">
+            <b>{words.pair(titleOf(pair.one), titleOf(pair.other))}</b>{" "}
+            {words.points(
+              percent(pair.success.value),
+              percent(pair.success.low),
+              percent(pair.success.high),
+            )}
+            ; {words.only(pair.only_one, pair.only_other)}.
+            {metric && difference && (
+              <>
+                {" "}
+                {words.difference(nameColumn(metric), pair.whole)}:{" "}
+                {words.estimate(
+                  shown(difference.value),
+                  shown(difference.low),
+                  shown(difference.high),
+                )}{" "}
+                {shownUnit(metric.unit)}
+              </>
+            )}
+          </p>
+        );
+      })}
+    </section>
+  );
+}
+
+/** Bars of Sobol indices, the greatest first. */
+export function Sensitivity() {
+  if (indices.value.length === 0) return null;
+  return (
+    <section class="surface card desk-wide" aria-label={words.sensitivity}>
+      <h3>{words.sensitivity}</h3>
+      <p class="hint">{words.sensitivityHint}</p>
+      {indices.value.map(({ law, first_order: own, total_order: total }) => (
+        <div key={law} class="studies-bars">
+          <h4>{titleOf(law)}</h4>
+          <dl>
+            {Object.keys(total)
+              .sort((a, b) => (total[b]?.value ?? 0) - (total[a]?.value ?? 0))
+              .map((name) => (
+                <div key={name}>
+                  <dt>{columnOf(name)?.label ?? name}</dt>
+                  {([own[name], total[name]] as const).map((one, at) => (
+                    <dd
+                      key={at === 0 ? "own" : "total"}
+                      title={at === 0 ? words.itself : words.together}
+                    >
+                      <i
+                        class={at === 0 ? "is-own" : "is-total"}
+                        style={{ width: `${100 * Math.min(1, Math.max(0, one?.value ?? 0))}%` }}
+                      />
+                      <span>
+                        {words.estimate(
+                          formatNumber(one?.value, 2, 2),
+                          formatNumber(one?.low, 2, 2),
+                          formatNumber(one?.high, 2, 2),
+                        )}
+                      </span>
+                    </dd>
+                  ))}
+                </div>
+              ))}
+          </dl>
+        </div>
+      ))}
+    </section>
+  );
+}

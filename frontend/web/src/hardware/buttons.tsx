@@ -1,0 +1,60 @@
+import { armBench, clearBench, pause, restartBench, start } from "../core/api/client";
+import type { BenchState, SessionState } from "../core/api/types";
+import { perform } from "../core/state/actions";
+import { mayCommand } from "../core/state/control";
+import { isLive } from "../core/state/session";
+import { text } from "../core/text/en";
+import { isHeld } from "./hold";
+import { type Allowed, allowedOn, isLoopLost } from "./status";
+
+interface Action {
+  name: Exclude<keyof Allowed, "home">;
+  label: string;
+  hint: string;
+  send: () => Promise<SessionState>;
+}
+
+const ACTIONS: readonly Action[] = [
+  { name: "arm", label: text.bench.arm, hint: text.bench.armHint, send: armBench },
+  { name: "run", label: text.bench.run, hint: text.bench.runHint, send: start },
+  { name: "stop", label: text.bench.stop, hint: text.bench.stopHint, send: pause },
+  { name: "clear", label: text.bench.clear, hint: text.bench.clearHint, send: clearBench },
+];
+
+const RESTART: Action = {
+  name: "restart",
+  label: text.bench.restart,
+  hint: text.bench.restartHint,
+  send: restartBench,
+};
+
+/** Where the loop is lost there is nothing to clear: it is started anew. */
+const actionsOn = (bench: BenchState): readonly Action[] =>
+  isLoopLost(bench)
+    ? ACTIONS.map((action) => (action.name === "clear" ? RESTART : action))
+    : ACTIONS;
+
+/** What moves the bench from one state to the next; the next step stands out. Anybody may stop. */
+export function BenchButtons({ bench }: { bench: BenchState }) {
+  const allowed = allowedOn(bench, isHeld.value);
+  return (
+    <fieldset class="bench-buttons" disabled={!isLive.value} aria-label={text.bench.heading}>
+      {actionsOn(bench).map(({ name, label, hint, send }) => {
+        const isAllowed = allowed[name] && (name === "stop" || mayCommand.value);
+        return (
+          <button
+            key={name}
+            type="button"
+            class={`button ${isAllowed ? "is-primary" : ""}`}
+            disabled={!isAllowed}
+            title={hint}
+            aria-keyshortcuts={name === "stop" ? "Space" : undefined}
+            onClick={() => void perform("bench", send)}
+          >
+            {label}
+          </button>
+        );
+      })}
+    </fieldset>
+  );
+}

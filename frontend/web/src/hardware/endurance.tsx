@@ -1,0 +1,50 @@
+import { useEffect, useState } from "preact/hooks";
+import { type Endurance, foretellHeat } from "../core/api/design";
+import type { Load } from "../core/api/types";
+import { isLive, session } from "../core/state/session";
+import { text } from "../core/text/en";
+import { formatNumber } from "../core/units";
+import { isLoopLost } from "./status";
+
+const { endurance: words } = text.bench;
+const PAUSE_MS = 400;
+
+/** What the answer depends on: another load, another setting, another load beside it. */
+function questionOf(load: Load | null): string | null {
+  const state = session.value;
+  if (load === null || !isLive.value || !state?.bench || isLoopLost(state.bench)) return null;
+  const on = state.loads.filter(({ active }) => active).map(({ id }) => id);
+  return JSON.stringify([load, state.configuration, on]);
+}
+
+/** Beside the button that hangs a load on a bench: which motor bears it for how long, and why. */
+export function EnduranceNote({ load }: { load: Load | null }) {
+  const question = questionOf(load);
+  const [found, find] = useState<{ question: string; answer: Endurance | null } | null>(null);
+  useEffect(() => {
+    if (question === null || load === null) return;
+    const ask = () =>
+      foretellHeat(load).then(
+        (answer) => find({ question, answer }),
+        () => find(null),
+      );
+    const timer = setTimeout(() => void ask(), PAUSE_MS);
+    return () => clearTimeout(timer);
+  }, [question]);
+  const answer = found !== null && found.question === question ? found.answer : null;
+  return (
+    <div class="endurance" role="status" hidden={answer === null}>
+      {answer !== null && (
+        <details>
+          <summary>
+            {words.warning(words.motor[answer.motor], words.seconds(answer.seconds))}
+          </summary>
+          {words.why(
+            formatNumber(answer.torque_nm, 3, 2),
+            formatNumber(answer.lasting_torque_nm, 3, 2),
+          )}
+        </details>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,65 @@
+import { useId } from "preact/hooks";
+import type { BenchState } from "../core/api/types";
+import { mayCommand, otherHolder } from "../core/state/control";
+import { isLive } from "../core/state/session";
+import { text } from "../core/text/en";
+import { ended, type Grip, hold, isHeld, letGo, wordsFor } from "./hold";
+
+const words = text.hold;
+const isGripKey = (event: KeyboardEvent): boolean => event.key === " " || event.key === "Enter";
+
+function press(event: PointerEvent & { currentTarget: HTMLElement }): void {
+  if (event.button !== 0) return;
+  event.currentTarget.setPointerCapture(event.pointerId);
+  hold("pointer");
+}
+
+function pressKey(event: KeyboardEvent): void {
+  if (event.ctrlKey || event.metaKey || event.altKey) letGo("button");
+  else if (isGripKey(event)) {
+    event.preventDefault();
+    if (!event.repeat) hold("button");
+  }
+}
+
+const letGoOf = (grip: Grip) => () => letGo(grip);
+
+/** On a bench that asks for it: the switch that somebody holds while it runs. */
+export function HoldRow({ bench: { status } }: { bench: BenchState }) {
+  const id = useId();
+  const held = isHeld.value;
+  const other = otherHolder.value;
+  const told =
+    other === null ? words.words[wordsFor(status, held, ended.value)] : words.other(other);
+  return (
+    <section class={`hold is-${held ? "held" : "free"}`} aria-label={words.heading}>
+      <button
+        type="button"
+        class="hold-button"
+        aria-pressed={held}
+        aria-describedby={id}
+        aria-keyshortcuts="d"
+        title={words.keyHint}
+        disabled={!mayCommand.value}
+        onPointerDown={press}
+        onPointerUp={letGoOf("pointer")}
+        onPointerCancel={letGoOf("pointer")}
+        onLostPointerCapture={letGoOf("pointer")}
+        onContextMenu={(event) => event.preventDefault()}
+        onKeyDown={pressKey}
+        onKeyUp={(event) => {
+          if (isGripKey(event)) letGo("button");
+        }}
+        onBlur={letGoOf("button")}
+      >
+        {words.button} <kbd>{words.key}</kbd>
+      </button>
+      <p id={id} role="status">
+        <strong>
+          <span aria-hidden="true">{held ? "●" : "○"}</span> {held ? words.held : words.notHeld}
+        </strong>{" "}
+        {isLive.value ? told : words.unheard}
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,78 @@
+import { useId } from "preact/hooks";
+import { confirmHome } from "../core/api/client";
+import type { Axis, BenchState } from "../core/api/types";
+import { perform } from "../core/state/actions";
+import { mayCommand } from "../core/state/control";
+import { personName, rememberPerson } from "../core/state/preferences";
+import { text } from "../core/text/en";
+import { Problem } from "../core/widgets/problem";
+import { allowedOn } from "./status";
+
+const { homing: words } = text.bench;
+const AXES: readonly Axis[] = ["link", "motor1", "motor2"];
+
+function Axes({ bench: { homing } }: { bench: BenchState }) {
+  return (
+    <ol class="axes">
+      {AXES.map((axis) => {
+        const isDone = homing.done.includes(axis);
+        const isNext = homing.next_step === axis;
+        return (
+          <li key={axis} class={isDone ? "is-done" : ""} aria-current={isNext ? "step" : undefined}>
+            <span aria-hidden="true">{isDone ? "✓" : isNext ? "▸" : "○"}</span> {words.axis[axis]}
+            {isDone && <span class="visually-hidden"> {text.bench.done}</span>}
+            {isNext && <small> {words.here}</small>}
+          </li>
+        );
+      })}
+    </ol>
+  );
+}
+
+function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
+  const id = useId();
+  const submit = (event: Event) => {
+    event.preventDefault();
+    void perform("bench.home", () => confirmHome(axis, personName.peek().trim()));
+  };
+  return (
+    <form class="homing-form" onSubmit={submit}>
+      <label for={id}>{words.by}</label>
+      <input
+        id={id}
+        type="text"
+        required
+        maxLength={100}
+        autocomplete="name"
+        value={personName.value}
+        onInput={(event) => rememberPerson(event.currentTarget.value)}
+      />
+      <button
+        type="submit"
+        class={`button ${isAllowed ? "is-primary" : ""}`}
+        disabled={!isAllowed || personName.value.trim() === ""}
+      >
+        {words.confirm[axis]}
+      </button>
+      {!isAllowed && <p class="hint">{words.notNow}</p>}
+    </form>
+  );
+}
+
+/** The guided zero: somebody looks at each mark and puts a name to it. */
+export function Homing({ bench }: { bench: BenchState }) {
+  const { next_step: next, instruction } = bench.homing;
+  return (
+    <section class="bench-card" aria-label={words.heading}>
+      <h2>{words.heading}</h2>
+      <Axes bench={bench} />
+      <p class="instruction" role="status">
+        {next === null ? words.allDone : instruction}
+      </p>
+      {next !== null && (
+        <Confirmation axis={next} isAllowed={allowedOn(bench).home && mayCommand.value} />
+      )}
+      <Problem control="bench.home" />
+    </section>
+  );
+}

@@ -1,0 +1,132 @@
+import type { LoopState } from "../core/api/types";
+import { isLive } from "../core/state/session";
+import { text } from "../core/text/en";
+import { formatLapse } from "../core/units";
+import { barsOf, decadesIn } from "./lateness";
+
+const { loop: words } = text.bench;
+const WIDTH = 240;
+const HEIGHT = 64;
+const SIGNS = { ticking: "✓", starting: "◌", silent: "▲", gone: "▲", not_opened: "▲" } as const;
+const LEVELS = {
+  ticking: "is-good",
+  starting: "",
+  silent: "is-bad",
+  gone: "is-bad",
+  not_opened: "is-bad",
+} as const;
+const count = (value: number) => value.toLocaleString("en");
+
+/** How late the ticks were, a bar a bin, on a logarithmic axis of counts. */
+function Lateness({ loop }: { loop: LoopState }) {
+  const { lateness_edges_s: edges, lateness_counts: counts } = loop;
+  const bars = barsOf(edges, counts);
+  const step = WIDTH / Math.max(1, bars.length);
+  const decades = decadesIn(counts);
+  const lines = Array.from({ length: Math.floor(decades) }, (_, power) => (power + 0.3) / decades);
+  const label = words.histogram(
+    formatLapse(loop.lateness_p50_s),
+    formatLapse(loop.lateness_p99_s),
+    formatLapse(loop.lateness_worst_s),
+  );
+  const shownEvery = Math.ceil(edges.length / 5);
+  return (
+    <figure class="lateness">
+      <svg viewBox={`0 0 ${WIDTH} ${HEIGHT + 14}`} role="img" aria-label={label}>
+        {lines.map((line) => (
+          <path key={line} class="lateness-line" d={`M0 ${HEIGHT * (1 - line)}h${WIDTH}`} />
+        ))}
+        {bars.map(({ edgeS, count: ticks, height }, index) => (
+          <rect
+            key={edgeS ?? "above"}
+            x={index * step + 1}
+            y={HEIGHT * (1 - height)}
+            width={Math.max(1, step - 2)}
+            height={HEIGHT * height}
+          >
+            <title>
+              {edgeS === null
+                ? words.above(count(ticks))
+                : words.upTo(formatLapse(edgeS), count(ticks))}
+            </title>
+          </rect>
+        ))}
+        <path class="lateness-ground" d={`M0 ${HEIGHT}h${WIDTH}`} />
+        {edges.map(
+          (edge, index) =>
+            index % shownEvery === shownEvery - 1 && (
+              <text
+                key={edge}
+                x={(index + 1) * step}
+                y={HEIGHT + 11}
+                text-anchor={index + 1 < edges.length ? "middle" : "end"}
+              >
+                {formatLapse(edge)}
+              </text>
+            ),
+        )}
+      </svg>
+      <figcaption class="hint">{words.counts}</figcaption>
+    </figure>
+  );
+}
+
+/** Who keeps the drives at zero current where the loop does not. */
+function Rescue({ loop: { state, stopped_by: by, unreachable } }: { loop: LoopState }) {
+  if (state !== "silent" && state !== "gone") return null;
+  return (
+    <p class={by === null ? "is-bad" : ""}>
+      {by === null ? words.notStopped : words.stoppedBy[by]}
+      {unreachable !== null && ` ${unreachable}`}
+    </p>
+  );
+}
+
+/** How punctual the loop's process is, and what the system gave it. */
+export function Loop({ loop }: { loop: LoopState }) {
+  const { quantiles } = words;
+  const lapse = (seconds: number) => (loop.ticks === 0 ? words.noneYet : formatLapse(seconds));
+  const rows = [
+    [quantiles.half, lapse(loop.lateness_p50_s)],
+    [quantiles.most, lapse(loop.lateness_p99_s)],
+    [quantiles.nearlyAll, lapse(loop.lateness_p999_s)],
+    [quantiles.worst, lapse(loop.lateness_worst_s)],
+    [words.cost, lapse(loop.cost_p99_s)],
+    [words.skipped, words.of(count(loop.skipped_ticks), count(loop.ticks))],
+  ] as const;
+  return (
+    <section class="bench-card is-loop" aria-label={words.heading}>
+      <h2>
+        {words.heading}{" "}
+        {isLive.value ? (
+          <small class={LEVELS[loop.state]}>
+            <span aria-hidden="true">{SIGNS[loop.state]}</span> {words.states[loop.state]}
+            {loop.alive && `, ${text.status.rate(loop.rate_hz)}`}
+            {loop.silent_s !== null && ` ${words.since(formatLapse(loop.silent_s))}`}
+          </small>
+        ) : (
+          <small>{text.bench.drives.notKnown}</small>
+        )}
+      </h2>
+      {isLive.value && <Rescue loop={loop} />}
+      <div class="loop-columns">
+        <Lateness loop={loop} />
+        <dl aria-label={words.lateness}>
+          {rows.map(([name, value]) => (
+            <div key={name}>
+              <dt>{name}</dt>
+              <dd>{value}</dd>
+            </div>
+          ))}
+        </dl>
+      </div>
+      {loop.notes.length > 0 && (
+        <ul class="notes" aria-label={words.notes}>
+          {loop.notes.map((note) => (
+            <li key={note}>{note}</li>
+          ))}
+        </ul>
+      )}
+    </section>
+  );
+}

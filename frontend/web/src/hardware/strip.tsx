@@ -1,0 +1,84 @@
+import { useId, useState } from "preact/hooks";
+import type { BenchState } from "../core/api/types";
+import { mark } from "../core/state/bench";
+import { isLive } from "../core/state/session";
+import { text } from "../core/text/en";
+import { Problem } from "../core/widgets/problem";
+import { BenchButtons } from "./buttons";
+import { BenchDetails } from "./details";
+import { HeatWarning } from "./heat";
+import { isHeld } from "./hold";
+import { HoldRow } from "./holdrow";
+import { adviceFor, isStarting, needsDetails, placeOf, STAGES } from "./status";
+
+/** OFF → RUN as one line; the place is told by sign and word, not by colour alone. */
+function Progress({ status }: { status: BenchState["status"] | null }) {
+  return (
+    <ol class={`stages is-${status ?? "unknown"}`} aria-label={text.bench.stages}>
+      {STAGES.map((stage) => {
+        const place = placeOf(stage, status);
+        return (
+          <li
+            key={stage}
+            class={`is-${place}`}
+            aria-current={place === "here" ? "step" : undefined}
+          >
+            <span class="stage-sign" aria-hidden="true" />
+            {text.bench.stage[stage]}
+            {place === "done" && <span class="visually-hidden"> {text.bench.done}</span>}
+          </li>
+        );
+      })}
+    </ol>
+  );
+}
+
+/** The band below the header of a bench: what it is, where it is, and what may be done next. */
+export function BenchStrip({ bench }: { bench: BenchState }) {
+  const id = useId();
+  const isNeeded = needsDetails(bench);
+  const [chosen, choose] = useState<{ isNeeded: boolean; isOpen: boolean } | null>(null);
+  const isOpen = chosen?.isNeeded === isNeeded ? chosen.isOpen : isNeeded;
+  const kind = mark.value ?? "real";
+  const status = isStarting(bench) ? text.bench.starting : text.bench.status[bench.status];
+  const advice = text.bench.advice[adviceFor(bench, isHeld.value)];
+  return (
+    <section class={`bench is-${kind}`} aria-label={text.bench.heading}>
+      <div class="bench-strip">
+        <p class="bench-mark" title={`${bench.name}, ${bench.interface}`}>
+          <strong>{text.mark[kind].name}</strong>
+          <small>{text.mark[kind].means}</small>
+        </p>
+        <Progress status={isLive.value && !isStarting(bench) ? bench.status : null} />
+        <p class="bench-advice" role="status">
+          <strong>{isLive.value ? status : text.bench.unknown}</strong>
+          <span>{isLive.value ? advice : text.bench.lastHeard(status)}</span>
+          {isLive.value && bench.loop.step !== null && (
+            <span aria-live="off">
+              {" "}
+              {text.bench.startingBy(bench.loop.step, bench.loop.starting_s ?? 0)}
+            </span>
+          )}
+          {bench.operator_required && !isStarting(bench) && <span> {text.bench.watch}</span>}
+        </p>
+        <BenchButtons bench={bench} />
+        <button
+          type="button"
+          class="button details-button"
+          aria-expanded={isOpen}
+          aria-controls={id}
+          onClick={() => choose({ isNeeded, isOpen: !isOpen })}
+        >
+          {text.bench.details}
+          <span aria-hidden="true">{isOpen ? "▴" : "▾"}</span>
+        </button>
+      </div>
+      {bench.dead_man && <HoldRow bench={bench} />}
+      <HeatWarning bench={bench} />
+      <Problem control="bench" />
+      <div id={id} hidden={!isOpen}>
+        {isOpen && <BenchDetails bench={bench} />}
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,52 @@
+import { useState } from "preact/hooks";
+import { simulateDesign } from "../../core/api/design";
+import { explain } from "../../core/state/actions";
+import { text } from "../../core/text/en";
+import { expected } from "./draft";
+import { designRequest, stability, tried } from "./stability";
+
+const words = text.stability;
+
+/** Whether the design would fail: refused, unstable about rest, or ended by the 3 kg. */
+const wouldFail = () =>
+  expected.value?.verdict === "refuse" ||
+  expected.value?.reasons.some(({ code }) => code === "unstable_loop") === true ||
+  (stability.value?.largest_pole ?? 0) >= 1 ||
+  (tried.value?.load.fault ?? null) !== null;
+
+/** What must not be applied may be seen to fail: in a private simulation, never on a bench. */
+export function FailButton() {
+  const [isBusy, setBusy] = useState(false);
+  const [problem, setProblem] = useState<string | null>(null);
+  if (!wouldFail()) return null;
+  const fail = async () => {
+    setBusy(true);
+    setProblem(null);
+    try {
+      const { session } = await simulateDesign(designRequest());
+      location.assign(`${location.pathname}?session=${encodeURIComponent(session)}`);
+    } catch (error) {
+      setProblem(explain(error));
+      setBusy(false);
+    }
+  };
+  return (
+    <div class="design-fail">
+      <button
+        type="button"
+        class="button"
+        title={words.failHint}
+        disabled={isBusy}
+        onClick={() => void fail()}
+      >
+        {words.fail}
+      </button>
+      <span class="hint">{words.failNote}</span>
+      {problem && (
+        <p class="problem" role="alert">
+          {problem}
+        </p>
+      )}
+    </div>
+  );
+}

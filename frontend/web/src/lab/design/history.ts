@@ -1,0 +1,139 @@
+/** What gains, observer and parameters of laws were before: a step for every change, whoever made it. */
+import { effect, signal } from "@preact/signals";
+import { putGains, putLane, putLanes, putObserver, putParameters } from "../../core/api/client";
+import type { Lane, SessionState } from "../../core/api/types";
+import { perform } from "../../core/state/actions";
+import { hasOwnSettings, lanesBeside, rivalsOf } from "../../core/state/lanes";
+import { session } from "../../core/state/session";
+
+const MAX_STEPS = 50;
+
+/** parameters: by law. beside: by the identity of the lane. */
+export interface Design {
+  position: readonly number[];
+  stiffness: readonly number[];
+  observer: readonly [number, number, number];
+  parameters: Readonly<Record<string, Record<string, unknown>>>;
+  beside: Readonly<Record<string, Lane>>;
+}
+
+export const steps = signal<readonly Design[]>([]);
+
+let known: Design | null = null;
+let isUndoing = false;
+
+export function designOf(state: SessionState): Design {
+  const { gains, observer, parameters } = state.configuration;
+  return {
+    position: gains.position_coefficients,
+    stiffness: gains.stiffness_coefficients,
+    observer: observer.bandwidth_rad_per_s,
+    parameters,
+    beside: Object.fromEntries(lanesBeside(state).map(({ id, controller }) => [id, controller])),
+  };
+}
+
+const isEqual = (one: unknown, other: unknown): boolean =>
+  JSON.stringify(one) === JSON.stringify(other);
+
+/** The laws that both designs know, and that are set differently. */
+export const changedLaws = (one: Design, other: Design): string[] =>
+  Object.keys(one.parameters).filter(
+    (law) => law in other.parameters && !isEqual(one.parameters[law], other.parameters[law]),
+  );
+
+/** The lanes that both designs have, set differently; under another law if settings went. */
+export const changedLanes = (one: Design, other: Design): string[] =>
+  Object.keys(one.beside).filter((id) => {
+    const [held, now] = [one.beside[id], other.beside[id]];
+    if (held === undefined || now === undefined || isEqual(held, now)) return false;
+    return held.law === now.law || hasOwnSettings(held);
+  });
+
+/** The lanes with settings of their own that are no more. */
+export const lostLanes = (one: Design, other: Design): string[] =>
+  Object.keys(one.beside).filter(
+    (id) => other.beside[id] === undefined && hasOwnSettings(one.beside[id] as Lane),
+  );
+
+const isOther = (key: "position" | "stiffness" | "observer", one: Design, other: Design) =>
+  !isEqual(one[key], other[key]);
+
+/** Whether nothing that can be taken back differs: a lane without settings of its own is not. */
+export const isSame = (one: Design, other: Design): boolean =>
+  !(["position", "stiffness", "observer"] as const).some((key) => isOther(key, one, other)) &&
+  changedLaws(one, other).length === 0 &&
+  changedLanes(one, other).length === 0 &&
+  lostLanes(one, other).length === 0;
+
+/** The steps after a change to `next`: the one before it is kept. */
+export function keepStep(kept: readonly Design[], before: Design): Design[] {
+  return [...kept, before].slice(-MAX_STEPS);
+}
+
+export function watchDesign(): void {
+  effect(() => {
+    const state = session.value;
+    if (state === null) return;
+    const design = designOf(state);
+    if (known !== null && !isSame(known, design) && !isUndoing) {
+      steps.value = keepStep(steps.peek(), known);
+    }
+    known = design;
+  });
+}
+
+/** The calls that bring a design back: one for each part that differs from what is there now. */
+export function callsBack(design: Design, state: SessionState): (() => Promise<SessionState>)[] {
+  const now = designOf(state);
+  const calls: (() => Promise<SessionState>)[] = [];
+  const lost = lostLanes(design, now).map((id) => design.beside[id] as Lane);
+  if (lost.length > 0) calls.push(() => putLanes([...rivalsOf(state), ...lost]));
+  if (isOther("position", design, now) || isOther("stiffness", design, now)) {
+    const [c0, c1, c2, c3] = design.position as [number, number, number, number];
+    const [s0, s1] = design.stiffness as [number, number];
+    calls.push(() =>
+      putGains({ position_coefficients: [c0, c1, c2, c3], stiffness_coefficients: [s0, s1] }),
+    );
+  }
+  if (isOther("observer", design, now)) calls.push(() => putObserver(...design.observer));
+  for (const law of changedLaws(design, now)) {
+    calls.push(() => putParameters({ [law]: design.parameters[law] ?? {} }));
+  }
+  for (const id of changedLanes(design, now)) {
+    const lane = lanesBeside(state).find((one) => String(one.id) === id)?.lane;
+    if (lane !== undefined) calls.push(() => putLane(lane, design.beside[id] as Lane));
+  }
+  return calls;
+}
+
+/** A lane that is brought back is another one to the server: earlier steps learn its identity. */
+function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design {
+  const beside = Object.entries(design.beside).map(([id, lane]) => [names.get(id) ?? id, lane]);
+  return { ...design, beside: Object.fromEntries(beside) };
+}
+
+/** Back by one step, past those that have nothing left; resolves false where the server refused. */
+export async function undo(): Promise<boolean> {
+  const state = session.peek();
+  if (state === null || isUndoing) return false;
+  steps.value = steps.peek().filter((step) => callsBack(step, state).length > 0);
+  const last = steps.peek().at(-1);
+  if (last === undefined) return false;
+  const lost = lostLanes(last, designOf(state));
+  let back: string[] = [];
+  isUndoing = true;
+  const isDone = await perform("design.undo", async () => {
+    let reached = state;
+    for (const call of callsBack(last, state)) reached = await call();
+    if (lost.length > 0) back = Object.keys(designOf(reached).beside).slice(-lost.length);
+    return reached;
+  });
+  isUndoing = false;
+  if (isDone) {
+    const names = new Map(lost.map((id, index) => [id, back[index] ?? id]));
+    const kept = steps.peek().slice(0, -1);
+    steps.value = kept.map((step) => renameLanes(step, names));
+  }
+  return isDone;
+}

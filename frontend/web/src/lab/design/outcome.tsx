@@ -1,0 +1,143 @@
+import type { Prediction } from "../../core/api/design";
+import { session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { formatLapse, formatNumber } from "../../core/units";
+import { expected, isAsking, present } from "./draft";
+import { degreesOf, torqueOf, verdictOf } from "./words";
+
+const words = text.design;
+
+interface Line {
+  label: string;
+  hint: string;
+  read: (found: Prediction) => string;
+  /** Share of a limit, where there is one. */
+  share?: (found: Prediction) => number | null;
+}
+
+const noiseHint = (found: Prediction | null) => words.noiseHint[found?.noise?.encoders ?? "rig"];
+const orDash = <T,>(value: T | null | undefined, format: (value: T) => string) =>
+  value === null || value === undefined ? "\u2013" : format(value);
+
+function linesOf(found: Prediction | null): Line[] {
+  const limits = session.value?.configuration.limits;
+  const noise = (name: string, key: "torque1_rms_nm" | "torque2_rms_nm"): Line => ({
+    label: words.noise(name),
+    hint: noiseHint(found),
+    read: ({ noise }) =>
+      noise && noise[key] === null ? words.unstableLoop : orDash(noise?.[key], torqueOf),
+  });
+  const steady = (label: string, hint: string, key: "steady" | "fl"): Line => ({
+    label,
+    hint,
+    read: (one) =>
+      one[key] === null && one.demand
+        ? words.none
+        : orDash(one[key]?.position_error_rad, degreesOf),
+  });
+  const peak = (
+    name: string,
+    key: "peak_torque1_nm" | "peak_torque2_nm",
+    limit: number | undefined,
+  ): Line => ({
+    label: words.peak(name),
+    hint: words.peakHint,
+    read: ({ demand }) => orDash(demand?.[key], torqueOf),
+    share: ({ demand }) => (demand && limit ? demand[key] / limit : null),
+  });
+  return [
+    ...(found === null ? [] : [steady(words.steady(found.law), words.steadyHint, "steady")]),
+    ...(found?.adds_estimate ? [steady(words.fl, words.flHint, "fl")] : []),
+    noise("u₁", "torque1_rms_nm"),
+    noise("u₂", "torque2_rms_nm"),
+    peak("u₁", "peak_torque1_nm", limits?.torque1_nm),
+    peak("u₂", "peak_torque2_nm", limits?.torque2_nm),
+    {
+      label: words.atLimit,
+      hint: words.peakHint,
+      read: ({ demand }) => orDash(demand?.limited_s, formatLapse),
+    },
+  ];
+}
+
+/** How much of a limit: a bar with a mark at the limit, and a word beyond it. */
+function Bar({ share }: { share: number }) {
+  const isBeyond = share > 1;
+  return (
+    <span class={`share ${isBeyond ? "is-beyond" : ""}`} aria-hidden="true">
+      <span style={{ width: `${Math.min(1, share / 1.5) * 100}%` }} />
+    </span>
+  );
+}
+
+function Row({ line, found, now }: { line: Line; found: Prediction; now: Prediction | null }) {
+  const share = line.share?.(found) ?? null;
+  return (
+    <tr>
+      <th scope="row" title={line.hint}>
+        {line.label}
+        {share !== null && <Bar share={share} />}
+      </th>
+      <td>
+        {line.read(found)}
+        {share !== null && share > 1 && <small class="beyond"> {words.beyond}</small>}
+      </td>
+      <td class="present">{now && line.read(now)}</td>
+    </tr>
+  );
+}
+
+function Judgement({ found }: { found: Prediction }) {
+  const { reasons } = found;
+  const verdict = verdictOf(found);
+  return (
+    <section
+      class={`judgement is-${verdict}`}
+      role="status"
+      aria-label={words.verdictIs(words.verdict[verdict])}
+    >
+      <span class="judgement-sign" aria-hidden="true">
+        {words.verdictSign[verdict]}
+      </span>
+      <div>
+        <strong>{words.verdict[verdict]}</strong>
+        {reasons.length === 0 && <p>{words.fine}</p>}
+        {reasons.map((reason) => (
+          <p key={reason.code + reason.message}>{reason.message}</p>
+        ))}
+      </div>
+    </section>
+  );
+}
+
+/** What the design would do, beside what is in use. */
+export function Outcome() {
+  const found = expected.value;
+  const now = present.value;
+  if (found === null) return <p class="outcome hint">{words.asking}</p>;
+  return (
+    <div class={`outcome ${isAsking.value ? "is-asking" : ""}`}>
+      <table>
+        <caption>
+          {words.expected}{" "}
+          <span class="unit">{words.at(formatNumber(found.stiffness_nm_per_rad, 3, 1))}</span>
+        </caption>
+        <thead>
+          <tr>
+            <th scope="col" class="visually-hidden">
+              {words.quantity}
+            </th>
+            <th scope="col">{words.value}</th>
+            <th scope="col">{words.present}</th>
+          </tr>
+        </thead>
+        <tbody>
+          {linesOf(found).map((line) => (
+            <Row key={line.label} line={line} found={found} now={now} />
+          ))}
+        </tbody>
+      </table>
+      <Judgement found={found} />
+    </div>
+  );
+}

@@ -1,0 +1,120 @@
+import { useEffect } from "preact/hooks";
+import { lawOf } from "../../core/state/laws";
+import { isLive, session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { Panel } from "../../core/widgets/panel";
+import { Problem } from "../../core/widgets/problem";
+import { Bandwidths } from "./bandwidths";
+import {
+  apply,
+  discard,
+  draft,
+  expected,
+  isApplying,
+  isAsking,
+  isChanged,
+  isOpen,
+  watchSurroundings,
+} from "./draft";
+import { FailButton } from "./failbutton";
+import { Outcome } from "./outcome";
+import { Plane } from "./plane";
+import { stopFilling } from "./region";
+import { RegionMap } from "./regionmap";
+import { Responses } from "./responses";
+import { watchStability } from "./stability";
+import { StabilityTable } from "./stabilitytable";
+import { UndoButton } from "./summary";
+import { describePoles } from "./words";
+
+const words = text.design;
+
+function close(): void {
+  isOpen.value = false;
+}
+
+function Buttons() {
+  const verdict = expected.value?.verdict;
+  const isReady = isChanged.value && isLive.value && !isApplying.value && !isAsking.value;
+  return (
+    <div class="design-buttons">
+      <button
+        type="button"
+        class={`button is-primary ${verdict === "warn" ? "is-warned" : ""}`}
+        disabled={!isReady || verdict === undefined || verdict === "refuse"}
+        onClick={() => void apply()}
+      >
+        {verdict === "warn" && isChanged.value ? words.applyAnyway : words.apply}
+      </button>
+      <button
+        type="button"
+        class="button"
+        disabled={!isChanged.value}
+        title={words.discardHint}
+        onClick={discard}
+      >
+        {words.discard}
+      </button>
+      <UndoButton />
+    </div>
+  );
+}
+
+function Roots() {
+  const tried = draft.value;
+  return (
+    <p class="design-roots">
+      <strong>{words.roots}</strong>
+      <span class="is-position">{tried && describePoles(tried.position)}</span>
+      <span class="is-stiffness">{tried && describePoles(tried.stiffness)}</span>
+      <span class="unit">{words.unit}</span>
+    </p>
+  );
+}
+
+/** Gains without fear: place the poles, see what they would do, then apply. */
+export function DesignPanel() {
+  const law = lawOf(session.value?.configuration.law ?? "");
+  return isOpen.value && law?.takes_gains !== false ? <Design /> : null;
+}
+
+function Design() {
+  useEffect(watchSurroundings, []);
+  useEffect(watchStability, []);
+  useEffect(() => stopFilling, []);
+  return (
+    <Panel
+      title={words.title}
+      class="design"
+      onClose={close}
+      beside={
+        <p class="design-legend" aria-hidden="true">
+          <span class="is-position">✕ {words.legend.position}</span>
+          <span class="is-stiffness">◇ {words.legend.stiffness}</span>
+        </p>
+      }
+    >
+      <div class="design-body">
+        <div class="design-place">
+          <Plane />
+          <p class="hint" id="plane-hint">
+            {words.planeHint}
+          </p>
+          <Bandwidths />
+        </div>
+        <div class="design-outcome">
+          <Roots />
+          <Outcome />
+          <Problem id="design-problem" control="design.apply" />
+          <FailButton />
+          <Buttons />
+        </div>
+        <div class="design-more">
+          <Responses />
+          <StabilityTable />
+          <RegionMap />
+        </div>
+      </div>
+    </Panel>
+  );
+}

@@ -1,0 +1,241 @@
+import { useRef } from "preact/hooks";
+import { text } from "../../core/text/en";
+import { type Draft, draft, type Group, inUse, tryPoles } from "./draft";
+import {
+  countPlaces,
+  MAX_IM,
+  MAX_RE,
+  MIN_RE,
+  movePole,
+  type Pole,
+  type Poles,
+  stepPole,
+} from "./poles";
+import { stability } from "./stability";
+import { describePole } from "./words";
+
+const SCALE = 1.1;
+const WIDTH = (MAX_RE - MIN_RE) * SCALE;
+const HEIGHT = 2 * MAX_IM * SCALE;
+const CIRCLES = [50, 100, 150, 200, 250];
+const FAR = 10;
+const GROUPS: readonly Group[] = ["position", "stiffness"];
+const MARKS: Record<Group, string> = {
+  position: "M-6-6L6 6M-6 6L6-6",
+  stiffness: "M0-8L8 0 0 8-8 0z",
+};
+const ARROWS: Record<string, readonly [number, number]> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+const xOf = (re: number) => (Math.max(MIN_RE, Math.min(MAX_RE, re)) - MIN_RE) * SCALE;
+const yOf = (im: number) => (MAX_IM - Math.max(-MAX_IM, Math.min(MAX_IM, im))) * SCALE;
+
+/** Axes, circles of equal speed, and the half where nothing is stable. */
+function Ground() {
+  const x0 = xOf(0);
+  const y0 = yOf(0);
+  return (
+    <svg aria-hidden="true">
+      <defs>
+        <pattern id="unstable-half" width="8" height="8" patternUnits="userSpaceOnUse">
+          <path d="M-2 10L10-2M-2 2L2-2M6 10L10 6" class="plane-hatch" />
+        </pattern>
+        <clipPath id="stable-half">
+          <rect x="0" y="0" width={x0} height={HEIGHT} />
+        </clipPath>
+      </defs>
+      <rect class="plane-unstable" x={x0} y="0" width={WIDTH - x0} height={HEIGHT} />
+      <rect x={x0} y="0" width={WIDTH - x0} height={HEIGHT} fill="url(#unstable-half)" />
+      <g clip-path="url(#stable-half)">
+        {CIRCLES.map((speed) => (
+          <circle key={speed} class="plane-grid" cx={x0} cy={y0} r={speed * SCALE} />
+        ))}
+      </g>
+      <path class="plane-axis" d={`M0 ${y0}H${WIDTH}M${x0} 0V${HEIGHT}`} />
+      {CIRCLES.map((speed) => (
+        <text key={speed} class="plane-tick" x={xOf(-speed)} y={HEIGHT - 6} text-anchor="middle">
+          {`\u2212${speed}`}
+        </text>
+      ))}
+      <text class="plane-name" x={WIDTH - 4} y={y0 - 6} text-anchor="end">
+        {text.design.real}
+      </text>
+      <text class="plane-name" x={x0 + 5} y="13">
+        {text.design.imaginary}
+      </text>
+      <text class="plane-side" x="8" y="15">
+        {text.design.stable}
+      </text>
+      <text class="plane-side is-unstable" x={WIDTH - 2} y={HEIGHT - 6} text-anchor="end">
+        {text.design.unstable}
+      </text>
+    </svg>
+  );
+}
+
+function ObserverMark({ bandwidth }: { bandwidth: number }) {
+  const x = xOf(-bandwidth);
+  return (
+    <svg class="plane-observer" aria-hidden="true">
+      <path d={`M${x} ${yOf(20)}V${yOf(-20)}`} />
+      <text x={x} y={yOf(20) - 4} text-anchor="middle">
+        {text.design.observerLine}
+      </text>
+    </svg>
+  );
+}
+
+/** Faster observers than this line are unstable in the sampled loop. */
+function FastestMark() {
+  const fastest = stability.value?.fastest_observer_rad_per_s ?? null;
+  if (fastest === null || -fastest < MIN_RE) return null;
+  const x = xOf(-fastest);
+  return (
+    <svg class="plane-fastest" aria-hidden="true">
+      <rect x="0" y="0" width={x} height={HEIGHT} />
+      <path d={`M${x} 0V${HEIGHT}`} />
+      <text x={x + 5} y={HEIGHT - 22}>
+        {text.stability.fastestLine(fastest.toFixed(0))}
+      </text>
+    </svg>
+  );
+}
+
+interface PoleMarkProps {
+  group: Group;
+  poles: Poles;
+  index: number;
+  readPlace: (event: PointerEvent) => Pole;
+}
+
+/** A pole to drag, or to move with the arrows. */
+function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
+  const start = useRef<Poles | null>(null);
+  const pole = poles[index] as Pole;
+  const name = text.design[group];
+  const grab = (event: PointerEvent) => {
+    (event.currentTarget as Element).setPointerCapture(event.pointerId);
+    start.current = poles;
+  };
+  const drag = (event: PointerEvent) => {
+    if (start.current) tryPoles(group, movePole(start.current, index, readPlace(event)));
+  };
+  const release = () => {
+    start.current = null;
+  };
+  const answer = (event: KeyboardEvent) => {
+    const arrow = ARROWS[event.key];
+    if (arrow === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const step = event.shiftKey ? FAR : 1;
+    tryPoles(group, stepPole(poles, index, arrow[0] * step, arrow[1] * step));
+  };
+  return (
+    <g
+      class={`pole is-${group}`}
+      role="slider"
+      tabindex={0}
+      transform={`translate(${xOf(pole.re)} ${yOf(pole.im)})`}
+      aria-label={text.design.pole(name, index + 1, poles.length)}
+      aria-valuenow={pole.re}
+      aria-valuemin={MIN_RE}
+      aria-valuemax={MAX_RE}
+      aria-valuetext={text.design.poleValue(describePole(pole))}
+      aria-describedby="plane-hint"
+      onPointerDown={grab}
+      onPointerMove={drag}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onKeyDown={answer}
+    >
+      <circle class="pole-reach" r="14" />
+      <path class="pole-mark" d={MARKS[group]} />
+    </g>
+  );
+}
+
+/** What is in use now, faintly, below what is tried. */
+function Shadows({ now }: { now: Draft }) {
+  return (
+    <svg class="plane-now" aria-hidden="true">
+      {GROUPS.flatMap((group) =>
+        countPlaces(now[group]).map(({ pole }) => (
+          <path
+            key={`${group}${pole.re},${pole.im}`}
+            d={MARKS[group]}
+            transform={`translate(${xOf(pole.re)} ${yOf(pole.im)})`}
+          />
+        )),
+      )}
+    </svg>
+  );
+}
+
+function Counts({ group, poles }: { group: Group; poles: Poles }) {
+  const side = group === "position" ? -12 : 23;
+  return (
+    <svg class={`plane-count is-${group}`} aria-hidden="true">
+      {countPlaces(poles)
+        .filter(({ count }) => count > 1)
+        .map(({ pole, count }) => (
+          <text
+            key={`${pole.re},${pole.im}`}
+            x={xOf(pole.re)}
+            y={yOf(pole.im) + side}
+            text-anchor="middle"
+          >
+            {text.design.many(count)}
+          </text>
+        ))}
+    </svg>
+  );
+}
+
+/** Six poles to be placed. */
+export function Plane() {
+  const picture = useRef<SVGSVGElement>(null);
+  const tried = draft.value;
+  const now = inUse.value;
+  const readPlace = (event: PointerEvent): Pole => {
+    const box = (picture.current as SVGSVGElement).getBoundingClientRect();
+    return {
+      re: MIN_RE + ((event.clientX - box.left) / box.width) * (MAX_RE - MIN_RE),
+      im: MAX_IM - ((event.clientY - box.top) / box.height) * 2 * MAX_IM,
+    };
+  };
+  if (tried === null || now === null) return null;
+  return (
+    // biome-ignore lint/a11y/useSemanticElements: a group of sliders in a drawing
+    <svg
+      ref={picture}
+      class="plane"
+      viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+      role="group"
+      aria-label={text.design.plane}
+    >
+      <Ground />
+      <FastestMark />
+      <ObserverMark bandwidth={tried.observer[0]} />
+      <Shadows now={now} />
+      {GROUPS.map((group) => (
+        <g key={group}>
+          {tried[group].map((_, index) => (
+            <PoleMark
+              key={index}
+              group={group}
+              poles={tried[group]}
+              index={index}
+              readPlace={readPlace}
+            />
+          ))}
+          <Counts group={group} poles={tried[group]} />
+        </g>
+      ))}
+    </svg>
+  );
+}

@@ -1,0 +1,197 @@
+import { useId, useState } from "preact/hooks";
+import { explain } from "../../core/state/actions";
+import { usableLaws } from "../../core/state/laws";
+import { session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { formatInput, formatNumber } from "../../core/units";
+import {
+  fates,
+  fillRegion,
+  isFilling,
+  isOutdated,
+  problem,
+  STARTS,
+  share,
+  shown,
+  stopFilling,
+} from "./region";
+import { tried } from "./stability";
+
+const words = text.stability;
+const WIDTH = 340;
+const HEIGHT = 190;
+const LEFT = 34;
+const BOTTOM = 30;
+const TOP = 4;
+const RIGHT = 8;
+const CELL_X = (WIDTH - LEFT - RIGHT) / STARTS;
+const CELL_Y = (HEIGHT - TOP - BOTTOM) / STARTS;
+const POSITIONS = [-90, -45, 0, 45, 90];
+const VELOCITIES = [-20, -10, 0, 10, 20];
+const LOOKS = ["rest", "fault", "astray"] as const;
+
+const placeX = (degrees: number) =>
+  LEFT + CELL_X / 2 + ((degrees + 90) / 180) * (WIDTH - LEFT - RIGHT - CELL_X);
+const placeY = (speed: number) =>
+  HEIGHT - BOTTOM - CELL_Y / 2 - ((speed + 20) / 40) * (HEIGHT - TOP - BOTTOM - CELL_Y);
+const written = (value: number) => String(value).replace("-", "\u2212");
+
+/** One path a look: a thousand cells are three elements. */
+function pathOf(look: (typeof LOOKS)[number]): string {
+  return fates.value
+    .filter(({ outcome }) => outcome === look)
+    .map(({ row, column }) => {
+      const x = LEFT + column * CELL_X;
+      const y = HEIGHT - BOTTOM - (row + 1) * CELL_Y;
+      return `M${x.toFixed(2)} ${y.toFixed(2)}h${CELL_X.toFixed(2)}v${CELL_Y.toFixed(2)}h${(-CELL_X).toFixed(2)}z`;
+    })
+    .join("");
+}
+
+const percent = (part: number) => `${formatNumber(100 * part, 3, 1)} %`;
+
+function Picture() {
+  const found = shown.value;
+  const part = share.value;
+  const told =
+    found === null || part === null
+      ? words.regionEmpty
+      : words.regionTold(percent(part), formatNumber(found.stiffness_nm_per_rad, 3, 1));
+  return (
+    <svg class="region-map" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={told}>
+      <rect
+        class="region-ground"
+        x={LEFT}
+        y={TOP}
+        width={WIDTH - LEFT - RIGHT}
+        height={HEIGHT - TOP - BOTTOM}
+      />
+      {LOOKS.map((look) => (
+        <path key={look} class={`region-cells is-${look}`} d={pathOf(look)} />
+      ))}
+      <path
+        class="region-zero"
+        d={`M${placeX(0)} ${TOP}V${HEIGHT - BOTTOM}M${LEFT} ${placeY(0)}H${WIDTH - RIGHT}`}
+      />
+      {POSITIONS.map((degrees) => (
+        <text key={degrees} x={placeX(degrees)} y={HEIGHT - BOTTOM + 13} text-anchor="middle">
+          {written(degrees)}°
+        </text>
+      ))}
+      {VELOCITIES.map((speed) => (
+        <text key={speed} x={LEFT - 4} y={placeY(speed) + 4} text-anchor="end">
+          {written(speed)}
+        </text>
+      ))}
+      <text x={WIDTH - RIGHT} y={HEIGHT - 3} text-anchor="end">
+        {words.regionAxes}
+      </text>
+    </svg>
+  );
+}
+
+/** From where the loop comes to rest: a map that fills while it is worked out. */
+export function RegionMap() {
+  const id = useId();
+  const own = session.value?.configuration.law ?? "ndobc";
+  const [law, setLaw] = useState<string | null>(null);
+  const [typed, setTyped] = useState<string | null>(null);
+  const sigma = typed ?? formatInput(tried.value?.stiffness_nm_per_rad ?? 15, 3);
+  const limits = session.value?.configuration.limits;
+  const value = Number(sigma);
+  const isTaken =
+    sigma.trim() !== "" &&
+    limits !== undefined &&
+    value >= limits.stiffness_min_nm_per_rad &&
+    value <= limits.stiffness_max_nm_per_rad;
+  const part = share.value;
+  const found = shown.value;
+  return (
+    <section
+      class={`region ${isOutdated.value ? "is-outdated" : ""}`}
+      aria-labelledby={`${id}-title`}
+    >
+      <h3 id={`${id}-title`} title={words.regionHint}>
+        {words.region}
+      </h3>
+      <div class="region-choice">
+        <label>
+          <span>{words.law}</span>
+          <select
+            value={law ?? own}
+            disabled={isFilling.value}
+            onChange={(event) => setLaw(event.currentTarget.value)}
+          >
+            {usableLaws.value.map(({ name, title }) => (
+              <option key={name} value={name}>
+                {title}
+              </option>
+            ))}
+          </select>
+        </label>
+        <label>
+          <span>σ</span>
+          <input
+            type="number"
+            step="any"
+            value={sigma}
+            aria-label={words.regionStiffness}
+            aria-invalid={!isTaken}
+            disabled={isFilling.value}
+            onInput={(event) => setTyped(event.currentTarget.value)}
+          />
+        </label>
+        {isFilling.value ? (
+          <button type="button" class="button" onClick={stopFilling}>
+            {words.stop}
+          </button>
+        ) : (
+          <button
+            type="button"
+            class="button"
+            disabled={!isTaken}
+            onClick={() => void fillRegion(law ?? own, value)}
+          >
+            {words.fill}
+          </button>
+        )}
+      </div>
+      {!isTaken && limits && (
+        <p class="problem" role="alert">
+          {text.refusal.outOfRange(
+            "σ",
+            sigma,
+            text.refusal.between(
+              formatInput(limits.stiffness_min_nm_per_rad),
+              `${formatInput(limits.stiffness_max_nm_per_rad)} N·m/rad`,
+            ),
+          )}
+        </p>
+      )}
+      {problem.value !== null && (
+        <p class="problem" role="alert">
+          {explain(problem.value)}
+        </p>
+      )}
+      <Picture />
+      <p class="region-legend">
+        {LOOKS.map((look) => (
+          <span key={look} class={`is-${look}`}>
+            {words.looks[look]}
+          </span>
+        ))}
+      </p>
+      <p class="hint" role={isFilling.value ? undefined : "status"}>
+        {found === null || part === null
+          ? words.regionEmpty
+          : words.regionFound(
+              percent(part),
+              fates.value.length,
+              STARTS * STARTS,
+              words.sensing[found.encoders],
+              isOutdated.value,
+            )}
+      </p>
+    </section>
+  );
+}

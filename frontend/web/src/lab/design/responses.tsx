@@ -1,0 +1,102 @@
+import type { DesignResponse } from "../../core/api/design";
+import { text } from "../../core/text/en";
+import { formatNumber, toDegrees } from "../../core/units";
+import { type Axis, type Curve, Curves } from "./curves";
+import { isChanged } from "./draft";
+import { errorAxis } from "./erroraxis";
+import { present, tried } from "./stability";
+import { caveatOf } from "./words";
+
+const words = text.stability;
+const TIME: Axis = { from: -0.1, to: 0.9, ticks: [0, 0.2, 0.4, 0.6, 0.8], label: words.time };
+const FREQUENCY: Axis = {
+  from: 0.1,
+  to: 100,
+  ticks: [0.1, 1, 10, 100],
+  label: words.frequency,
+  isLogarithmic: true,
+};
+const MAGNITUDE: Axis = {
+  from: 0.01,
+  to: 30,
+  ticks: [0.01, 0.1, 1, 10],
+  label: words.magnitude,
+  isLogarithmic: true,
+};
+
+type Points = Curve["points"];
+
+const errorOf = ({ load }: DesignResponse): Points =>
+  load.time_s.map((time, index) => [time, toDegrees(load.position_error_rad[index] as number)]);
+
+const magnitudeOf = ({ disturbance }: DesignResponse): Points =>
+  disturbance?.frequency_hz.map((frequency, index) => [
+    frequency,
+    toDegrees(disturbance.magnitude_rad_per_nm[index] as number),
+  ]) ?? [];
+
+const curveOf = (
+  look: Curve["look"],
+  found: DesignResponse,
+  read: (found: DesignResponse) => Points,
+): Curve => ({ look, points: read(found), isDoubtful: caveatOf(found) !== null });
+
+function curvesOf(read: (found: DesignResponse) => Points): Curve[] {
+  const now = present.value;
+  const found = tried.value;
+  return [
+    ...(now && isChanged.value ? [curveOf("present", now, read)] : []),
+    ...(found ? [curveOf("tried", found, read)] : []),
+  ];
+}
+
+/** What the 3 kg and a sine on the link do, with these poles and with those in use. */
+export function Responses() {
+  const found = tried.value;
+  if (found === null) return <p class="hint">{text.design.asking}</p>;
+  const errors = curvesOf(errorOf);
+  const magnitudes = curvesOf(magnitudeOf);
+  const caveat = caveatOf(found);
+  const doubt = caveat?.short ?? null;
+  const now = present.value;
+  const tell = (told: string) => (caveat ? words.caveat(told, caveat.short) : told);
+  const peak = formatNumber(toDegrees(found.load.peak_error_rad), 3, 2);
+  return (
+    <div class="responses">
+      <div class="response">
+        <Curves
+          title={words.loadTitle}
+          told={tell(words.loadTold(peak, found.load.fault))}
+          x={TIME}
+          y={errorAxis(errors.map(({ points }) => points))}
+          curves={errors}
+          caveat={doubt}
+        />
+        {found.load.fault && <p class="hint is-fault">{words.loadFault(found.load.fault)}</p>}
+      </div>
+      <Curves
+        title={words.bodeTitle}
+        told={tell(
+          words.bodeTold(
+            formatNumber(Math.max(0, ...magnitudeOf(found).map(([, value]) => value)), 3, 2),
+            found.disturbance === null,
+          ),
+        )}
+        x={FREQUENCY}
+        y={MAGNITUDE}
+        curves={magnitudes}
+        note={found.disturbance === null ? words.bodeUnstable : null}
+        caveat={found.disturbance === null ? null : doubt}
+      />
+      {caveat && <p class="hint is-fault responses-caveat">{caveat.told}</p>}
+      <p class="responses-legend" aria-hidden="true">
+        <span class="is-tried">{isChanged.value ? words.tried : words.inUse}</span>
+        {isChanged.value && (
+          <span class="is-present">
+            {words.inks(words.inUse, (now && caveatOf(now)?.short) ?? null)}
+          </span>
+        )}
+      </p>
+    </div>
+  );
+}

@@ -1,0 +1,72 @@
+import { isLive } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { PanelButton } from "../../core/widgets/panelbutton";
+import { Problem } from "../../core/widgets/problem";
+import { discard, inUse, isOpen } from "./draft";
+import { steps, undo } from "./history";
+import { describePoles } from "./words";
+
+const words = text.design;
+
+export function UndoButton() {
+  const count = steps.value.length;
+  return (
+    <button
+      type="button"
+      class="button"
+      disabled={count === 0 || !isLive.value}
+      aria-label={count === 0 ? words.undo : words.undoSteps(count)}
+      title={words.undoHint}
+      onClick={() => {
+        discard();
+        void undo();
+      }}
+    >
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        <path d="M6 2.2v3h4.2a4.4 4.4 0 0 1 0 8.8H4v-2h6.2a2.4 2.4 0 0 0 0-4.8H6v3L1.4 6.2z" />
+      </svg>
+      {words.undo}
+      {count > 0 && <span class="undo-count"> {count}</span>}
+    </button>
+  );
+}
+
+/** The button by itself, with why a step back was refused. */
+export function Undo() {
+  return (
+    <div class="design-open">
+      <UndoButton />
+      <Problem control="design.undo" />
+    </div>
+  );
+}
+
+/** The poles in use, and the way to other ones. */
+export function DesignSummary() {
+  const now = inUse.value;
+  if (now === null) return null;
+  return (
+    <>
+      <dl class="design-summary">
+        {(["position", "stiffness"] as const).map((group) => (
+          <div key={group}>
+            <dt>{words.summary(words[group])}</dt>
+            <dd>
+              {describePoles(now[group])} <span class="unit">{words.unit}</span>
+            </dd>
+          </div>
+        ))}
+      </dl>
+      <div class="design-open">
+        <PanelButton isOpen={isOpen} hint={words.openHint}>
+          <svg viewBox="0 0 16 16" aria-hidden="true">
+            <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />
+          </svg>
+          {words.open}
+        </PanelButton>
+        <UndoButton />
+      </div>
+      <Problem control="design.undo" />
+    </>
+  );
+}

@@ -1,0 +1,55 @@
+/** Poles and numbers of a design as they are read. */
+import type { DesignResponse, Prediction, Stability } from "../../core/api/design";
+import { text } from "../../core/text/en";
+import { formatInput, formatNumber, toDegrees } from "../../core/units";
+import { countPlaces, type Pole, type Poles } from "./poles";
+
+const MINUS = "\u2212";
+
+const plain = (value: number) => formatInput(Math.abs(value), 4);
+const signed = (value: number) => (value < 0 ? MINUS : "") + plain(value);
+
+export function describePole({ re, im }: Pole): string {
+  return im === 0 ? signed(re) : text.design.complex(signed(re), plain(im), im > 0);
+}
+
+/** "−60 ×4" or "−40 ± 30j, −60 ×2". */
+export function describePoles(poles: Poles): string {
+  return countPlaces(poles.filter(({ im }) => im >= 0))
+    .map(({ pole, count }) => {
+      const place = pole.im === 0 ? signed(pole.re) : `${signed(pole.re)} ± ${plain(pole.im)}j`;
+      return count > 1 ? `${place} ${text.design.many(count)}` : place;
+    })
+    .join(", ");
+}
+
+export const degreesOf = (rad: number) => `${formatNumber(Math.abs(toDegrees(rad)), 3, 3)}°`;
+export const torqueOf = (torque: number) => `${formatNumber(torque, 3, 4)} N·m`;
+
+/** Nothing is plainly good that goes beyond a limit, however shortly. */
+export const verdictOf = ({ verdict, reasons }: Prediction): keyof typeof text.design.verdict =>
+  verdict === "ok" && reasons.length > 0 ? "note" : verdict;
+
+interface Caveat {
+  /** In the chart. */
+  short: string;
+  /** Beneath it. */
+  told: string;
+}
+
+/** Why the curves of a design are not what it would do, or null where they are. */
+export function caveatOf(found: Pick<DesignResponse, "largest_pole" | "encoders">): Caveat | null {
+  if (found.largest_pole < 1) return null;
+  const { short, told } = text.stability.unstableOn[found.encoders];
+  return { short, told: told(found.largest_pole.toFixed(4)) };
+}
+
+const ratio = (value: number) => formatNumber(value, 3, 2);
+
+/** For which true over nominal values of a parameter the loop is stable. */
+export function rangeOf({ low, high }: Stability["ranges"][number]): string {
+  if (high === null) return low === null ? text.stability.all : text.stability.from(ratio(low));
+  return low === null
+    ? text.stability.upTo(ratio(high))
+    : text.stability.between(ratio(low), ratio(high));
+}

@@ -1,0 +1,73 @@
+import { isInstructor, isObserver } from "../../core/state/access";
+import {
+  control,
+  leaveControl,
+  mayCommand,
+  otherHolder,
+  queue,
+  wishControl,
+} from "../../core/state/control";
+import { isLive } from "../../core/state/session";
+import { text } from "../../core/text/en";
+
+const words = text.control;
+
+function Button() {
+  const other = otherHolder.value;
+  const isMine = control.value?.mine === true;
+  const inTurn = queue.value;
+  const waits = inTurn !== null && inTurn.place !== null;
+  if (isObserver.value) return null;
+  const [label, hint] = isMine
+    ? [words.giveBack, inTurn === null ? words.giveBackHint : words.giveOnHint]
+    : waits
+      ? [words.leaveQueue, words.leaveQueueHint]
+      : inTurn !== null && !isInstructor.value
+        ? [words.ask, words.askHint]
+        : other === null
+          ? [words.take, words.takeHint]
+          : [words.takeOver, words.takeOverHint(other)];
+  return (
+    <button
+      type="button"
+      class="button is-small"
+      disabled={!isLive.value}
+      title={hint}
+      onClick={() => (isMine || waits ? void leaveControl() : wishControl())}
+    >
+      {label}
+    </button>
+  );
+}
+
+/** In the status bar: who is in control, how many watch, and the button that changes it. */
+export function ControlCell() {
+  const now = control.value;
+  if (now === null) return null;
+  const inTurn = queue.value;
+  const nobody = inTurn === null ? words.everyone : inTurn.locked ? words.locked : words.nobody;
+  const holder = now.mine ? words.you : (now.holder ?? nobody);
+  const who = isLive.value ? holder : text.status.notKnown;
+  const sign = now.holder === null || !isLive.value ? "○" : now.mine ? "●" : "▪";
+  return (
+    <div
+      class={`status-cell is-control ${now.mine ? "is-mine" : ""} ${mayCommand.value ? "" : "is-other"}`}
+      title={words.hint}
+    >
+      <dt>{words.heading}</dt>
+      <dd>
+        <span role="status">
+          <span aria-hidden="true">{sign}</span> <span class="control-name">{who}</span>
+        </span>{" "}
+        {isLive.value && (
+          <small>
+            · {inTurn?.place ? words.place(inTurn.place) : words.watching(now.watching)}
+          </small>
+        )}
+      </dd>
+      <dd class="control-act">
+        <Button />
+      </dd>
+    </div>
+  );
+}

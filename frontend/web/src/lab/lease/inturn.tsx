@@ -1,0 +1,76 @@
+import type { SessionState } from "../../core/api/types";
+import { access, isInstructor, isObserver } from "../../core/state/access";
+import { control, handOver, leaveControl, wishControl } from "../../core/state/control";
+import { isLive } from "../../core/state/session";
+import { text } from "../../core/text/en";
+
+const words = text.classroom;
+type Queue = NonNullable<SessionState["queue"]>;
+
+/** Who is in control of a class's session, and one's own place; empty where there is nothing to say. */
+function tell(queue: Queue): { title: string; more: string } | null {
+  const now = control.value;
+  const [next] = queue.waiting;
+  if (now?.mine) {
+    return next === undefined
+      ? null
+      : { title: words.waits(next.name, queue.waiting.length), more: words.goesOn(queue.idle_s) };
+  }
+  const title = queue.locked
+    ? words.lockedTitle
+    : now?.holder
+      ? text.control.heldTitle(now.holder)
+      : words.freeTitle;
+  if (queue.place !== null) {
+    return { title, more: words.placeText(queue.place, queue.waiting.length) };
+  }
+  if (isInstructor.value && !now?.holder && !queue.locked) return null;
+  if (isInstructor.value && !now?.holder) return { title, more: words.lockedByYou };
+  return { title, more: isObserver.value ? words.observerText : text.control.heldText };
+}
+
+function Act({ queue }: { queue: Queue }) {
+  const [next] = queue.waiting;
+  const isMine = control.value?.mine === true;
+  if (isMine && next !== undefined) {
+    return (
+      <button
+        type="button"
+        class="button"
+        disabled={!isLive.value}
+        onClick={() => void handOver(next.id)}
+      >
+        {words.handOver(next.name)}
+      </button>
+    );
+  }
+  if (isMine || isObserver.value || isInstructor.value) return null;
+  const waits = queue.place !== null;
+  return (
+    <button
+      type="button"
+      class="button"
+      disabled={!isLive.value}
+      onClick={() => (waits ? void leaveControl() : wishControl())}
+    >
+      {waits ? text.control.leaveQueue : text.control.ask}
+    </button>
+  );
+}
+
+/** Says whose turn it is; nothing before the lab has told as whom one is in. */
+export function InTurn({ queue }: { queue: Queue }) {
+  const told = access.value === null ? null : tell(queue);
+  if (told === null) return null;
+  return (
+    <div class="banner is-calm" role="status">
+      <span class="banner-sign" aria-hidden="true">
+        ▪
+      </span>
+      <p>
+        <strong>{told.title}</strong> {told.more}
+      </p>
+      <Act queue={queue} />
+    </div>
+  );
+}

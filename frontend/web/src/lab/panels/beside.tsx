@@ -1,0 +1,71 @@
+import { useId, useState } from "preact/hooks";
+import { putLane } from "../../core/api/client";
+import type { SessionState } from "../../core/api/types";
+import { inkOf } from "../../core/plots/inks";
+import { Swatch } from "../../core/plots/legend";
+import { perform } from "../../core/state/actions";
+import { CONTROL, removeLane } from "../../core/state/commands";
+import { hasOwnSettings, type LaneBeside } from "../../core/state/lanes";
+import { lawOf, titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { LaneForm } from "./laneform";
+import { LawPicker } from "./lawpicker";
+
+const words = text.beside;
+
+interface BesideProps {
+  state: SessionState;
+  beside: LaneBeside;
+  isRecording: boolean;
+}
+
+/** A controller beside the session's own: its law, what it is set to, and its end. */
+export function Beside({ state, beside, isRecording }: BesideProps) {
+  const { lane, name, ink, controller } = beside;
+  const [isOpen, setOpen] = useState(false);
+  const id = useId();
+  const law = lawOf(controller.law);
+  const title = titleOf(controller.law);
+  const told = name.startsWith(title) ? name.slice(title.length).trim() : name;
+  return (
+    <li class="beside">
+      <div class="beside-row">
+        <Swatch look={inkOf(ink)} />
+        <LawPicker
+          label={words.law(name)}
+          title={words.lawHint}
+          value={controller.law}
+          button={title}
+          onChoose={(next) => perform(CONTROL.compare, () => putLane(lane, { law: next }))}
+        />
+        <span class="beside-told">{told || (hasOwnSettings(controller) ? words.own : "")}</span>
+        <button
+          type="button"
+          class="quiet"
+          aria-expanded={isOpen}
+          aria-controls={id}
+          aria-label={words.set(name)}
+          title={words.setHint}
+          onClick={() => setOpen(!isOpen)}
+        >
+          <svg viewBox="0 0 16 16" aria-hidden="true">
+            <path d="M1 3.2h6.2a2 2 0 0 1 3.6 0H15v1.6h-4.2a2 2 0 0 1-3.6 0H1zM1 11.2h2.2a2 2 0 0 1 3.6 0H15v1.6H6.8a2 2 0 0 1-3.6 0H1z" />
+          </svg>
+        </button>
+        <button
+          type="button"
+          class="quiet"
+          aria-label={words.remove(name)}
+          title={isRecording ? text.compare.whileRecording : words.remove(name)}
+          disabled={isRecording}
+          onClick={() => void removeLane(state, lane)}
+        >
+          ✕
+        </button>
+      </div>
+      <div id={id} hidden={!isOpen}>
+        {isOpen && law && <LaneForm law={law} state={state} beside={beside} />}
+      </div>
+    </li>
+  );
+}

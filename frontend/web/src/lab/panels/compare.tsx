@@ -1,0 +1,67 @@
+import { useId } from "preact/hooks";
+import type { SessionState } from "../../core/api/types";
+import { comparedWith } from "../../core/state/beside";
+import { addLane, CONTROL, toggleCompare } from "../../core/state/commands";
+import { lanesBeside } from "../../core/state/lanes";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/problem";
+import { Beside } from "./beside";
+import { LawPicker } from "./lawpicker";
+
+const MAX_LANES = 4;
+const words = text.beside;
+
+/** Other controllers beside the session's own: switched on and off, added, set, removed. */
+export function Compare({ state }: { state: SessionState }) {
+  const beside = lanesBeside(state);
+  const id = useId();
+  const isOn = beside.length > 0;
+  const isRecording = state.recording !== null;
+  const isFull = state.lanes.length >= MAX_LANES;
+  const most = beside.length;
+  const compared = isOn ? beside.map(({ controller }) => controller) : comparedWith(state);
+  if (compared.length === 0) return null;
+  const names = [...new Set(compared.map(({ law }) => law))].map(titleOf).join(", ");
+  const whyNotAdded = isFull ? words.full(most) : words.addHint;
+  return (
+    <>
+      <div class="compare-line">
+        <button
+          type="button"
+          role="switch"
+          class="compare"
+          aria-checked={isOn}
+          aria-keyshortcuts="c"
+          aria-describedby={id}
+          disabled={isRecording}
+          title={isRecording ? text.compare.whileRecording : text.compare.does}
+          onClick={() => void toggleCompare(state)}
+        >
+          <span class="compare-track" aria-hidden="true" />
+          <span class="compare-words">{text.compare.with(names)}</span>
+        </button>
+        <LawPicker
+          class="compare-add"
+          label={words.add}
+          button={words.add}
+          title={isRecording ? text.compare.whileRecording : whyNotAdded}
+          value={null}
+          isDisabled={isRecording || isFull}
+          onChoose={(law) => addLane(state, law)}
+        />
+      </div>
+      {isOn && (
+        <ul class="besides" aria-label={words.list}>
+          {beside.map((one) => (
+            <Beside key={one.id} state={state} beside={one} isRecording={isRecording} />
+          ))}
+        </ul>
+      )}
+      <span class="visually-hidden" id={id}>
+        {isRecording ? text.compare.whileRecording : text.compare.does}
+      </span>
+      <Problem control={CONTROL.compare} />
+    </>
+  );
+}

@@ -1,0 +1,83 @@
+import { useId } from "preact/hooks";
+import { excite, putNominal, stopExcitation } from "../../core/api/client";
+import type { SessionState } from "../../core/api/types";
+import { perform } from "../../core/state/actions";
+import { text } from "../../core/text/en";
+import { formatSeconds } from "../../core/units";
+import { Problem } from "../../core/widgets/problem";
+import { Group } from "./group";
+
+const words = text.identification;
+
+/** Plays what `svsa identify` needs, and takes what came of it as the model. */
+export function Identification({ state }: { state: SessionState }) {
+  const { excitation } = state;
+  return (
+    <Group title={words.title}>
+      <p class="hint">
+        {words.explanation} <code>{words.command}</code>
+      </p>
+      {excitation === null ? (
+        <button
+          type="button"
+          class="button"
+          onClick={() => void perform("identification.excite", () => excite(words.runName))}
+        >
+          {words.excite}
+        </button>
+      ) : (
+        <div class="identification-run">
+          <progress
+            max={excitation.duration_s}
+            value={excitation.elapsed_s}
+            aria-label={words.title}
+          />
+          <span>
+            {words.exciting(
+              formatSeconds(excitation.elapsed_s),
+              formatSeconds(excitation.duration_s),
+            )}
+          </span>
+          <button
+            type="button"
+            class="button"
+            onClick={() => void perform("identification.excite", stopExcitation)}
+          >
+            {words.stop}
+          </button>
+        </div>
+      )}
+      <Problem control="identification.excite" />
+      {state.bench === null ? <ModelFile /> : <p class="hint">{words.bench}</p>}
+    </Group>
+  );
+}
+
+function ModelFile() {
+  const id = useId();
+  const load = async (input: HTMLInputElement) => {
+    const file = input.files?.[0];
+    if (file === undefined) return;
+    const toml = await file.text();
+    input.value = "";
+    await perform("identification.file", () => putNominal(toml));
+  };
+  return (
+    <>
+      <label class="button identification-file">
+        {words.file}
+        <input
+          type="file"
+          accept=".toml"
+          class="visually-hidden"
+          aria-describedby={id}
+          onChange={(event) => void load(event.currentTarget)}
+        />
+      </label>
+      <p class="hint" id={id}>
+        {words.fileHint}
+      </p>
+      <Problem control="identification.file" />
+    </>
+  );
+}

@@ -1,0 +1,103 @@
+import { putLane } from "../../core/api/client";
+import type { Gains, LawRow, SessionState } from "../../core/api/types";
+import { shownAs } from "../../core/quantities";
+import { perform } from "../../core/state/actions";
+import { gainsOf, hasOwnSettings, type LaneBeside } from "../../core/state/lanes";
+import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/problem";
+import type { SliderRange } from "../../core/widgets/scale";
+import { coefficientsOf } from "../design/poles";
+import { Field } from "./field";
+import { ParameterFields } from "./law";
+
+const words = text.beside;
+const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
+const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
+
+interface LaneFormProps {
+  law: LawRow;
+  state: SessionState;
+  beside: LaneBeside;
+}
+
+/** One bandwidth for all poles of a polynomial, as c₀ = ωⁿ says it. */
+function Bandwidths({ state, beside }: Omit<LaneFormProps, "law">) {
+  const { lane, id, controller } = beside;
+  const gains = gainsOf(controller, state);
+  const put = (changed: Partial<Gains>) =>
+    putLane(lane, { ...controller, gains: { ...gains, ...changed } });
+  const row = (group: "position" | "stiffness", symbol: string) => {
+    const held = gains[`${group}_coefficients`];
+    const bandwidth = held[0] ** (1 / held.length);
+    const all = coefficientsOf(held.length, bandwidth);
+    const isTogether = all.every((c, k) => Math.abs(c / (held[k] as number) - 1) < 1e-3);
+    return (
+      <>
+        <Field
+          name={`lanes.${id}.${group}`}
+          label={symbol}
+          labelRest={words.poles(text.design[group])}
+          unit={text.design.unit}
+          value={bandwidth}
+          range={POLES}
+          send={(value) => put({ [`${group}_coefficients`]: coefficientsOf(held.length, value) })}
+        />
+        {!isTogether && <p class="hint">{words.apart(symbol)}</p>}
+      </>
+    );
+  };
+  return (
+    <>
+      {row("position", "ωq")}
+      {row("stiffness", "ωσ")}
+    </>
+  );
+}
+
+/** What one controller beside is set to; the first change gives it settings of its own. */
+export function LaneForm({ law, state, beside }: LaneFormProps) {
+  const { lane, id, controller } = beside;
+  const { configuration } = state;
+  const observer = controller.observer ?? configuration.observer;
+  const held = controller.parameters ?? configuration.parameters[law.name] ?? {};
+  const isOwn = hasOwnSettings(controller);
+  return (
+    <div class="lane-form">
+      <p class="hint">
+        {isOwn ? words.ownHint : words.sharedHint}
+        {isOwn && (
+          <button
+            type="button"
+            class="quiet"
+            onClick={() =>
+              void perform(`lanes.${id}`, () => putLane(lane, { law: controller.law }))
+            }
+          >
+            {words.share}
+          </button>
+        )}
+      </p>
+      <Problem control={`lanes.${id}`} />
+      {law.takes_gains && <Bandwidths state={state} beside={beside} />}
+      <ParameterFields
+        law={law}
+        name={`lanes.${id}`}
+        held={held}
+        send={(parameters) => putLane(lane, { ...controller, parameters })}
+      />
+      {law.estimate === "observer" && (
+        <Field
+          name={`lanes.${id}.observer`}
+          {...shownAs("bandwidth_rad_per_s")}
+          label="β"
+          labelRest={text.design.observerBandwidth}
+          value={observer.bandwidth_rad_per_s[0]}
+          range={OBSERVER}
+          send={(beta) =>
+            putLane(lane, { ...controller, observer: { bandwidth_rad_per_s: [beta, beta, beta] } })
+          }
+        />
+      )}
+    </div>
+  );
+}

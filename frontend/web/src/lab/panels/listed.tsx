@@ -1,0 +1,56 @@
+/** References that are typed or opened as a list: steps line by line, a time series as CSV. */
+import { text } from "../../core/text/en";
+import { MAX_LEVELS } from "./levels";
+
+const words = text.references;
+
+interface ListProps {
+  label: string;
+  rows: number;
+  list: string;
+  onList: (list: string) => void;
+}
+
+function List({ label, rows, list, onList }: ListProps) {
+  return (
+    <textarea
+      class="listed"
+      rows={rows}
+      spellcheck={false}
+      aria-label={label}
+      value={list}
+      onInput={(event) => onList(event.currentTarget.value)}
+    />
+  );
+}
+
+export function Levels({ unit, ...list }: Pick<ListProps, "list" | "onList"> & { unit: string }) {
+  return (
+    <>
+      <List label={words.levels(unit)} rows={6} {...list} />
+      <p class="hint">{words.levelsHint(unit, MAX_LEVELS)}</p>
+    </>
+  );
+}
+
+export function Series({ list, onList }: Pick<ListProps, "list" | "onList">) {
+  const open = async (event: Event) => {
+    const file = (event.currentTarget as HTMLInputElement).files?.[0];
+    if (file) onList(await file.text());
+  };
+  return (
+    <>
+      <label class="button csv-open">
+        {words.openCsv}
+        <input
+          type="file"
+          class="visually-hidden"
+          accept=".csv,text/csv"
+          onChange={(event) => void open(event)}
+        />
+      </label>
+      <List label={words.pasteCsv} rows={4} list={list} onList={onList} />
+      <p class="hint">{words.csvHint}</p>
+    </>
+  );
+}

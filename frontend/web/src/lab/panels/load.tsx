@@ -1,0 +1,104 @@
+import { useState } from "preact/hooks";
+import { removeAllLoads, removeLoad } from "../../core/api/client";
+import type { LoadRow, SessionState } from "../../core/api/types";
+import { perform } from "../../core/state/actions";
+import {
+  isRealBench,
+  isWeight,
+  presentLoads,
+  type WeightForm,
+  weightForm,
+} from "../../core/state/load";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { Choice } from "../../core/widgets/choice";
+import { Problem } from "../../core/widgets/problem";
+import { CustomLoad } from "./customload";
+import { Group } from "./group";
+
+const FORMS: readonly { value: WeightForm; label: string }[] = [
+  { value: "paper", label: text.load.paper },
+  { value: "mass", label: text.load.mass },
+];
+
+function describe({ load }: LoadRow): string {
+  if (load.kind === "paper") return text.load.paperRow;
+  if (load.kind === "mass") return text.load.massRow(formatNumber(load.mass_kg ?? 3));
+  if (load.kind === "series") return text.load.seriesRow;
+  const torques = load.torque_nm.map((torque) => formatNumber(torque)).join(", ");
+  return text.load.torqueRow(text.load.kinds[load.kind], torques);
+}
+
+function LoadRows({ state }: { state: SessionState }) {
+  const rows = presentLoads(state);
+  if (rows.length === 0 || rows.every((row) => row.active && isWeight(row))) return null;
+  return (
+    <ul class="load-rows">
+      {rows.map((row) => (
+        <li key={row.id}>
+          <span>
+            {describe(row)}
+            {!row.active && ` · ${text.load.comesAt(row.start_s)}`}
+          </span>
+          <button
+            type="button"
+            class="quiet"
+            aria-label={text.load.removeThis(describe(row))}
+            onClick={() => void perform("load.rows", () => removeLoad(row.id))}
+          >
+            ✕
+          </button>
+        </li>
+      ))}
+      {rows.length > 1 && (
+        <li>
+          <button
+            type="button"
+            class="quiet"
+            onClick={() => void perform("load.rows", removeAllLoads)}
+          >
+            {text.load.removeAll}
+          </button>
+        </li>
+      )}
+    </ul>
+  );
+}
+
+/** What 3 kg are in a simulation and on the emulated rig. */
+function FormPicker() {
+  return (
+    <Choice
+      label={text.load.form}
+      options={FORMS}
+      value={weightForm.value}
+      onChoose={(form) => {
+        weightForm.value = form;
+      }}
+    />
+  );
+}
+
+export function Loads({ state }: { state: SessionState }) {
+  const [isShown, show] = useState(false);
+  if (isRealBench(state.bench)) {
+    return (
+      <Group title={text.load.title} topic="load">
+        <p class="hint">{text.load.markDoes}</p>
+      </Group>
+    );
+  }
+  return (
+    <Group title={text.load.title} topic="load" aside={<FormPicker />}>
+      <p class="hint is-about">
+        {weightForm.value === "paper" ? text.load.paperDoes : text.load.massDoes}
+      </p>
+      <LoadRows state={state} />
+      <Problem control="load.rows" />
+      <details class="more" onToggle={(event) => show(event.currentTarget.open)}>
+        <summary>{text.load.custom}</summary>
+        <CustomLoad isShown={isShown} />
+      </details>
+    </Group>
+  );
+}

@@ -1,0 +1,75 @@
+import { useState } from "preact/hooks";
+import type { SessionState } from "../../core/api/types";
+import { CONTROL, toggleWeight } from "../../core/state/commands";
+import { takesCommands } from "../../core/state/control";
+import {
+  hungWeights,
+  isRealBench,
+  nextWeightAt,
+  weightForm,
+  weightOf,
+} from "../../core/state/load";
+import { isLive } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/problem";
+import { EnduranceNote } from "../../hardware/endurance";
+
+function WeightPicture({ isHung }: { isHung: boolean }) {
+  return (
+    <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
+      {isHung && <path class="weight-cord" d="M24 0v16" />}
+      <circle class="weight-ring" cx="24" cy="19" r="4.5" />
+      <path class="weight-body" d="M14.5 24h19l5.5 19a3 3 0 0 1-3 4H12a3 3 0 0 1-3-4z" />
+      <text class="weight-text" x="24" y="41" text-anchor="middle">
+        {text.load.weight}
+      </text>
+    </svg>
+  );
+}
+
+function caption(state: SessionState, isHung: boolean): string {
+  if (!isLive.value) return text.status.notKnown;
+  if (isRealBench(state.bench)) return isHung ? text.load.marked : text.load.mark;
+  if (isHung) return text.load.hangs;
+  const next = nextWeightAt(state);
+  if (next !== null) return text.load.comesAt(next);
+  return weightForm.value === "paper" ? text.load.paperShort : text.load.massShort;
+}
+
+function words(state: SessionState, isHung: boolean): string {
+  if (isRealBench(state.bench)) return isHung ? text.load.markRemoved : text.load.markHung;
+  return isHung ? text.load.remove : text.load.hang;
+}
+
+/** The one thing to press: hangs 3 kg on the link, or takes them off. */
+export function LoadButton({ state }: { state: SessionState }) {
+  const [isBusy, setBusy] = useState(false);
+  const isHung = hungWeights(state).length > 0;
+  const weight = weightOf(isRealBench(state.bench) ? "mass" : weightForm.value);
+
+  const press = async () => {
+    setBusy(true);
+    await toggleWeight();
+    setBusy(false);
+  };
+
+  return (
+    <div class="load-place">
+      <button
+        type="button"
+        class={`load-button ${isHung ? "is-hung" : ""}`}
+        aria-keyshortcuts="l"
+        disabled={isBusy || !takesCommands.value || state.status === "fault"}
+        onClick={() => void press()}
+      >
+        <WeightPicture isHung={isHung} />
+        <span class="load-words">
+          <strong>{words(state, isHung)}</strong>
+          <small>{caption(state, isHung)}</small>
+        </span>
+      </button>
+      <EnduranceNote load={isHung ? null : weight} />
+      <Problem control={CONTROL.load} />
+    </div>
+  );
+}

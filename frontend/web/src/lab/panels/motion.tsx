@@ -1,0 +1,90 @@
+import { useRef, useState } from "preact/hooks";
+import { putPosition } from "../../core/api/client";
+import type { PositionReference, Sent, SessionState } from "../../core/api/types";
+import { shownAs } from "../../core/quantities";
+import { perform } from "../../core/state/actions";
+import { standing } from "../../core/state/meanwhile";
+import { text } from "../../core/text/en";
+import { toRadians } from "../../core/units";
+import { Field } from "./field";
+import { type Kind, kindOf, ReferenceGroup } from "./reference";
+
+type Sine = Extract<PositionReference, { kind: "sine" }>;
+
+const FIRST_SINE: Sent<Sine> = { kind: "sine", amplitude_rad: toRadians(60), frequency_hz: 0.2 };
+const KINDS = [
+  { value: "sine", label: text.motion.sine },
+  { value: "constant", label: text.motion.constant },
+  { value: "other", label: text.references.other },
+] as const;
+
+function SineFields({ reference }: { reference: Sine }) {
+  const send = (change: Partial<Sine>) =>
+    putPosition({ ...standing("position", reference), ...change });
+  return (
+    <>
+      <Field
+        name="motion.amplitude"
+        {...shownAs("amplitude_rad")}
+        value={reference.amplitude_rad}
+        range={{ min: 0, max: 90, step: 1 }}
+        send={(amplitude_rad) => send({ amplitude_rad })}
+      />
+      <Field
+        name="motion.frequency"
+        {...shownAs("frequency_hz")}
+        value={reference.frequency_hz}
+        range={{ min: 0.02, max: 2, logarithmic: true }}
+        send={(hz) => send({ frequency_hz: hz })}
+      />
+      <Field
+        name="motion.offset"
+        {...shownAs("offset_rad")}
+        value={reference.offset_rad}
+        range={{ min: -60, max: 60, step: 1 }}
+        send={(offset_rad) => send({ offset_rad })}
+      />
+    </>
+  );
+}
+
+export function Motion({ state }: { state: SessionState }) {
+  const reference = state.configuration.position;
+  const lastSine = useRef<Sent<Sine>>(FIRST_SINE);
+  if (reference.kind === "sine") lastSine.current = reference;
+
+  const [isOther, setOther] = useState(false);
+  const shown = isOther ? "other" : kindOf(reference);
+
+  const choose = (kind: Kind) => {
+    setOther(kind === "other");
+    if (kind === "other") return;
+    const held = reference.kind === "sine" ? reference.offset_rad : 0;
+    const next: Sent<PositionReference> =
+      kind === "sine" ? lastSine.current : { kind: "constant", position_rad: held };
+    return perform("motion.kind", () => putPosition(next));
+  };
+
+  return (
+    <ReferenceGroup
+      topic="motion"
+      follows="position"
+      reference={reference}
+      kinds={KINDS}
+      shown={shown}
+      onChoose={choose}
+    >
+      {reference.kind === "sine" ? (
+        <SineFields reference={reference} />
+      ) : reference.kind === "constant" ? (
+        <Field
+          name="motion.position"
+          {...shownAs("position_rad")}
+          value={reference.position_rad}
+          range={{ min: -90, max: 90, step: 1 }}
+          send={(position_rad) => putPosition({ kind: "constant", position_rad })}
+        />
+      ) : null}
+    </ReferenceGroup>
+  );
+}

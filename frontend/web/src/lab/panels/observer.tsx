@@ -1,0 +1,52 @@
+import { putObserver } from "../../core/api/client";
+import type { SessionState } from "../../core/api/types";
+import { shownAs } from "../../core/quantities";
+import { lawOf } from "../../core/state/laws";
+import { standing } from "../../core/state/meanwhile";
+import { text } from "../../core/text/en";
+import type { SliderRange } from "../../core/widgets/scale";
+import { Field } from "./field";
+import { Group } from "./group";
+
+const RANGE: SliderRange = { min: 2, max: 300, logarithmic: true };
+
+export function Observer({ state }: { state: SessionState }) {
+  const { law, observer } = state.configuration;
+  const present = lawOf(law);
+  const bandwidth = observer.bandwidth_rad_per_s;
+  const sendOne = (changed: number, beta: number) => {
+    const next: typeof bandwidth = [...standing("observer", observer).bandwidth_rad_per_s];
+    next[changed] = beta;
+    return putObserver(...next);
+  };
+  const isSpread = bandwidth.some((beta) => beta !== bandwidth[0]);
+  return (
+    <Group title={text.observer.title} topic="disturbance">
+      {present && present.estimate !== "observer" && (
+        <p class="hint">{text.observer.unused(present.title)}</p>
+      )}
+      <Field
+        name="observer.all"
+        {...shownAs("bandwidth_rad_per_s")}
+        value={bandwidth[0]}
+        range={RANGE}
+        send={(beta) => putObserver(beta, beta, beta)}
+      />
+      {isSpread && <p class="hint">{text.observer.spread}</p>}
+      <details class="more">
+        <summary>{text.observer.each}</summary>
+        {bandwidth.map((beta, index) => (
+          <Field
+            key={text.channels[index]}
+            name={`observer.${index}`}
+            {...shownAs("bandwidth_rad_per_s")}
+            label={text.channels[index] as string}
+            value={beta}
+            range={RANGE}
+            send={(next) => sendOne(index, next)}
+          />
+        ))}
+      </details>
+    </Group>
+  );
+}

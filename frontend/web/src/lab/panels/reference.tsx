@@ -1,0 +1,57 @@
+import type { ComponentChildren } from "preact";
+import type { Follows } from "../../core/api/references";
+import type { PositionReference, StiffnessReference } from "../../core/api/types";
+import { text } from "../../core/text/en";
+import { Choice, type Option } from "../../core/widgets/choice";
+import { Problem } from "../../core/widgets/problem";
+import { Group } from "./group";
+import { Shaped } from "./shaped";
+import type { Shape } from "./shapes";
+
+export type Kind = "sine" | "constant" | "other";
+
+/** A sine and a constant have fields; every other reference has a beginning and an end. */
+export const kindOf = ({ kind }: PositionReference | StiffnessReference): Kind =>
+  kind === "sine" || kind === "constant" ? kind : "other";
+
+const nameOf = (kinds: readonly Option<Kind>[], kind: Kind): string =>
+  kinds.find(({ value }) => value === kind)?.label ?? "";
+
+interface ReferenceGroupProps {
+  /** The name of its controls, the title and the equation. */
+  topic: "motion" | "stiffness";
+  follows: Follows;
+  reference: PositionReference | StiffnessReference;
+  kinds: readonly Option<Kind>[];
+  shown: Kind;
+  onChoose: (kind: Kind) => unknown;
+  /** The fields of a sine or a constant. */
+  children: ComponentChildren;
+}
+
+/** What the session follows: its kind, its fields, or how to shape one with an end. */
+export function ReferenceGroup(props: ReferenceGroupProps) {
+  const { topic, follows, reference, kinds, shown, onChoose, children } = props;
+  const { title, kind } = text[topic];
+  return (
+    <Group
+      title={title}
+      topic={topic}
+      aside={<Choice label={kind} options={kinds} value={shown} onChoose={onChoose} />}
+    >
+      <Problem control={`${topic}.kind`} />
+      {shown !== kindOf(reference) && (
+        <p class="hint">{text.references.notApplied(nameOf(kinds, kindOf(reference)))}</p>
+      )}
+      {shown === "other" ? <Shaped follows={follows} held={reference.kind} /> : children}
+      {kindOf(reference) === "other" && (
+        <p class="hint">
+          {text.references.following(
+            text.references.kinds[reference.kind as Shape],
+            reference.transition_s,
+          )}
+        </p>
+      )}
+    </Group>
+  );
+}

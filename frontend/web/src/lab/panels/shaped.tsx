@@ -1,0 +1,162 @@
+import { useEffect, useState } from "preact/hooks";
+import { putPosition, putStiffness, repeatPosition, repeatStiffness } from "../../core/api/client";
+import {
+  type Follows,
+  type Preview,
+  previewReference,
+  type Reference,
+  readSeries,
+} from "../../core/api/references";
+import type { PositionReference, Sent, StiffnessReference } from "../../core/api/types";
+import { explain, perform } from "../../core/state/actions";
+import { session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { DEGREES_PER_RADIAN } from "../../core/units";
+import { Choice } from "../../core/widgets/choice";
+import { Problem } from "../../core/widgets/problem";
+import { Course } from "./course";
+import { readLevels, writeLevels } from "./levels";
+import { Levels, Series } from "./listed";
+import { NumberBox } from "./numberbox";
+import { buildReference, FIRST, INPUTS, type Input, SHAPES, type Shape } from "./shapes";
+
+const words = text.references;
+const OPTIONS = SHAPES.map((value) => ({ value, label: words.kinds[value] }));
+const PAUSE_MS = 300;
+const repeat = (follows: Follows) =>
+  follows === "position" ? repeatPosition() : repeatStiffness();
+
+interface Wanted {
+  reference: Reference;
+  preview: Preview;
+}
+
+/** What a CSV holds, where it is for this quantity. */
+async function readCsv(follows: Follows, csv: string): Promise<Reference> {
+  const series = await readSeries(csv);
+  if (series.follows !== follows) throw new RangeError(words.isOther[series.follows]);
+  return series.reference;
+}
+
+function put(follows: Follows, reference: Reference) {
+  return follows === "position"
+    ? putPosition(reference as Sent<PositionReference>)
+    : putStiffness(reference as Sent<StiffnessReference>);
+}
+
+/** What is followed already begins again: the server takes it twice for once. */
+async function follow(follows: Follows, reference: Reference) {
+  const before = session.peek()?.revision;
+  const state = await put(follows, reference);
+  return state.revision === before ? repeat(follows) : state;
+}
+
+/** The list that the numbers of steps stand for; null while one is missing. */
+function listLevels({ low, high, hold, count }: Record<Input, string>): string | null {
+  const numbers = [low, high, hold, count].map((typed) => (typed.trim() ? Number(typed) : NaN));
+  const [from, to, everyS, steps] = numbers as [number, number, number, number];
+  return numbers.every(Number.isFinite) ? writeLevels(from, to, everyS, steps) : null;
+}
+
+/** A reference with a beginning and an end: typed or from a CSV, looked at, then applied. */
+export function Shaped({ follows, held }: { follows: Follows; held: string }) {
+  const [shape, setShape] = useState<Shape>(SHAPES.find((known) => known === held) ?? "steps");
+  const [typed, setTyped] = useState(FIRST[follows]);
+  const [csv, setCsv] = useState<string>(words.example[follows]);
+  const [levels, setLevels] = useState(listLevels(FIRST[follows]) ?? "");
+  const [wanted, setWanted] = useState<Wanted | null>(null);
+  const [refusal, setRefusal] = useState("");
+  const unit = follows === "position" ? "deg" : "N·m/rad";
+  const units: Partial<Record<Input, string>> = {
+    hold: "s",
+    count: "",
+    duration: "s",
+    startHz: "Hz",
+    endHz: "Hz",
+  };
+
+  useEffect(() => {
+    let isLatest = true;
+    setWanted(null);
+    const read = () => {
+      if (shape === "series") return readCsv(follows, csv);
+      return shape === "steps"
+        ? readLevels(follows, levels)
+        : buildReference(follows, shape, typed);
+    };
+    const look = async () => {
+      try {
+        const reference = await read();
+        if (reference === null) throw new RangeError(text.refusal.noNumber);
+        const preview = await previewReference(follows, reference);
+        if (isLatest) setWanted({ reference, preview });
+        if (isLatest) setRefusal("");
+      } catch (error) {
+        if (isLatest) setRefusal(error instanceof RangeError ? error.message : explain(error));
+      }
+    };
+    const timer = setTimeout(() => void look(), PAUSE_MS);
+    return () => {
+      isLatest = false;
+      clearTimeout(timer);
+    };
+  }, [follows, shape, typed, csv, levels]);
+
+  const type = (name: Input, value: string) => {
+    const next = { ...typed, [name]: value };
+    setTyped(next);
+    if (shape === "steps") setLevels(listLevels(next) ?? levels);
+  };
+
+  const submit = (event: Event) => {
+    event.preventDefault();
+    if (wanted) void perform(`${follows}.shaped`, () => follow(follows, wanted.reference));
+  };
+
+  return (
+    <form class="shaped" onSubmit={submit}>
+      <Choice label={words.kind} options={OPTIONS} value={shape} onChoose={setShape} />
+      {shape === "series" ? (
+        <Series list={csv} onList={setCsv} />
+      ) : (
+        INPUTS[shape].map((name) => (
+          <NumberBox
+            key={name}
+            label={words.inputs[name]}
+            unit={units[name] ?? unit}
+            value={typed[name]}
+            onInput={(value) => type(name, value)}
+          />
+        ))
+      )}
+      {shape === "steps" && <Levels unit={unit} list={levels} onList={setLevels} />}
+      {wanted && (
+        <Course
+          preview={wanted.preview}
+          unit={unit}
+          factor={follows === "position" ? DEGREES_PER_RADIAN : 1}
+        />
+      )}
+      <p class="problem" role="alert" hidden={refusal === ""}>
+        {refusal}
+      </p>
+      <div class="shaped-acts">
+        <button type="submit" class="button" disabled={wanted === null}>
+          {words.apply}
+        </button>
+        {SHAPES.some((known) => known === held) && (
+          <button
+            type="button"
+            class="button"
+            title={words.againHint}
+            onClick={() => void perform(`${follows}.shaped`, () => repeat(follows))}
+          >
+            {words.again}
+          </button>
+        )}
+      </div>
+      <p class="hint">{words.does[shape]}</p>
+      <Problem control={`${follows}.shaped`} />
+    </form>
+  );
+}

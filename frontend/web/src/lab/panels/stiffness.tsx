@@ -1,0 +1,113 @@
+import { useRef, useState } from "preact/hooks";
+import { putStiffness } from "../../core/api/client";
+import type { Sent, SessionState, StiffnessReference } from "../../core/api/types";
+import { shownAs } from "../../core/quantities";
+import { perform } from "../../core/state/actions";
+import { standing } from "../../core/state/meanwhile";
+import { text } from "../../core/text/en";
+import type { SliderRange } from "../../core/widgets/scale";
+import { Field } from "./field";
+import { type Kind, kindOf, ReferenceGroup } from "./reference";
+
+type Sine = Extract<StiffnessReference, { kind: "sine" }>;
+
+/** What the mechanism can reach, N·m/rad. */
+const REACH: SliderRange = { min: 1.7, max: 150.56, logarithmic: true };
+const KINDS = [
+  { value: "constant", label: text.stiffness.constant },
+  { value: "sine", label: text.stiffness.sine },
+  { value: "other", label: text.references.other },
+] as const;
+
+function SineFields({ reference }: { reference: Sine }) {
+  const send = (change: Partial<Sine>) =>
+    putStiffness({ ...standing("stiffness", reference), ...change });
+  return (
+    <>
+      <Field
+        name="stiffness.offset"
+        {...shownAs("offset_nm_per_rad")}
+        value={reference.offset_nm_per_rad}
+        range={REACH}
+        send={(value) => send({ offset_nm_per_rad: value })}
+      />
+      <Field
+        name="stiffness.amplitude"
+        {...shownAs("amplitude_nm_per_rad")}
+        value={reference.amplitude_nm_per_rad}
+        range={{ min: 0, max: 30, step: 0.5 }}
+        send={(value) => send({ amplitude_nm_per_rad: value })}
+      />
+      <Field
+        name="stiffness.frequency"
+        {...shownAs("frequency_hz")}
+        value={reference.frequency_hz}
+        range={{ min: 0.02, max: 2, logarithmic: true }}
+        send={(hz) => send({ frequency_hz: hz })}
+      />
+    </>
+  );
+}
+
+/** What to hold, or to swing about, after this reference. */
+function meanOf(reference: StiffnessReference): number {
+  switch (reference.kind) {
+    case "sine":
+    case "chirp":
+      return reference.offset_nm_per_rad;
+    case "constant":
+      return reference.stiffness_nm_per_rad;
+    case "minimum_jerk":
+      return reference.end_nm_per_rad;
+    default:
+      return reference.stiffness_nm_per_rad.at(-1) as number;
+  }
+}
+
+export function Stiffness({ state }: { state: SessionState }) {
+  const reference = state.configuration.stiffness;
+  const lastSine = useRef<Sent<Sine> | null>(null);
+  if (reference.kind === "sine") lastSine.current = reference;
+
+  const [isOther, setOther] = useState(false);
+  const shown = isOther ? "other" : kindOf(reference);
+
+  const choose = (kind: Kind) => {
+    setOther(kind === "other");
+    if (kind === "other") return;
+    const mean = meanOf(reference);
+    const next: Sent<StiffnessReference> =
+      kind === "constant"
+        ? { kind: "constant", stiffness_nm_per_rad: mean }
+        : (lastSine.current ?? {
+            kind: "sine",
+            offset_nm_per_rad: mean,
+            amplitude_nm_per_rad: 1,
+            frequency_hz: 0.2,
+          });
+    return perform("stiffness.kind", () => putStiffness(next));
+  };
+
+  return (
+    <ReferenceGroup
+      topic="stiffness"
+      follows="stiffness"
+      reference={reference}
+      kinds={KINDS}
+      shown={shown}
+      onChoose={choose}
+    >
+      {reference.kind === "sine" ? (
+        <SineFields reference={reference} />
+      ) : reference.kind === "constant" ? (
+        <Field
+          name="stiffness.level"
+          {...shownAs("stiffness_nm_per_rad")}
+          value={reference.stiffness_nm_per_rad}
+          range={REACH}
+          send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}
+        />
+      ) : null}
+    </ReferenceGroup>
+  );
+}

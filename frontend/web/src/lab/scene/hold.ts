@@ -1,0 +1,63 @@
+/** A push is one load: begun, told again while it is held, ended. The server ends it by itself when
+ * it hears no more of it. */
+import { signal } from "@preact/signals";
+import { addLoad, removeLoad } from "../../core/api/client";
+import type { Load, SessionState } from "../../core/api/types";
+import { perform } from "../../core/state/actions";
+import { acceptState, session } from "../../core/state/session";
+
+/** The torque that is held on the link now, N·m; null while nobody pushes. */
+export const heldTorque = signal<number | null>(null);
+
+const MIN_NM = 0.05;
+const CHANGE_NM = 0.02;
+const LOOK_MS = 60;
+const TELL_MS = 200;
+const SILENCE_S = 0.8;
+const MIN_HOLD_S = 0.02;
+const MAX_HOLD_S = 60;
+
+type Pace = Pick<SessionState, "speed" | "real_time_factor">;
+
+/** Session time in which the page is heard again however fast the session goes, s. */
+export function holdOf({ speed, real_time_factor: factor }: Pace): number {
+  const pace = speed === "max" ? factor : speed;
+  return Math.min(MAX_HOLD_S, Math.max(MIN_HOLD_S, SILENCE_S * pace));
+}
+
+/** Whether a torque is told: it begins a push, it differs, or it is time to be heard of. */
+export function isToTell(torque: number, told: number | null, sinceMs: number): boolean {
+  if (told === null) return Math.abs(torque) > MIN_NM;
+  return Math.abs(torque - told) > CHANGE_NM || sinceMs >= TELL_MS;
+}
+
+const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
+const numberOf = ({ loads }: SessionState): number | null =>
+  loads.filter(({ load }) => load.kind === "push").at(-1)?.id ?? null;
+
+let isKept = false;
+
+/** Keeps the server told of `heldTorque` until it is null, never two calls at once. */
+export async function keepPush(): Promise<void> {
+  if (isKept) return;
+  isKept = true;
+  let [id, told, toldAt] = [null as number | null, null as number | null, 0];
+  const tell = async (torque: number, pace: Pace) => {
+    const load: Load = { kind: "push", torque_nm: [torque, 0, 0], hold_s: holdOf(pace) };
+    const state = await addLoad(load);
+    id = numberOf(state);
+    return state;
+  };
+  for (let torque = heldTorque.peek(); torque !== null; torque = heldTorque.peek()) {
+    const [now, state] = [torque, session.peek()];
+    if (state && isToTell(now, told, performance.now() - toldAt)) {
+      [told, toldAt] = [now, performance.now()];
+      if (!(await perform("scene.push", () => tell(now, state)))) heldTorque.value = null;
+    }
+    await wait(LOOK_MS);
+  }
+  // A push that had ended by itself is not there any more: what was wished has come.
+  if (id !== null) await removeLoad(id).then(acceptState, () => undefined);
+  isKept = false;
+  if (heldTorque.peek() !== null) await keepPush();
+}

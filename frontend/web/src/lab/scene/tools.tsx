@@ -1,0 +1,79 @@
+import { session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { CAMERA_NAMES } from "./cameras";
+import { isPushing, PushLayer } from "./push";
+import { areNamesOn, isLow, setCamera, toggleLow, toggleNames } from "./viewer";
+
+const words = text.scene;
+
+function PushButton() {
+  if (session.value?.bench !== null) return null;
+  return (
+    <button
+      type="button"
+      class="tool"
+      aria-pressed={isPushing.value}
+      title={words.pushHint}
+      onClick={() => {
+        isPushing.value = !isPushing.peek();
+      }}
+    >
+      <svg viewBox="0 0 12 12" aria-hidden="true">
+        <path d="M3.4 6.2V2.3a.8.8 0 0 1 1.6 0v2.6-3.6a.8.8 0 0 1 1.6 0v3.6-2.8a.8.8 0 0 1 1.6 0v3-1.6a.8.8 0 0 1 1.6 0v4.2c0 2.4-1.4 3.8-3.5 3.8-1.7 0-2.6-.8-3.4-2.3L1.4 7.1c-.5-1 .8-1.7 1.4-.9z" />
+      </svg>
+      {words.push}
+    </button>
+  );
+}
+
+/** Cameras, pushing and the cost of drawing, at the foot of the 3D view. */
+export function SceneTools() {
+  return (
+    <>
+      {isPushing.value && <PushLayer />}
+      <div class="scene-tools" data-over-picture role="toolbar" aria-label={words.tools}>
+        {CAMERA_NAMES.map((name) => (
+          <button
+            key={name}
+            type="button"
+            class="tool"
+            aria-label={words.cameraHint(words.cameras[name])}
+            onClick={() => setCamera(name)}
+          >
+            {words.cameras[name]}
+          </button>
+        ))}
+        <span class="scene-tools-end">
+          <PushButton />
+          <button
+            type="button"
+            class="tool is-icon"
+            aria-pressed={areNamesOn.value}
+            aria-label={words.names}
+            aria-keyshortcuts="N"
+            title={`${words.names} (N): ${words.namesHint}`}
+            onClick={toggleNames}
+          >
+            <svg viewBox="0 0 12 12" aria-hidden="true">
+              <path d="M1 1h6.5v3.5H1zM2.2 10.2l3-4.6.9.6-3 4.6z" />
+              <circle cx="2.4" cy="10.3" r="1.4" />
+            </svg>
+          </button>
+          <button
+            type="button"
+            class="tool is-icon"
+            aria-pressed={isLow.value}
+            aria-label={words.low}
+            title={`${words.low}: ${words.lowHint}`}
+            onClick={toggleLow}
+          >
+            <svg viewBox="0 0 12 12" aria-hidden="true">
+              <path d="M1 8h2v3H1zM4 6h2v5H4z" />
+              <path d="M7.5 4.5v6h1v-6zM10.2 2v8.5h1V2z" opacity="0.45" />
+            </svg>
+          </button>
+        </span>
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,48 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { text } from "../../core/text/en";
+import { copyText } from "./copy";
+
+interface CopyButtonProps {
+  /** What to copy; null where it could not be made, which is said elsewhere. */
+  read: () => string | Promise<string | null>;
+  class?: string;
+  label?: string;
+  hint?: string;
+  disabled?: boolean;
+  children: ComponentChildren;
+}
+
+const SHOWN_MS = 2000;
+
+/** Copies, and says so in its own place for a moment. */
+export function CopyButton({ read, label, hint, disabled, children, ...rest }: CopyButtonProps) {
+  const [said, setSaid] = useState("");
+  const timer = useRef(0);
+  useEffect(() => () => clearTimeout(timer.current), []);
+  const copy = async () => {
+    const content = await read();
+    if (content === null) return;
+    setSaid((await copyText(content)) ? text.script.copied : text.script.notCopied);
+    clearTimeout(timer.current);
+    timer.current = window.setTimeout(() => setSaid(""), SHOWN_MS);
+  };
+  return (
+    <>
+      <button
+        type="button"
+        class={rest.class ?? "button"}
+        aria-label={label}
+        title={hint}
+        disabled={disabled}
+        onClick={() => void copy()}
+      >
+        {said === "" ? children : <span aria-hidden="true">✓ {said}</span>}
+        {said !== "" && <span class="visually-hidden">{children}</span>}
+      </button>
+      <span class="visually-hidden" role="status">
+        {said}
+      </span>
+    </>
+  );
+}

@@ -1,0 +1,172 @@
+import { useEffect, useState } from "preact/hooks";
+import { tunedFileOf } from "../../core/api/tunings";
+import { explain } from "../../core/state/actions";
+import { titleOf, usableLaws } from "../../core/state/laws";
+import { isLive, session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { Panel } from "../../core/widgets/panel";
+import { Problem } from "../../core/widgets/problem";
+import { CostCurve } from "./costcurve";
+import { RunTable, ValueTable } from "./tables";
+import {
+  applyBest,
+  CONTROL,
+  findNewest,
+  isOpen,
+  isStarting,
+  isUnderWay,
+  problem,
+  start,
+  stop,
+  trials,
+  tuning,
+} from "./tuning";
+
+const words = text.tuning;
+const BUDGET = 124;
+const MAX_BUDGET = 2000;
+
+function close(): void {
+  isOpen.value = false;
+}
+
+/** Which law, how long, and start or stop. */
+function Choice() {
+  const [law, setLaw] = useState(session.value?.configuration.law ?? "");
+  const [typed, setTyped] = useState(String(BUDGET));
+  const budget = Number(typed);
+  const isTaken = Number.isInteger(budget) && budget >= 1 && budget <= MAX_BUDGET;
+  return (
+    <div class="tuning-choice">
+      <label>
+        <span>{words.law}</span>
+        <select
+          value={law}
+          disabled={isUnderWay.value}
+          onChange={(event) => setLaw(event.currentTarget.value)}
+        >
+          {usableLaws.value.map(({ name, title }) => (
+            <option key={name} value={name}>
+              {title}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label title={words.budgetHint}>
+        <span>{words.budget}</span>
+        <input
+          type="number"
+          min={1}
+          max={MAX_BUDGET}
+          value={typed}
+          aria-invalid={!isTaken}
+          disabled={isUnderWay.value}
+          onInput={(event) => setTyped(event.currentTarget.value)}
+        />
+      </label>
+      {isUnderWay.value ? (
+        <button type="button" class="button" title={words.stopHint} onClick={() => void stop()}>
+          {words.stop}
+        </button>
+      ) : (
+        <button
+          type="button"
+          class="button is-primary"
+          disabled={!isTaken || law === "" || isStarting.value}
+          onClick={() => void start(law, budget)}
+        >
+          {words.start}
+        </button>
+      )}
+      {!isTaken && (
+        <p class="problem" role="alert">
+          {words.budgetHint}
+        </p>
+      )}
+    </div>
+  );
+}
+
+function Found() {
+  const state = tuning.value;
+  const [used, setUsed] = useState("");
+  if (state === null) return null;
+  const { present, best } = state;
+  const isBetter = present !== null && best !== null && best.number > 0;
+  const mark = `${state.id} ${best?.number}`;
+  return (
+    <>
+      <div>
+        <p class="hint" role="status">
+          {words.progress(titleOf(state.law), state.tried, state.budget)}.{" "}
+          {words.status[state.status]}
+          {state.problem && ` ${state.problem}`}
+        </p>
+        {isUnderWay.value && (
+          <progress
+            max={state.budget + 1}
+            value={state.tried}
+            aria-label={words.progress(titleOf(state.law), state.tried, state.budget)}
+          />
+        )}
+      </div>
+      {present === null || best === null ? (
+        isUnderWay.value && <p class="hint">{words.first}</p>
+      ) : (
+        <div class="tuning-found">
+          <CostCurve trials={trials.value} budget={state.budget} />
+          <ValueTable tuning={state} present={present} best={best} />
+          <RunTable tuning={state} present={present} best={best} />
+        </div>
+      )}
+      <div class="tuning-buttons">
+        <button
+          type="button"
+          class="button is-primary"
+          disabled={!isBetter || !isLive.value}
+          title={words.useHint}
+          onClick={() => void applyBest().then((isDone) => setUsed(isDone ? mark : ""))}
+        >
+          {words.use}
+        </button>
+        {!isUnderWay.value && best !== null && (
+          <a class="button" href={tunedFileOf(state.id)} download title={words.saveHint}>
+            {words.save}
+          </a>
+        )}
+        <Problem control={CONTROL} />
+        <span class="hint" role="status">
+          {used === mark && words.used}
+          {used === mark &&
+            session.value?.configuration.law !== state.law &&
+            ` ${words.otherLaw(titleOf(state.law))}`}
+          {used !== mark && !isUnderWay.value && best !== null && !isBetter && words.notBetter}
+        </span>
+      </div>
+    </>
+  );
+}
+
+/** Search a law's parameters while the lab goes on. */
+export function TunePanel() {
+  return isOpen.value && session.value !== null ? <Tune /> : null;
+}
+
+function Tune() {
+  useEffect(() => void findNewest(), []);
+  return (
+    <Panel title={words.title} class="tuning" onClose={close}>
+      <div class="tuning-body">
+        <p class="hint">{words.about}</p>
+        <Choice />
+        {problem.value !== null && (
+          <p class="problem" role="alert">
+            {explain(problem.value)}
+          </p>
+        )}
+        <Found />
+        <p class="hint">{words.cost}</p>
+      </div>
+    </Panel>
+  );
+}

@@ -1,0 +1,146 @@
+import { useEffect, useState } from "preact/hooks";
+import { noteDownload } from "../../core/api/calls";
+import { addressOf, branchRun, exportPath } from "../../core/api/runs";
+import type { ExportName, RunDetails } from "../../core/api/types";
+import { text } from "../../core/text/en";
+import { Popup } from "../../core/widgets/popup";
+import { CopyButton } from "../../lab/script/copybutton";
+import { makeRunScript, scriptProblem } from "../../lab/script/repeat";
+import { putIntoTrash } from "./list";
+import { makeFile, making } from "./making";
+import { goTo, linkTo } from "./place";
+import { attempt } from "./problem";
+
+const words = text.run;
+const KINDS: readonly (ExportName | "html")[] = ["csv", "parquet", "mat", "mcap", "html"];
+
+/** The tick of the run's own count that a moment of the replay is. */
+const tickAt = (run: RunDetails, moment: number): number =>
+  run.first_tick + Math.min(Math.round(moment / run.period_s), Math.max(0, run.ticks - 1));
+
+function Branch({ run, moment }: { run: RunDetails; moment: number }) {
+  const [isBusy, setBusy] = useState(false);
+  if (run.plant !== "simulated") {
+    return <span class="hint run-bench">{words.branchBench}</span>;
+  }
+  const branch = async () => {
+    setBusy(true);
+    const session = await attempt(() => branchRun(run.id, tickAt(run, moment)));
+    if (session) location.assign(`${location.pathname}?session=${session.session}`);
+    else setBusy(false);
+  };
+  return (
+    <button
+      type="button"
+      class="button is-primary"
+      title={words.branchHint}
+      disabled={isBusy}
+      onClick={() => void branch()}
+    >
+      {isBusy ? words.branching : words.branch(text.runs.seconds(Number(moment.toFixed(2))))}
+    </button>
+  );
+}
+
+/** Of a file that takes long: that it is being made, and what came of it. */
+function MakingNote({ run }: { run: RunDetails }) {
+  const now = making.value?.run === run.id ? making.value : null;
+  const [seconds, count] = useState(0);
+  const stage = now?.stage;
+  useEffect(() => {
+    count(0);
+    if (stage !== "making") return;
+    const timer = setInterval(() => count((before) => before + 1), 1000);
+    return () => clearInterval(timer);
+  }, [stage]);
+  return (
+    <span
+      class={`run-making ${stage === "failed" ? "problem" : ""}`}
+      aria-busy={stage === "making"}
+    >
+      <span role="status">
+        {stage === "making" && words.making}
+        {stage === "saved" && words.made}
+        {stage === "failed" && words.notMade(now?.message ?? "")}
+      </span>
+      {stage === "making" && <span aria-live="off"> {words.makingFor(seconds)}</span>}
+    </span>
+  );
+}
+
+function Exports({ run }: { run: RunDetails }) {
+  const isMaking = making.value?.stage === "making";
+  return (
+    <Popup class="button run-exports" title={words.downloadHint} button={words.download}>
+      {(close) => (
+        <ul class="exports">
+          {KINDS.map((kind) => {
+            const path = exportPath(run.id, kind);
+            if (kind === "html") {
+              return (
+                <li key={kind}>
+                  <button
+                    type="button"
+                    disabled={isMaking}
+                    onClick={() => {
+                      noteDownload(path);
+                      close();
+                      void makeFile(run.id, path);
+                    }}
+                  >
+                    <strong>{words.kinds[kind].name}</strong>{" "}
+                    <small>{words.kinds[kind].does}</small>
+                  </button>
+                </li>
+              );
+            }
+            return (
+              <li key={kind}>
+                <a
+                  href={addressOf(path)}
+                  download
+                  onClick={() => {
+                    noteDownload(path);
+                    close();
+                  }}
+                >
+                  <strong>{words.kinds[kind].name}</strong> <small>{words.kinds[kind].does}</small>
+                </a>
+              </li>
+            );
+          })}
+        </ul>
+      )}
+    </Popup>
+  );
+}
+
+/** What may be done with a run, at the moment that its replay shows. */
+export function RunActions({ run, moment }: { run: RunDetails; moment: number }) {
+  const link = () =>
+    new URL(linkTo({ kind: "run", run: run.id, timeS: moment }), location.href).href;
+  const remove = async () => {
+    if (await putIntoTrash(run.id)) goTo({ kind: "list" });
+  };
+  return (
+    <div class="run-actions">
+      <Branch run={run} moment={moment} />
+      <CopyButton read={link} hint={words.linkHint}>
+        {words.link}
+      </CopyButton>
+      <CopyButton read={() => makeRunScript(run.id, run.title)} hint={words.scriptHint}>
+        {words.script}
+      </CopyButton>
+      <Exports run={run} />
+      <button type="button" class="button" onClick={() => void remove()}>
+        {text.runs.remove}
+      </button>
+      <MakingNote run={run} />
+      {scriptProblem.value !== "" && (
+        <span class="problem" role="alert">
+          {scriptProblem.value}
+        </span>
+      )}
+    </div>
+  );
+}

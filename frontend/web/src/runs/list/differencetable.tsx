@@ -1,0 +1,63 @@
+import type { RunDifference } from "../../core/api/types";
+import { text } from "../../core/text/en";
+import { formatSetting } from "./difference";
+
+const words = text.difference;
+type Row = RunDifference["differences"][number];
+
+function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
+  return (
+    <tbody>
+      <tr class="difference-group">
+        <th scope="colgroup" colSpan={1 + (rows[0]?.values.length ?? 0)}>
+          {name}
+        </th>
+      </tr>
+      {rows.map((row) => {
+        const { unit, values } = formatSetting(row);
+        return (
+          <tr key={row.name}>
+            <th scope="row">
+              {row.name} {unit && <span class="unit">{unit}</span>}
+            </th>
+            {values.map((value, run) => (
+              <td key={run}>{value}</td>
+            ))}
+          </tr>
+        );
+      })}
+    </tbody>
+  );
+}
+
+/** What was set otherwise in one of these runs than in another, and nothing else. */
+export function DifferenceTable({ difference }: { difference: RunDifference }) {
+  const { differences, titles } = difference;
+  if (differences.length === 0) return <p class="difference-none">{words.none}</p>;
+  const groups = [...new Set(differences.map(({ group }) => group))];
+  return (
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+    <section class="overlay-table difference" tabIndex={0} aria-label={words.title}>
+      <table>
+        <caption>
+          <span>
+            {words.title} <small class="unit">{words.hint}</small>
+          </span>
+        </caption>
+        <thead>
+          <tr>
+            <td />
+            {titles.map((title, run) => (
+              <th key={difference.runs[run]} scope="col">
+                {title}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        {groups.map((group) => (
+          <Group key={group} name={group} rows={differences.filter((row) => row.group === group)} />
+        ))}
+      </table>
+    </section>
+  );
+}

@@ -1,0 +1,94 @@
+/** A verdict on a plot: the band, the moments that leave it, and the worst of them. */
+import type uPlot from "uplot";
+import { palette } from "../../core/plots/palette";
+import type { BandShown, JudgedCurve } from "./verdict";
+
+const BAND_ALPHA = 0.16;
+const STRIPE_ALPHA = 0.14;
+const BAR_PX = 5;
+const MIN_WIDTH_PX = 2;
+const DOT_PX = 5;
+
+function within(plot: uPlot, draw: (context: CanvasRenderingContext2D) => void): void {
+  const { ctx: context, bbox } = plot;
+  context.save();
+  context.beginPath();
+  context.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  context.clip();
+  draw(context);
+  context.restore();
+}
+
+/** Stretches of a band of which both bounds are known, as indices from … to before. */
+export function listKnown({ low, high }: BandShown): [number, number][] {
+  const known: [number, number][] = [];
+  let begin = -1;
+  for (let index = 0; index <= low.length; index++) {
+    const isKnown = index < low.length && low[index] !== null && high[index] !== null;
+    if (isKnown && begin < 0) begin = index;
+    if (!isKnown && begin >= 0) {
+      known.push([begin, index]);
+      begin = -1;
+    }
+  }
+  return known;
+}
+
+export function drawBands(plot: uPlot, bands: readonly BandShown[]): void {
+  within(plot, (context) => {
+    context.fillStyle = palette.peek().mark;
+    context.globalAlpha = BAND_ALPHA;
+    for (const band of bands) {
+      const x = (index: number) => plot.valToPos(band.time[index] as number, "x", true);
+      for (const [begin, end] of listKnown(band)) {
+        context.beginPath();
+        for (let index = begin; index < end; index++) {
+          context.lineTo(x(index), plot.valToPos(band.high[index] as number, "y", true));
+        }
+        for (let index = end - 1; index >= begin; index--) {
+          context.lineTo(x(index), plot.valToPos(band.low[index] as number, "y", true));
+        }
+        context.closePath();
+        context.fill();
+      }
+    }
+  });
+}
+
+/** Stripes over the height, and in a row of each curve a bar at the top. */
+export function drawOutside(plot: uPlot, judged: readonly JudgedCurve[]): void {
+  const { top, height } = plot.bbox;
+  within(plot, (context) => {
+    judged.forEach(({ curve, outside }, row) => {
+      context.fillStyle = palette.peek()[curve.ink.colour];
+      for (const [from, to] of outside) {
+        const left = plot.valToPos(from, "x", true);
+        const width = plot.valToPos(to, "x", true) - left;
+        const drawn = Math.max(width, MIN_WIDTH_PX * devicePixelRatio);
+        context.globalAlpha = STRIPE_ALPHA;
+        context.fillRect(left, top, drawn, height);
+        context.globalAlpha = 1;
+        const bar = BAR_PX * devicePixelRatio;
+        context.fillRect(left, top + row * bar, drawn, bar - devicePixelRatio);
+      }
+    });
+  });
+}
+
+/** Where a curve that is not held leaves its band furthest. */
+export function drawWorst(plot: uPlot, judged: readonly JudgedCurve[]): void {
+  within(plot, (context) => {
+    for (const { curve, isHeld, worstS, value } of judged) {
+      if (isHeld || value === null) continue;
+      const [x, y] = [plot.valToPos(worstS, "x", true), plot.valToPos(value, "y", true)];
+      context.beginPath();
+      context.arc(x, y, DOT_PX * devicePixelRatio, 0, 2 * Math.PI);
+      context.fillStyle = palette.peek().surface;
+      context.strokeStyle = palette.peek()[curve.ink.colour];
+      context.lineWidth = 2 * devicePixelRatio;
+      context.setLineDash([]);
+      context.fill();
+      context.stroke();
+    }
+  });
+}

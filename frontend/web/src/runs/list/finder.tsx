@@ -1,0 +1,91 @@
+import { text } from "../../core/text/en";
+import { COLUMNS, NAME_SORT } from "./columns";
+import { ask, FILTERS, type Filter, filters, found, isTrash, search, sort } from "./list";
+import { nameValue } from "./words";
+
+const words = text.runs;
+
+/** A choice among what the runs have; nothing where there is nothing to choose. */
+function FilterChoice({ filter }: { filter: Filter }) {
+  const counts = Object.entries(found.value?.facets[filter] ?? {});
+  const value = filters.value[filter];
+  if (counts.length < (filter === "tag" ? 1 : 2) && value === "") return null;
+  const isAlone = search.value === "" && FILTERS.every((other) => filters.value[other] === "");
+  const options = counts.some(([name]) => name === value)
+    ? counts
+    : [...counts, [value, 0] as const];
+  return (
+    <label>
+      <span class="visually-hidden">{words.filters[filter].name}</span>
+      <select
+        value={value}
+        class={value === "" ? "" : "is-chosen"}
+        onChange={(event) => ask({ filters: { [filter]: event.currentTarget.value } })}
+      >
+        <option value="">{words.filters[filter].any}</option>
+        {options
+          .filter(([name]) => name !== "")
+          .map(([name, count]) => (
+            <option key={name} value={name}>
+              {isAlone ? words.counted(nameValue(filter, name), count) : nameValue(filter, name)}
+            </option>
+          ))}
+      </select>
+    </label>
+  );
+}
+
+/** The columns' order for windows in which the table has no head. */
+function SortChoice() {
+  const columns = [{ name: words.columns.name, sort: NAME_SORT }, ...COLUMNS].filter(
+    ({ sort: order }) => order !== undefined,
+  );
+  return (
+    <label class="runs-sort">
+      <span class="visually-hidden">{words.sort}</span>
+      <select value={sort.value} onChange={(event) => ask({ sort: event.currentTarget.value })}>
+        {columns.map((column) => (
+          <>
+            <option key={column.sort} value={column.sort}>
+              {words.sortUp(column.name)}
+            </option>
+            <option key={`-${column.sort}`} value={`-${column.sort}`}>
+              {words.sortDown(column.name)}
+            </option>
+          </>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+export function Finder() {
+  return (
+    <search class="runs-finder">
+      <label class="runs-search">
+        <span class="visually-hidden">{words.search}</span>
+        <input
+          type="search"
+          maxLength={200}
+          placeholder={words.searchHint}
+          title={words.searchDoes}
+          value={search.value}
+          onInput={(event) => ask({ search: event.currentTarget.value })}
+        />
+      </label>
+      {FILTERS.map((filter) => (
+        <FilterChoice key={filter} filter={filter} />
+      ))}
+      <SortChoice />
+      <button
+        type="button"
+        class="button"
+        aria-pressed={isTrash.value}
+        title={words.trashHint}
+        onClick={() => ask({ isTrash: !isTrash.peek() })}
+      >
+        {words.trash}
+      </button>
+    </search>
+  );
+}

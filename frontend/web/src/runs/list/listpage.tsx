@@ -1,0 +1,138 @@
+import { useEffect } from "preact/hooks";
+import { text } from "../../core/text/en";
+import { Finder } from "./finder";
+import {
+  chosen,
+  followList,
+  found,
+  isNarrowed,
+  isTrash,
+  PAGE_SIZE,
+  pageNumber,
+  refresh,
+  showAll,
+} from "./list";
+import { goTo } from "./place";
+import { PlaceLink } from "./placelink";
+import { RunTable } from "./table";
+
+const words = text.runs;
+const RECORDING_MS = 3000;
+
+function Overlayer() {
+  const count = chosen.value.length;
+  return (
+    <div class="runs-overlayer">
+      {count > 0 && (
+        <button
+          type="button"
+          class="quiet"
+          onClick={() => {
+            chosen.value = [];
+          }}
+        >
+          {words.clear}
+        </button>
+      )}
+      <button
+        type="button"
+        class="button is-primary"
+        disabled={count < 2}
+        title={words.overlayHint}
+        onClick={() => goTo({ kind: "overlay", runs: chosen.peek() })}
+      >
+        {words.overlay(count)}
+      </button>
+    </div>
+  );
+}
+
+function Empty() {
+  if (isTrash.value && !isNarrowed.value) return <p class="runs-empty">{words.emptyTrash}</p>;
+  if (isNarrowed.value) {
+    return (
+      <div class="runs-empty">
+        <p>{words.nothing}</p>
+        <button type="button" class="button" onClick={showAll}>
+          {words.showAll}
+        </button>
+      </div>
+    );
+  }
+  return (
+    <div class="runs-empty">
+      <svg viewBox="0 0 200 44" aria-hidden="true">
+        <path d="M0 30h70c6 0 6-26 12-26s5 30 12 30 5-6 12-4h94" />
+      </svg>
+      <h3>{words.emptyTitle}</h3>
+      <p>{words.emptyText}</p>
+      <PlaceLink to={{ kind: "lab" }} class="button is-primary">
+        {words.back}
+      </PlaceLink>
+    </div>
+  );
+}
+
+function Pager({ total }: { total: number }) {
+  const pages = Math.ceil(total / PAGE_SIZE);
+  if (pages < 2) return null;
+  const now = pageNumber.value;
+  const go = (page: number) => {
+    pageNumber.value = page;
+  };
+  const first = (now - 1) * PAGE_SIZE + 1;
+  return (
+    <nav class="pager" aria-label={words.pages}>
+      <button
+        type="button"
+        class="button is-icon"
+        aria-label={words.pageBefore}
+        title={words.pageBefore}
+        disabled={now <= 1}
+        onClick={() => go(now - 1)}
+      >
+        ‹
+      </button>
+      <span aria-live="polite">
+        {words.shown(first, Math.min(first + PAGE_SIZE - 1, total), total)}
+      </span>
+      <button
+        type="button"
+        class="button is-icon"
+        aria-label={words.pageAfter}
+        title={words.pageAfter}
+        disabled={now >= pages}
+        onClick={() => go(now + 1)}
+      >
+        ›
+      </button>
+    </nav>
+  );
+}
+
+/** Every recorded run as a table, newest first. */
+export function ListPage() {
+  useEffect(followList, []);
+  const list = found.value;
+  const isGrowing = list?.runs.some((run) => run.state === "recording") ?? false;
+  useEffect(() => {
+    if (!isGrowing) return;
+    const timer = setInterval(() => void refresh(), RECORDING_MS);
+    return () => clearInterval(timer);
+  }, [isGrowing]);
+  return (
+    <>
+      <div class="runs-head">
+        <h2>
+          {words.title} {list && <small class="unit">{words.count(list.total)}</small>}
+        </h2>
+        <Finder />
+        {list && <Pager total={list.total} />}
+        <Overlayer />
+      </div>
+      {list === null && <p class="runs-empty">{words.loading}</p>}
+      {list?.runs.length === 0 && <Empty />}
+      {list && list.runs.length > 0 && <RunTable runs={list.runs} />}
+    </>
+  );
+}

@@ -1,0 +1,32 @@
+/** In which window of a run its numbers were measured, in words. */
+import type { MeasuredWindow, RunSummary } from "../../core/api/types";
+import { measuredText as words } from "../../core/text/measured";
+
+export type Measured = Pick<
+  MeasuredWindow,
+  "label" | "start_s" | "end_s" | "is_whole" | "lanes" | "load_ended"
+>;
+
+/** In the time of the replay, which begins with the first sample. */
+export function shiftToRecord<T extends Measured>(
+  window: T,
+  { first_tick: first, period_s: period }: Pick<RunSummary, "first_tick" | "period_s">,
+): T {
+  const zero = first * period;
+  return { ...window, start_s: window.start_s - zero, end_s: window.end_s - zero };
+}
+
+/** isNamed: with who controlled, where others did in other windows of the run. */
+export function describeMeasured(window: Measured, isNamed = false): string {
+  const { label, start_s: start, end_s: end, is_whole: isWhole, lanes } = window;
+  const what = isWhole
+    ? words.whole
+    : words.during(label || words.start, start.toFixed(2), end.toFixed(2));
+  return isNamed ? words.controlled(lanes, what) : what;
+}
+
+/** Why there is no settled error, or what it is. */
+export function explainSettled({ load_ended: hasEnded, start_s: start, end_s: end }: Measured) {
+  if (hasEnded) return words.loadEnded;
+  return end - start < 1 ? words.tooShort : words.settledHint;
+}

@@ -1,0 +1,176 @@
+import { useEffect, useMemo, useState } from "preact/hooks";
+import uPlot from "uplot";
+import { readDifference } from "../../core/api/runs";
+import type { RunDifference } from "../../core/api/types";
+import { Legend, useHidden } from "../../core/plots/legend";
+import { type StaticContent, spanWithin, wholeOf } from "../../core/plots/staticchart";
+import { useStaticChart } from "../../core/plots/usestaticchart";
+import { text } from "../../core/text/en";
+import { DifferenceTable } from "./differencetable";
+import { drawBands, drawOutside, drawWorst } from "./drawnverdict";
+import { drawEdges } from "./edges";
+import {
+  CHANNELS,
+  nameCurve,
+  type Overlaid,
+  type OverlayChannel,
+  readOverlaid,
+  TITLES,
+} from "./overlaid";
+import { OverlayTable } from "./overlaytable";
+import { PlaceLink } from "./placelink";
+import { attempt } from "./problem";
+import { type Judged, listBands, listJudged } from "./verdict";
+import { VerdictPanel } from "./verdictpanel";
+
+const words = text.overlay;
+const MIN_SPANS: Record<OverlayChannel, number> = {
+  position_error_rad: 0.004,
+  stiffness_error_nm_per_rad: 0.001,
+};
+const TIME_AXIS_PX = 26;
+
+interface PlotProps {
+  channel: OverlayChannel;
+  curves: readonly Overlaid[];
+  judged: readonly Judged[];
+  view: ReturnType<typeof spanWithin>;
+  hidden: ReadonlySet<string>;
+}
+
+function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
+  const { channel, curves, judged, view } = props;
+  const bands = listBands(curves, judged, channel);
+  const listShown = (plot: uPlot) =>
+    listJudged(curves, judged).filter(
+      (one) => one.channel === channel && plot.series[curves.indexOf(one.curve) + 1]?.show === true,
+    );
+  const tables = curves.map(
+    (curve): uPlot.AlignedData => [Array.from(curve.time), curve.values[channel]],
+  );
+  const [time, ...values] = uPlot.join(tables);
+  return {
+    time,
+    curves: curves.map(({ key, ink }, index) => ({ key, ...ink, values: values[index] ?? [] })),
+    minSpan: MIN_SPANS[channel],
+    padding: [8, 14, 0, 0],
+    timeAxis: { size: TIME_AXIS_PX, tick: words.timeTick },
+    group: "overlay",
+    ...view,
+    drawBelow: (plot) => {
+      drawBands(plot, bands);
+      drawOutside(plot, listShown(plot));
+      drawEdges(plot, curves);
+    },
+    drawAbove: (plot) => drawWorst(plot, listShown(plot)),
+  };
+}
+
+function OverlayPlot({ channel, curves, judged, view, hidden }: PlotProps) {
+  const { title, unit } = TITLES[channel];
+  const content = useMemo(
+    () => describeChart({ channel, curves, judged, view }),
+    [channel, curves, judged, view],
+  );
+  const host = useStaticChart(content, hidden);
+  return (
+    <section class="overlay-plot" aria-label={title}>
+      <h3>
+        {title} <span class="unit">{unit}</span>
+      </h3>
+      <div class="overlay-canvas" ref={host} title={words.hint} />
+    </section>
+  );
+}
+
+/** Of what the numbers of a run are that had no load. */
+const beginningOf = ({ window }: Overlaid): string =>
+  window?.label ? words.fromChange(window.label) : words.fromStart;
+
+const isMeasuredInPart = ({ startS, changedS }: Overlaid): boolean =>
+  startS !== 0 || changedS !== null;
+
+const measuredOf = ({ startS, changedS, time }: Overlaid): string =>
+  words.measured(startS.toFixed(2), (changedS ?? time.at(-1) ?? 0).toFixed(2));
+
+function Remark({ curve }: { curve: Overlaid }) {
+  return (
+    <>
+      {!curve.hasOnset && <small class="unit"> {beginningOf(curve)}</small>}
+      {isMeasuredInPart(curve) && <small class="unit"> {measuredOf(curve)}</small>}
+    </>
+  );
+}
+
+function OverlayCurves({ curves, judged }: Pick<PlotProps, "curves" | "judged">) {
+  const [hidden, toggle] = useHidden();
+  const view = useMemo(() => spanWithin(wholeOf(curves.map(({ time }) => time))), [curves]);
+  return (
+    <>
+      <Legend
+        class="overlay-legend"
+        entries={curves.map((curve) => ({
+          key: curve.key,
+          ...curve.ink,
+          label: nameCurve(curve),
+          remark: <Remark curve={curve} />,
+        }))}
+        hidden={hidden}
+        onToggle={toggle}
+      />
+      {CHANNELS.map((channel) => (
+        <OverlayPlot key={channel} {...{ channel, curves, judged, view, hidden }} />
+      ))}
+    </>
+  );
+}
+
+/** Runs over one another, see `chooseAlignment` for where each begins. */
+export function OverlayPage({ runs }: { runs: readonly string[] }) {
+  const [curves, setCurves] = useState<readonly Overlaid[] | null>(null);
+  const [difference, setDifference] = useState<RunDifference | null>(null);
+  const [judged, setJudged] = useState<readonly Judged[]>([]);
+  const key = runs.join();
+  useEffect(() => {
+    let isGone = false;
+    const [run, ...others] = key.split(",") as [string, ...string[]];
+    void attempt(() => readOverlaid([run, ...others])).then((read) => {
+      if (!isGone) setCurves(read ?? []);
+    });
+    setDifference(null);
+    setJudged([]);
+    if (others.length > 0) {
+      void attempt(() => readDifference(run, others)).then((answer) => {
+        if (!isGone) setDifference(answer);
+      });
+    }
+    return () => {
+      isGone = true;
+    };
+  }, [key]);
+  return (
+    <>
+      <div class="runs-head">
+        <PlaceLink to={{ kind: "list" }} class="button">
+          ← {text.run.toList}
+        </PlaceLink>
+        <h2>
+          {words.title}{" "}
+          <small class="unit">{words.aligned[curves?.[0]?.alignment ?? "window"]}</small>
+        </h2>
+      </div>
+      {curves === null && <p class="runs-empty">{text.runs.loading}</p>}
+      {curves?.length === 0 && <p class="runs-empty">{words.nothing}</p>}
+      {curves && curves.length > 0 && (
+        <div class="surface overlay">
+          <OverlayCurves curves={curves} judged={judged} />
+          {runs.length > 1 && (
+            <VerdictPanel key={key} curves={curves} judged={judged} onJudged={setJudged} />
+          )}
+          <OverlayTable curves={curves} difference={difference} />
+          {difference && <DifferenceTable difference={difference} />}
+        </div>
+      )}
+    </>
+  );
+}

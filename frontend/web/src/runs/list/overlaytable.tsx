@@ -1,0 +1,134 @@
+import type { Metrics, RunDifference } from "../../core/api/types";
+import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
+import { text } from "../../core/text/en";
+import { formatError, formatNumber, toDegrees } from "../../core/units";
+import { bestOf } from "../../core/widgets/best";
+import { areOfOneLength, whyUnlike } from "./alike";
+import { describeMeasured } from "./measured";
+import { nameCurve, type Overlaid } from "./overlaid";
+
+const words = text.overlay;
+
+interface Column {
+  name: string;
+  unit: string;
+  read: (metrics: Metrics) => number | null;
+  /** What the smallest value needs to be the best, beside runs that are alike; null: it is not. */
+  isBest: "always" | "in one length" | null;
+}
+
+export const COLUMNS: readonly Column[] = [
+  {
+    name: words.rmsError,
+    unit: words.degrees,
+    read: (metrics) => toDegrees(metrics.rms_position_error_rad),
+    isBest: "in one length",
+  },
+  {
+    name: words.peakError,
+    unit: words.degrees,
+    read: (metrics) => toDegrees(metrics.peak_position_error_rad),
+    isBest: "always",
+  },
+  {
+    name: words.settledError,
+    unit: words.degrees,
+    read: ({ settled_position_error_rad: rad }) => (rad === null ? null : toDegrees(rad)),
+    isBest: "always",
+  },
+  {
+    name: words.recovery,
+    unit: words.secondsUnit,
+    read: (metrics) => metrics.recovery_time_s,
+    isBest: "always",
+  },
+  {
+    name: words.rmsStiffness,
+    unit: words.stiffnessUnit,
+    read: (metrics) => metrics.rms_stiffness_error_nm_per_rad,
+    isBest: "in one length",
+  },
+  {
+    name: words.peakTorque,
+    unit: words.torqueUnit,
+    read: (metrics) => metrics.peak_torque1_nm,
+    isBest: null,
+  },
+];
+
+/**
+ * Whose value is clearly the smallest is marked, where like is compared; a run that never came back
+ * is no winner.
+ */
+export function findBest(
+  curves: readonly Overlaid[],
+  { read, isBest }: Column,
+  isAlike: boolean,
+): number {
+  const mayBe = isAlike && (isBest === "always" || (isBest !== null && areOfOneLength(curves)));
+  if (!mayBe) return -1;
+  return bestOf(
+    curves.map(({ metrics }) => (metrics && read(metrics)) ?? Number.POSITIVE_INFINITY),
+  );
+}
+
+/** Named by who controlled in it, where the curve is of several. */
+function windowOf({ window, lane, measuredLane }: Overlaid): string {
+  return window === null
+    ? formatNumber(null)
+    : describeMeasured({ ...window, lanes: [measuredLane] }, lane !== measuredLane);
+}
+
+interface OverlayTableProps {
+  curves: readonly Overlaid[];
+  /** Of the settings of the runs; null where it is not known. */
+  difference: RunDifference | null;
+}
+
+/** The curves of an overlay in numbers. */
+export function OverlayTable({ curves, difference }: OverlayTableProps) {
+  const why = whyUnlike(curves, difference);
+  const columns: MetricsColumn[] = COLUMNS.map((column) => ({
+    key: column.name,
+    title: (
+      <>
+        {column.name} <span class="unit">{column.unit}</span>
+      </>
+    ),
+    cell: (row) => {
+      const metrics = curves[row]?.metrics;
+      return formatError(metrics && column.read(metrics));
+    },
+    best: findBest(curves, column, why === ""),
+  }));
+  const window: MetricsColumn = {
+    key: words.window,
+    title: words.window,
+    hint: words.windowHint[curves[0]?.alignment ?? "window"],
+    class: "overlay-window",
+    cell: (row) => windowOf(curves[row] as Overlaid),
+  };
+  return (
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+    <section class="overlay-table" tabIndex={0} aria-label={words.table}>
+      <MetricsTable
+        caption={
+          <span>
+            {words.table}
+            {why !== "" && <small class="unit"> {words.noBest(why)}</small>}
+            {why === "" && !areOfOneLength(curves) && (
+              <small class="unit"> {words.noBestRms}</small>
+            )}
+          </span>
+        }
+        corner={words.run}
+        rows={curves.map((curve) => ({
+          key: curve.key,
+          look: curve.ink,
+          name: nameCurve(curve),
+        }))}
+        columns={[window, ...columns]}
+      />
+    </section>
+  );
+}

@@ -1,0 +1,177 @@
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { readRun, replayAddress } from "../../core/api/runs";
+import type { RunDetails, RunSummary } from "../../core/api/types";
+import { text } from "../../core/text/en";
+import { RunActions } from "./actions";
+import { patchRun } from "./list";
+import { OriginLink } from "./originlink";
+import { keepMoment } from "./place";
+import { PlaceLink } from "./placelink";
+import { attempt } from "./problem";
+import { ReplayFrame } from "./replayframe";
+import { Tags } from "./tags";
+import { formatMoment, tellLength } from "./words";
+
+const words = text.run;
+
+interface WrittenProps {
+  label: string;
+  hint?: string;
+  class: string;
+  value: string;
+  longest: number;
+  /** Whether it was kept; what was not stands there still. */
+  onWrite: (value: string) => Promise<boolean>;
+}
+
+/** A line of text, wrapped where it is long, that is kept when it is left, or with Enter; Escape takes the draft back. */
+function Written({ label, hint, value, longest, onWrite, ...rest }: WrittenProps) {
+  const [draft, setDraft] = useState<string | null>(null);
+  return (
+    <textarea
+      rows={1}
+      class={rest.class}
+      aria-label={label}
+      placeholder={hint}
+      maxLength={longest}
+      value={draft ?? value}
+      onInput={(event) => setDraft(event.currentTarget.value.replace(/\s*\n\s*/g, " "))}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") {
+          event.preventDefault();
+          event.currentTarget.blur();
+        }
+        if (event.key === "Escape") setDraft(null);
+      }}
+      onBlur={() => {
+        if (draft === null || draft === value) setDraft(null);
+        else void onWrite(draft).then((isKept) => isKept && setDraft(null));
+      }}
+    />
+  );
+}
+
+interface AboutProps {
+  run: RunDetails;
+  onChanged: (run: RunSummary) => void;
+}
+
+function About({ run, onChanged }: AboutProps) {
+  const readAgain = () => void readRun(run.id).then(onChanged, () => {}); // why, stands there already
+  const write = async (patch: { name: string } | { notes: string }) => {
+    const answer = await patchRun(run, patch);
+    if (answer) onChanged(answer);
+    else readAgain();
+    return answer !== null;
+  };
+  return (
+    <div class="run-about">
+      <h2 class="visually-hidden">{run.title}</h2>
+      <div class="run-line">
+        <Written
+          label={words.name}
+          hint={run.settings?.name || run.id}
+          class="run-name"
+          longest={200}
+          value={run.name}
+          onWrite={(name) => write({ name })}
+        />
+        <span class="run-when">
+          {formatMoment(run.created)} · <span title={words.lengthHint}>{tellLength(run)}</span>
+        </span>
+        {run.name !== "" && run.settings && <span class="run-when">{run.settings.name}</span>}
+        {run.branch_of && <OriginLink origin={run.branch_of} />}
+        {run.fault && (
+          <strong class="run-state is-fault" title={run.fault.message}>
+            ▲ {text.runs.fault(run.fault.label)}
+          </strong>
+        )}
+        <Tags run={run} onChanged={onChanged} onRefused={readAgain} />
+      </div>
+      <Written
+        label={words.notes}
+        hint={words.notesHint}
+        class="run-note"
+        longest={10_000}
+        value={run.notes}
+        onWrite={(notes) => write({ notes })}
+      />
+    </div>
+  );
+}
+
+/** In place of a run that cannot be read; why, says the line above. */
+function Missing() {
+  return (
+    <div class="runs-empty">
+      <h2>{words.missing}</h2>
+      <p>{words.missingText}</p>
+      <PlaceLink to={{ kind: "list" }} class="button is-primary">
+        {words.toList}
+      </PlaceLink>
+    </div>
+  );
+}
+
+const SETTLED = 2;
+
+/** The moment of the replay; the address follows it once it rests. */
+function useMoment(run: string, startS: number) {
+  const [moment, setMoment] = useState(startS);
+  const resting = useRef({ timeS: startS, count: 0 });
+  const follow = useCallback(
+    (timeS: number) => {
+      const { current } = resting;
+      current.count = current.timeS === timeS ? current.count + 1 : 0;
+      current.timeS = timeS;
+      setMoment(timeS);
+      if (current.count === SETTLED) keepMoment(run, timeS);
+    },
+    [run],
+  );
+  return { moment, follow };
+}
+
+/** One run: replayed, named, branched, exported. */
+export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
+  const [run, setRun] = useState<RunDetails | null>(null);
+  const [isMissing, setMissing] = useState(false);
+  const { moment, follow } = useMoment(id, timeS);
+  useEffect(() => {
+    let isGone = false;
+    void attempt(() => readRun(id)).then((answer) => {
+      if (isGone) return;
+      setRun(answer);
+      setMissing(answer === null);
+    });
+    return () => {
+      isGone = true;
+    };
+  }, [id]);
+  if (isMissing) return <Missing />;
+  if (run === null) {
+    return (
+      <div class="run-head">
+        <PlaceLink to={{ kind: "list" }} class="button">
+          ← {words.toList}
+        </PlaceLink>
+      </div>
+    );
+  }
+  return (
+    <>
+      <div class="run-head">
+        <PlaceLink to={{ kind: "list" }} class="button">
+          ← {words.toList}
+        </PlaceLink>
+        <About run={run} onChanged={(changed) => setRun({ ...run, ...changed })} />
+        <RunActions run={run} moment={moment} />
+      </div>
+      {run.ticks > 0 ? (
+        <ReplayFrame source={replayAddress(id)} name={run.title} startS={timeS} onMoment={follow} />
+      ) : (
+        <p class="runs-empty">{words.noSamples}</p>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,57 @@
+import { useEffect } from "preact/hooks";
+import { text } from "../../core/text/en";
+import { deleted, takeBack } from "./list";
+import { ListPage } from "./listpage";
+import { OverlayPage } from "./overlaypage";
+import type { RunsPlace } from "./place";
+import { runsProblem } from "./problem";
+import { RunPage } from "./runpage";
+
+function Inside({ at }: { at: RunsPlace }) {
+  if (at.kind === "list") return <ListPage />;
+  if (at.kind === "overlay") return <OverlayPage runs={at.runs} />;
+  return <RunPage key={at.run} run={at.run} timeS={at.timeS} />;
+}
+
+/** The last deletion, as long as nobody dismisses it. */
+function Undo() {
+  const run = deleted.value;
+  return (
+    <div class="undo" role="status" hidden={run === null}>
+      {run && (
+        <>
+          <span>{text.runs.deleted(run.title)}</span>
+          <button type="button" class="button" onClick={() => void takeBack(run.id)}>
+            {text.runs.undo}
+          </button>
+          <button
+            type="button"
+            class="quiet"
+            aria-label={text.runs.dismiss}
+            onClick={() => {
+              deleted.value = null;
+            }}
+          >
+            ✕
+          </button>
+        </>
+      )}
+    </div>
+  );
+}
+
+/** The recorded runs, in the place of the lab. */
+export function Runs({ at }: { at: RunsPlace }) {
+  useEffect(() => {
+    runsProblem.value = "";
+  }, [at.kind]);
+  return (
+    <main class={`runs is-${at.kind}`} aria-label={text.runs.title}>
+      <p class="problem" role="alert" hidden={runsProblem.value === ""}>
+        {runsProblem.value}
+      </p>
+      <Inside at={at} />
+      <Undo />
+    </main>
+  );
+}

@@ -1,0 +1,59 @@
+import type { RunSummary } from "../../core/api/types";
+import { text } from "../../core/text/en";
+import { SortHead } from "../../core/widgets/sorthead";
+import { COLUMNS, type Column, NAME_SORT } from "./columns";
+import { ask, sort } from "./list";
+import { RunRow } from "./row";
+
+const words = text.runs;
+
+interface HeadProps extends Pick<Column, "name" | "hint" | "sort" | "isDownFirst" | "isNumber"> {
+  class: string;
+}
+
+function Head({ name, hint, sort: column, isDownFirst, isNumber, ...rest }: HeadProps) {
+  const look = `${rest.class} ${isNumber ? "is-number" : ""}`;
+  if (column === undefined) {
+    return (
+      <th scope="col" class={`${look} is-plain`} title={hint}>
+        {name}
+      </th>
+    );
+  }
+  return (
+    <SortHead
+      column={column}
+      sort={sort.value}
+      hint={hint}
+      isDownFirst={isDownFirst}
+      onSort={(next) => ask({ sort: next })}
+      class={look}
+    >
+      {name}
+    </SortHead>
+  );
+}
+
+/** A page of runs as a table; narrow, each of them is a card. */
+export function RunTable({ runs }: { runs: readonly RunSummary[] }) {
+  return (
+    <table class="surface run-table" aria-label={words.list}>
+      <thead>
+        <tr>
+          <td class="run-pick" />
+          <Head name={words.columns.name} sort={NAME_SORT} class="run-what" />
+          <td class="run-spark" />
+          {COLUMNS.map(({ key, ...column }) => (
+            <Head key={key} {...column} class={`run-${key}`} />
+          ))}
+          <td class="run-act" />
+        </tr>
+      </thead>
+      <tbody>
+        {runs.map((run) => (
+          <RunRow key={run.id} run={run} />
+        ))}
+      </tbody>
+    </table>
+  );
+}

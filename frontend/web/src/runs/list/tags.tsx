@@ -1,0 +1,75 @@
+import { useId, useState } from "preact/hooks";
+import type { RunSummary } from "../../core/api/types";
+import { text } from "../../core/text/en";
+import { patchRun } from "./list";
+
+interface TagsProps {
+  run: RunSummary;
+  onChanged?: (run: RunSummary) => void;
+  onRefused?: () => void;
+}
+
+/** The words by which a run is found, with a place for one more. */
+export function Tags({ run, onChanged, onRefused }: TagsProps) {
+  const id = useId();
+  const [draft, setDraft] = useState<string | null>(null);
+  const put = async (tags: string[]) => {
+    const answer = await patchRun(run, { tags });
+    if (answer) onChanged?.(answer);
+    else onRefused?.();
+  };
+  const add = (event: Event) => {
+    event.preventDefault();
+    const tag = (draft ?? "").trim();
+    setDraft(null);
+    if (tag !== "" && !run.tags.includes(tag)) void put([...run.tags, tag]);
+  };
+  return (
+    <ul class="tags" aria-label={text.runs.tagsOf(run.title)}>
+      {run.tags.map((tag) => (
+        <li key={tag} class="tag">
+          {tag}
+          <button
+            type="button"
+            aria-label={text.runs.removeTag(tag)}
+            title={text.runs.removeTag(tag)}
+            onClick={() => void put(run.tags.filter((other) => other !== tag))}
+          >
+            ✕
+          </button>
+        </li>
+      ))}
+      <li>
+        {draft === null ? (
+          <button type="button" class="quiet" onClick={() => setDraft("")}>
+            {text.runs.addTag}
+          </button>
+        ) : (
+          <form class="tag-form" onSubmit={add}>
+            <label class="visually-hidden" for={id}>
+              {text.runs.newTag}
+            </label>
+            <input
+              id={id}
+              type="text"
+              maxLength={50}
+              ref={(element) => element?.focus()}
+              value={draft}
+              placeholder={text.runs.newTag}
+              onInput={(event) => setDraft(event.currentTarget.value)}
+              onKeyDown={(event) => {
+                if (event.key === "Escape") setDraft(null);
+              }}
+              onBlur={(event) => {
+                if (event.currentTarget.value.trim() === "") setDraft(null);
+              }}
+            />
+            <button type="submit" class="quiet">
+              {text.runs.add}
+            </button>
+          </form>
+        )}
+      </li>
+    </ul>
+  );
+}

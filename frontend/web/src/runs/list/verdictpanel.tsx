@@ -1,0 +1,129 @@
+import { useId, useState } from "preact/hooks";
+import { text } from "../../core/text/en";
+import { NumberBox } from "../../lab/panels/numberbox";
+import { CHANNELS, type Overlaid, type OverlayChannel, TITLES } from "./overlaid";
+import { attempt } from "./problem";
+import { type Bounds, type Judged, judgeRuns, type Tolerances } from "./verdict";
+import { VerdictTable } from "./verdicttable";
+
+const words = text.verdict;
+type Typed = Record<OverlayChannel, Record<keyof Bounds, string>>;
+const AT_FIRST: Typed = {
+  position_error_rad: { absolute: "0.5", relativePercent: "0", timeS: "0.01" },
+  stiffness_error_nm_per_rad: { absolute: "0.5", relativePercent: "0", timeS: "0.01" },
+};
+
+const readBounds = (typed: Typed[OverlayChannel]): Bounds => ({
+  absolute: Number(typed.absolute),
+  relativePercent: Number(typed.relativePercent),
+  timeS: Number(typed.timeS),
+});
+
+interface FieldsProps {
+  channel: OverlayChannel;
+  typed: Typed[OverlayChannel];
+  onType: (field: keyof Bounds, value: string) => void;
+}
+
+function Fields({ channel, typed, onType }: FieldsProps) {
+  const { title, unit } = TITLES[channel];
+  const units: [keyof Bounds, string, string][] = [
+    ["absolute", words.absolute, unit],
+    ["relativePercent", words.relative, words.percent],
+    ["timeS", words.time, words.secondsUnit],
+  ];
+  return (
+    <fieldset class="verdict-fields">
+      <legend>{title}</legend>
+      {units.map(([field, label, fieldUnit]) => (
+        <NumberBox
+          key={field}
+          label={label}
+          unit={fieldUnit}
+          value={typed[field]}
+          onInput={(value) => onType(field, value)}
+        />
+      ))}
+    </fieldset>
+  );
+}
+
+interface VerdictPanelProps {
+  curves: readonly Overlaid[];
+  judged: readonly Judged[];
+  onJudged: (judged: readonly Judged[]) => void;
+}
+
+/** By how much the other runs may differ from one of them, and whether they do. */
+export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
+  const runs = [...new Map(curves.map(({ run, runName }) => [run, runName]))];
+  const [reference, setReference] = useState(runs[0]?.[0] ?? "");
+  const [typed, setTyped] = useState(AT_FIRST);
+  const [isJudging, setIsJudging] = useState(false);
+  const id = useId();
+  const judge = async () => {
+    const tolerances = Object.fromEntries(
+      CHANNELS.map((channel) => [channel, readBounds(typed[channel])]),
+    ) as Tolerances;
+    setIsJudging(true);
+    const ids = runs.map(([run]) => run);
+    const align = curves[0]?.alignment ?? "window";
+    onJudged((await attempt(() => judgeRuns(ids, reference, tolerances, align))) ?? []);
+    setIsJudging(false);
+  };
+  const type = (channel: OverlayChannel, field: keyof Bounds, value: string) => {
+    onJudged([]);
+    setTyped({ ...typed, [channel]: { ...typed[channel], [field]: value } });
+  };
+  return (
+    <section class="verdict" aria-label={words.title}>
+      <h3>
+        {words.title} <small class="unit">{words.hint}</small>
+      </h3>
+      <form
+        class="verdict-form"
+        onSubmit={(event) => {
+          event.preventDefault();
+          void judge();
+        }}
+      >
+        <label class="verdict-reference" for={id}>
+          <span>{words.reference}</span>
+          <select
+            id={id}
+            value={reference}
+            onChange={(event) => {
+              onJudged([]);
+              setReference(event.currentTarget.value);
+            }}
+          >
+            {runs.map(([run, name]) => (
+              <option key={run} value={run}>
+                {name}
+              </option>
+            ))}
+          </select>
+        </label>
+        {CHANNELS.map((channel) => (
+          <Fields
+            key={channel}
+            channel={channel}
+            typed={typed[channel]}
+            onType={(field, value) => type(channel, field, value)}
+          />
+        ))}
+        <div class="verdict-buttons">
+          <button type="submit" class="button" disabled={isJudging}>
+            {isJudging ? words.judging : words.judge}
+          </button>
+          {judged.length > 0 && (
+            <button type="button" class="button" onClick={() => onJudged([])}>
+              {words.clear}
+            </button>
+          )}
+        </div>
+      </form>
+      {judged.length > 0 && <VerdictTable curves={curves} judged={judged} />}
+    </section>
+  );
+}

@@ -1,0 +1,82 @@
+import { Swatch } from "../../core/plots/legend";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { nameCurve, type Overlaid, TITLES } from "./overlaid";
+import { type Judged, type JudgedCurve, listJudged } from "./verdict";
+
+const words = text.verdict;
+
+/** How much of a run was compared, and whether there is more. */
+function tellCompared({ run, verdict }: Judged, curves: readonly Overlaid[]): string {
+  const { ticks, own_ticks: own, other_ticks: other, compared_s: seconds } = verdict;
+  const name = curves.find((one) => one.run === run)?.runName ?? run;
+  const told = words.compared(name, formatNumber(seconds, 4, 3));
+  return ticks === own && ticks === other ? `${told}.` : `${told}; ${words.notAll}.`;
+}
+
+function Row({ one }: { one: JudgedCurve }) {
+  const { title, unit } = TITLES[one.channel];
+  const number = (value: number | null) => formatNumber(value, 4, 6);
+  return (
+    <tr>
+      <th scope="row">
+        <span class="metrics-name">
+          <Swatch look={one.curve.ink} />
+          {nameCurve(one.curve)}
+        </span>
+      </th>
+      <td class="verdict-channel">
+        {title} <span class="unit">{unit}</span>
+      </td>
+      <td class={one.isHeld ? "verdict-held" : "verdict-left"}>
+        <span aria-hidden="true">{one.isHeld ? "✓" : "✗"}</span>{" "}
+        {one.isHeld ? words.held : words.left}
+      </td>
+      <td>{formatNumber(one.worstS, 4, 3)} s</td>
+      <td>{number(one.value)}</td>
+      <td>{words.range(number(one.low), number(one.high))}</td>
+      <td>{one.isHeld ? "–" : `${formatNumber(one.outsideS, 4, 3)} s`}</td>
+    </tr>
+  );
+}
+
+interface VerdictTableProps {
+  curves: readonly Overlaid[];
+  judged: readonly Judged[];
+}
+
+/** Every channel of every judged curve: held or not, and its worst moment. */
+export function VerdictTable({ curves, judged }: VerdictTableProps) {
+  const rows = listJudged(curves, judged);
+  const failed = rows.filter(({ isHeld }) => !isHeld).length;
+  const told = failed === 0 ? words.allHeld(rows.length) : words.notHeld(failed, rows.length);
+  return (
+    <>
+      <p class="verdict-told" role="status">
+        <strong class={failed === 0 ? "verdict-held" : "verdict-left"}>{told}</strong>{" "}
+        {judged.map((one) => tellCompared(one, curves)).join(" ")} {words.marks}
+      </p>
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
+      <section class="overlay-table" tabIndex={0} aria-label={words.table}>
+        <table>
+          <thead>
+            <tr>
+              <th scope="col">{words.curve}</th>
+              <th scope="col">{words.channel}</th>
+              <th scope="col">{words.isHeld}</th>
+              <th scope="col">{words.worst}</th>
+              <th scope="col">{words.value}</th>
+              <th scope="col">{words.band}</th>
+              <th scope="col">{words.outside}</th>
+            </tr>
+          </thead>
+          <tbody>
+            {rows.map((one) => (
+              <Row key={`${one.curve.key}.${one.channel}`} one={one} />
+            ))}
+          </tbody>
+        </table>
+      </section>
+    </>
+  );
+}

@@ -1,0 +1,66 @@
+/** A run in words. */
+import type { RunDetails } from "../../core/api/types";
+import { describeLaw } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import type { Filter } from "./list";
+
+const DAY = new Intl.DateTimeFormat("en-GB", {
+  day: "numeric",
+  month: "short",
+  year: "numeric",
+  hour: "2-digit",
+  minute: "2-digit",
+});
+
+/** The reader's own day and time of a moment in UTC. */
+export function formatMoment(iso: string): string {
+  const moment = new Date(iso);
+  return Number.isNaN(moment.getTime()) ? iso : DAY.format(moment);
+}
+
+const SHORT = new Intl.DateTimeFormat("en-GB", {
+  day: "numeric",
+  month: "short",
+  hour: "2-digit",
+  minute: "2-digit",
+});
+const SHORT_FOR_MS = 300 * 86_400_000;
+
+/** As `formatMoment`; the year only where it may be doubted. */
+export function formatMomentShort(iso: string): string {
+  const isRecent = Date.now() - new Date(iso).getTime() < SHORT_FOR_MS;
+  return isRecent ? SHORT.format(new Date(iso)) : formatMoment(iso);
+}
+
+export function formatDuration(seconds: number): string {
+  const rounded = Number(seconds.toFixed(1));
+  if (rounded < 60) return text.runs.seconds(rounded);
+  const whole = Math.round(seconds);
+  return text.runs.minutes(Math.floor(whole / 60), whole % 60);
+}
+
+/** How long a record is, and from when on of the session, whose time its files and scripts have. */
+export function tellLength(
+  run: Pick<RunDetails, "duration_s" | "first_tick" | "period_s">,
+): string {
+  const length = formatDuration(run.duration_s);
+  return run.first_tick === 0
+    ? length
+    : text.run.lengthFrom(length, (run.first_tick * run.period_s).toFixed(2));
+}
+
+/** A value by which runs are filtered, as it is read. */
+export function nameValue(filter: Filter, value: string): string {
+  switch (filter) {
+    case "law":
+      return describeLaw(value);
+    case "figure":
+      return text.runs.figureName(value.toUpperCase());
+    case "tag":
+      return value;
+    default: {
+      const names: Record<string, string> = text.runs.values[filter];
+      return names[value] ?? value;
+    }
+  }
+}

@@ -1,0 +1,67 @@
+import { useRef } from "preact/hooks";
+import { text } from "../../core/text/replay";
+import type { Run } from "./data";
+
+const { about } = text;
+const MAX_ENTRIES = 200;
+
+const isPlain = (value: unknown) => value === null || typeof value !== "object";
+const words = (key: string) => key.replaceAll("_", " ");
+
+/** Any JSON value: plain ones as text, the rest as a list of names and values. */
+function Value({ value }: { value: unknown }) {
+  if (isPlain(value)) return <>{value === null ? about.empty : String(value)}</>;
+  if (Array.isArray(value) && value.every(isPlain)) {
+    return <>{value.map(String).join(", ") || about.empty}</>;
+  }
+  const entries = Object.entries(value as object);
+  return (
+    <dl>
+      {entries.slice(0, MAX_ENTRIES).map(([key, inner]) => (
+        <div key={key} class={isPlain(inner) ? "" : "is-group"}>
+          <dt>{Array.isArray(value) ? Number(key) + 1 : words(key)}</dt>
+          <dd>
+            <Value value={inner} />
+          </dd>
+        </div>
+      ))}
+      {entries.length > MAX_ENTRIES && <p>{about.more(entries.length - MAX_ENTRIES)}</p>}
+    </dl>
+  );
+}
+
+export function Header({ run }: { run: Run }) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const facts = Object.entries(run.details).filter(([, value]) => value !== "" && isPlain(value));
+  return (
+    <header>
+      <div class="name">
+        <h1>{run.title}</h1>
+        <p>
+          {text.name}, {text.recorded}
+        </p>
+      </div>
+      <dl class="facts">
+        {facts.slice(0, 4).map(([key, value]) => (
+          <div key={key}>
+            <dt>{words(key)}</dt>
+            <dd title={String(value)}>{String(value)}</dd>
+          </div>
+        ))}
+      </dl>
+      <button type="button" class="button" onClick={() => dialog.current?.showModal()}>
+        {about.open}
+      </button>
+      <dialog ref={dialog} class="about" aria-label={about.open}>
+        <div class="about-head">
+          <h2>{about.open}</h2>
+          <button type="button" class="button" onClick={() => dialog.current?.close()}>
+            {about.close}
+          </button>
+        </div>
+        <p class="hint">{about.drawn(run.curves.stride)}</p>
+        <Value value={run.details} />
+      </dialog>
+    </header>
+  );
+}

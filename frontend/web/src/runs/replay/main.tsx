@@ -1,0 +1,55 @@
+/** The page of an exported run; `window.svsaReplay` lets a console, a test or the page
+ * around it move it. */
+import "uplot/dist/uPlot.min.css";
+import "../../theme.css";
+import "../../core/widgets/plantmark.css";
+import "../../lab/scene/labels.css";
+import "../../core/plots/plots.css";
+import "./replay.css";
+import "./about.css";
+import "./view.css";
+import "./numbers.css";
+import "./plots.css";
+import "./playback.css";
+import { render } from "preact";
+import { type Theme, theme } from "../../core/state/preferences";
+import { text } from "../../core/text/replay";
+import { App } from "./app";
+import { seek, setUpClock, timeS } from "./clock";
+import { readRecording } from "./data";
+import { answerKey } from "./keys";
+
+declare global {
+  interface Window {
+    svsaReplay: { time(): number; seek(timeS: number): void; setTheme(chosen: Theme): void };
+  }
+}
+
+/** The moment that the address names, as `?t=12.3`; 0 where it names none. */
+function readMoment(): number {
+  const timeS = Number(new URLSearchParams(location.search).get("t"));
+  return Number.isFinite(timeS) ? timeS : 0;
+}
+
+const host = document.getElementById("replay") as HTMLElement;
+try {
+  const recording = await readRecording();
+  const { motion, curves } = recording.run;
+  setUpClock({
+    endS: recording.endS,
+    frameS: motion.step_s,
+    pointS: curves.step_s,
+    isEverySample: curves.stride === 1,
+  });
+  seek(readMoment());
+  document.documentElement.classList.toggle("is-embedded", window.parent !== window);
+  render(<App recording={recording} />, host);
+  window.addEventListener("keydown", answerKey);
+  const setTheme = (chosen: Theme) => {
+    theme.value = chosen;
+  };
+  window.svsaReplay = { time: () => timeS.peek(), seek, setTheme };
+} catch (error) {
+  console.error(error);
+  host.textContent = text.broken;
+}

@@ -1,0 +1,107 @@
+import type { Metrics as LaneMetrics } from "../../core/api/types";
+import { inkAt, inkOf } from "../../core/plots/inks";
+import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
+import { text } from "../../core/text/replay";
+import { formatNumber, toDegrees } from "../../core/units";
+import { describeMeasured, explainSettled } from "../list/measured";
+import { isPlaying, seek } from "./clock";
+import type { Recording, Run } from "./data";
+
+const { numbers } = text;
+
+const formatMetric = (value: number | null) => formatNumber(value, 3, 4);
+const formatError = (rad: number | null) => formatMetric(rad === null ? null : toDegrees(rad));
+
+/** Of who controlled the lane in the window. */
+const inkIn = ({ stretches, window }: Run, lane: number): number =>
+  inkAt(stretches[lane], window.start_s) ?? lane;
+
+function Metrics({ run }: { run: Run }) {
+  const { window, metrics } = run;
+  const cell =
+    (read: (row: LaneMetrics) => number | null, format = formatError) =>
+    (lane: number) => {
+      const row = metrics[lane];
+      return format(row === undefined ? null : read(row));
+    };
+  const columns: MetricsColumn[] = [
+    { key: "rms", title: numbers.rms, cell: cell((row) => row.rms_position_error_rad) },
+    { key: "peak", title: numbers.peak, cell: cell((row) => row.peak_position_error_rad) },
+    {
+      key: "settled",
+      title: numbers.settled,
+      hint: explainSettled(window),
+      cell: cell((row) => row.settled_position_error_rad),
+    },
+    {
+      key: "rms stiffness",
+      title: numbers.rms,
+      cell: cell((row) => row.rms_stiffness_error_nm_per_rad, formatMetric),
+    },
+    {
+      key: "peak stiffness",
+      title: numbers.peak,
+      cell: cell((row) => row.peak_stiffness_error_nm_per_rad, formatMetric),
+    },
+  ];
+  const group = (name: string, unit: string, count: number) => ({
+    title: (
+      <>
+        {name} <span class="unit">{unit}</span>
+      </>
+    ),
+    columns: count,
+  });
+  return (
+    <MetricsTable
+      class="metrics"
+      caption={numbers.heading(describeMeasured(window))}
+      captionHint={numbers.hint}
+      corner={<span class="visually-hidden">{numbers.lane}</span>}
+      groups={[
+        group(numbers.position, numbers.degrees, 3),
+        group(numbers.stiffness, numbers.stiffnessUnit, 2),
+      ]}
+      rows={window.lanes.map((name, index) => ({
+        key: `${index}.${name}`,
+        look: inkOf(inkIn(run, index)),
+        name,
+      }))}
+      columns={columns}
+    />
+  );
+}
+
+function Events({ run }: { run: Run }) {
+  return (
+    <div class="events">
+      <h2>{text.events.heading}</h2>
+      {run.events.length === 0 && <p class="hint">{text.events.none}</p>}
+      <ul>
+        {run.events.map((event, index) => (
+          <li key={`${index}.${event.label}`}>
+            <button
+              type="button"
+              aria-label={text.events.jump(text.transport.seconds(event.time_s), event.label)}
+              onClick={() => {
+                isPlaying.value = false;
+                seek(event.time_s);
+              }}
+            >
+              <span>{text.transport.seconds(event.time_s)}</span> {event.label}
+            </button>
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+export function Numbers({ recording: { run } }: { recording: Recording }) {
+  return (
+    <section class="surface numbers">
+      <Metrics run={run} />
+      <Events run={run} />
+    </section>
+  );
+}

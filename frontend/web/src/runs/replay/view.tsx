@@ -1,0 +1,88 @@
+import { effect } from "@preact/signals";
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { inkOf } from "../../core/plots/inks";
+import { theme } from "../../core/state/preferences";
+import { text } from "../../core/text/replay";
+import { PlantMark } from "../../core/widgets/plantmark";
+import { SceneLabels } from "../../lab/scene/labels";
+import { timeS } from "./clock";
+import { findMark, type Recording, type Run } from "./data";
+import { answerKey } from "./keys";
+import { Scene } from "./scene";
+
+const FASTEST_MS = 1000 / 30;
+
+/** Shows the clock's time in 3D, at most 30 times a second. */
+function followClock(scene: Scene): () => void {
+  let shownAt = 0;
+  let pending = 0;
+  const show = () => {
+    pending = 0;
+    shownAt = performance.now();
+    scene.show(timeS.peek());
+  };
+  const stop = effect(() => {
+    void timeS.value;
+    const wait = FASTEST_MS - 2 - (performance.now() - shownAt);
+    if (wait <= 0) show();
+    else if (pending === 0) pending = window.setTimeout(show, wait);
+  });
+  return () => {
+    window.clearTimeout(pending);
+    stop();
+  };
+}
+
+/** The outlines of a lane have the colours of its curves. */
+const coloursOf = ({ stretches }: Run, lane: number) => [
+  ...new Set(stretches[lane]?.map(({ ink }) => inkOf(ink).colour)),
+];
+
+export function View({ recording: { run, arrays } }: { recording: Recording }) {
+  const frame = useRef<HTMLIFrameElement>(null);
+  const [state, setState] = useState<"starting" | "shown" | "failed">("starting");
+  const present = useCallback(() => frame.current, []);
+  useEffect(() => {
+    const element = frame.current;
+    if (element === null) return;
+    const scene = new Scene(run.motion, arrays);
+    const ends: (() => void)[] = [];
+    const start = async () => {
+      element.contentWindow?.addEventListener("keydown", answerKey, true);
+      if (!(await scene.connect(element))) return setState("failed");
+      ends.push(effect(() => scene.setTheme(theme.value === "dark")));
+      ends.push(followClock(scene));
+      setState("shown");
+    };
+    element.addEventListener("load", () => void start(), { once: true });
+    element.srcdoc = run.scene;
+    return () => {
+      for (const end of ends) end();
+    };
+  }, [run, arrays]);
+  return (
+    <section class={`surface view is-${state}`} aria-label={text.view}>
+      <iframe ref={frame} title={text.view} />
+      {state === "shown" && <SceneLabels frame={present} />}
+      <PlantMark kind={findMark(run)} />
+      {state === "failed" && <p class="view-problem">{text.noView}</p>}
+      <ul class="view-legend">
+        {run.lanes.map((lane, index) => (
+          <li key={`${index}.${lane}`}>
+            {index === 0 ? (
+              <i class="is-actuator" />
+            ) : (
+              coloursOf(run, index).map((colour) => <i key={colour} class={`is-${colour}`} />)
+            )}
+            <span class="legend-name">{lane}</span>
+            <small>{index === 0 ? text.drawn.lane : text.drawn.ghost}</small>
+          </li>
+        ))}
+        <li>
+          <i class="is-reference" />
+          {text.drawn.reference}
+        </li>
+      </ul>
+    </section>
+  );
+}

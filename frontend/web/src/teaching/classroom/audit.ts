@@ -1,0 +1,63 @@
+/** The audit log on the instructor's page: what is asked of it, and what came. */
+import { signal } from "@preact/signals";
+import { type AuditLine, type AuditPage, type AuditWish, readAudit } from "../../core/api/access";
+import { tell } from "../../core/state/actions";
+import { text } from "../../core/text/en";
+
+const words = text.classroom.audit;
+export const PAGE_SIZE = 50;
+const NEWEST: AuditWish = { person: "", kind: "", onlyRefused: false, page: 1, until: "" };
+
+export const wish = signal<AuditWish>(NEWEST);
+export const told = signal<AuditPage | null>(null);
+export const problem = signal("");
+export const isReading = signal(false);
+
+let asked = 0;
+
+/** Reads what is asked for now; of answers that come late the last one asked for counts. */
+async function read(): Promise<void> {
+  const number = ++asked;
+  isReading.value = true;
+  try {
+    const page = await readAudit(wish.peek());
+    if (number !== asked) return;
+    told.value = page;
+    problem.value = "";
+  } catch (error) {
+    if (number === asked) problem.value = tell(error);
+  }
+  if (number === asked) isReading.value = false;
+}
+
+/** From the newest line on: of these people and kinds, or as before. */
+export function askFor(change: Partial<Pick<AuditWish, "person" | "kind" | "onlyRefused">> = {}) {
+  wish.value = { ...wish.peek(), ...change, page: 1, until: "" };
+  return read();
+}
+
+/** Another page of the same, as it was when the first one was read. */
+export function turnTo(page: number): Promise<void> {
+  wish.value = { ...wish.peek(), page, until: told.peek()?.until ?? "" };
+  return read();
+}
+
+export const countPages = (total: number): number => Math.max(1, Math.ceil(total / PAGE_SIZE));
+
+/** A kind in words; one that the page has no word for as the server calls it. */
+export const nameKind = (kind: string): string =>
+  Object.hasOwn(words.kinds, kind) ? words.kinds[kind as keyof typeof words.kinds] : kind;
+
+/** The time of day here; with its date where that is not `now`'s. */
+export function tellTime(time: string, now: Date): string {
+  const at = new Date(time);
+  const clock = at.toLocaleTimeString("en-GB");
+  if (at.toDateString() === now.toDateString()) return clock;
+  return `${at.toLocaleDateString("en-GB", { day: "numeric", month: "short" })} ${clock}`;
+}
+
+/** What came of it: done, refused and with which status, or why it went on by itself. */
+export function tellEnd({ refused, status, why }: AuditLine): string {
+  const end = refused ? words.refused(status) : status === null ? "" : words.done;
+  return [end, why].filter((part) => part).join(": ");
+}

@@ -1,0 +1,202 @@
+import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import {
+  broadcast,
+  type ClassCode,
+  type ClassState,
+  createToken,
+  endSession,
+  leave,
+  readClass,
+  removePerson,
+  renewCode,
+  renewReturnCode,
+  restorePerson,
+} from "../../core/api/access";
+import { access, isClass, isInstructor, learnAccess } from "../../core/state/access";
+import { explain } from "../../core/state/actions";
+import { phase } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { Panel } from "../../core/widgets/panel";
+import { PanelButton } from "../../core/widgets/panelbutton";
+import { PlaceLink } from "../../runs/list/placelink";
+import { AuditLog } from "./auditlog";
+import { Code } from "./code";
+import { isOpen, READ_MS } from "./open";
+import { People, Removed } from "./people";
+import { returnCode } from "./returncode";
+import { Sessions } from "./sessions";
+import { Waiting } from "./waiting";
+
+const words = text.classroom;
+
+function close(): void {
+  isOpen.value = false;
+}
+
+/** Who is here, who waits, whose sessions; what only the instructor may, for the instructor. */
+function Inside() {
+  const told = useSignal<ClassState | null>(null);
+  const code = useSignal<ClassCode | null>(null);
+  const token = useSignal("");
+  const note = useSignal("");
+  const isAudited = useSignal(false);
+  const attempt = async (act: () => Promise<unknown>) => {
+    note.value = "";
+    try {
+      await act();
+      told.value = await readClass();
+    } catch (error) {
+      note.value = explain(error);
+    }
+  };
+  useEffect(() => {
+    void attempt(async () => {});
+    const timer = setInterval(() => {
+      readClass().then(
+        (state) => {
+          told.value = state;
+        },
+        () => {},
+      );
+    }, READ_MS);
+    return () => clearInterval(timer);
+  }, []);
+  return (
+    <div class="class-body">
+      <p class="problem" role="alert" hidden={note.value === ""}>
+        {note.value}
+      </p>
+      {isInstructor.value && (
+        <div class="class-acts">
+          <button
+            type="button"
+            class="button"
+            title={words.broadcastHint}
+            onClick={() =>
+              void attempt(async () => {
+                const sent = await broadcast();
+                note.value = words.sent(sent.taken, sent.refused.length);
+              })
+            }
+          >
+            {words.broadcast}
+          </button>
+          <button
+            type="button"
+            class="button"
+            title={words.newCodeHint}
+            onClick={() =>
+              void attempt(async () => {
+                code.value = await renewCode();
+              })
+            }
+          >
+            {words.newCode}
+          </button>
+          <PlaceLink to={{ kind: "list" }} class="button">
+            {words.runs}
+          </PlaceLink>
+          <PlaceLink to={{ kind: "grades" }} class="button">
+            {text.grades.title}
+          </PlaceLink>
+        </div>
+      )}
+      {code.value && <Code code={code.value} />}
+      <Waiting />
+      {told.value && (
+        <>
+          <People
+            people={told.value.people}
+            remove={(id) => void attempt(() => removePerson(id))}
+          />
+          <Removed
+            removed={told.value.removed}
+            restore={(id) => void attempt(() => restorePerson(id))}
+          />
+        </>
+      )}
+      {told.value && (
+        <Sessions
+          sessions={told.value.sessions}
+          end={(name) => void attempt(() => endSession(name))}
+        />
+      )}
+      {isInstructor.value && (
+        <AuditLog
+          isOpen={isAudited.value}
+          onToggle={() => {
+            isAudited.value = !isAudited.peek();
+          }}
+        />
+      )}
+      <div class="class-acts">
+        <button
+          type="button"
+          class="button"
+          title={words.scriptHint}
+          onClick={() =>
+            void attempt(async () => {
+              token.value = (await createToken()).token;
+            })
+          }
+        >
+          {words.script}
+        </button>
+        {!isInstructor.value && (
+          <button
+            type="button"
+            class="button"
+            title={words.newReturnCodeHint}
+            onClick={() =>
+              void attempt(async () => {
+                returnCode.value = (await renewReturnCode()).return_code;
+              })
+            }
+          >
+            {words.newReturnCode}
+          </button>
+        )}
+        <button
+          type="button"
+          class="button"
+          onClick={() =>
+            void attempt(async () => {
+              await leave();
+              await learnAccess();
+              close();
+              phase.value = "locked";
+            })
+          }
+        >
+          {words.leave}
+        </button>
+      </div>
+      {token.value !== "" && (
+        <p class="class-token">
+          {words.scriptOnce} <code>{token.value}</code>
+        </p>
+      )}
+    </div>
+  );
+}
+
+export function ClassPanel() {
+  if (!isOpen.value || !isClass.value || access.value?.inside !== true) return null;
+  return (
+    <Panel title={words.panelTitle} class="class-panel" onClose={close}>
+      <Inside />
+    </Panel>
+  );
+}
+
+export function ClassButton() {
+  if (!isClass.value) return null;
+  return (
+    <PanelButton isOpen={isOpen} hint={words.openHint} name={words.open}>
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        <path d="M5.5 7.5a2.75 2.75 0 1 0 0-5.5 2.75 2.75 0 0 0 0 5.5zM0 14c0-3 2.2-5 5.5-5S11 11 11 14zM11 7.5a2.25 2.25 0 1 0-.9-4.3 4 4 0 0 1 0 3.9q.4.4.9.4zM12.3 14H16c0-2.6-1.8-4.5-4.6-4.5l-.6.1c1 1 1.5 2.5 1.5 4.4z" />
+      </svg>
+    </PanelButton>
+  );
+}

@@ -1,0 +1,95 @@
+import type { ClassState } from "../../core/api/access";
+import { access, isInstructor } from "../../core/state/access";
+import { text } from "../../core/text/en";
+
+const words = text.classroom;
+const SHARED = "lab";
+
+/** Who is here, and what each sees; the instructor removes people. */
+export function People({
+  people,
+  remove,
+}: {
+  people: ClassState["people"];
+  remove: (id: string) => void;
+}) {
+  const ordered = [...people].sort((one, other) => one.name.localeCompare(other.name));
+  return (
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is scrolled by key, too
+    <section class="class-people" aria-label={words.here(people.length)} tabIndex={0}>
+      <table class="class-table">
+        <caption>{words.here(people.length)}</caption>
+        <thead>
+          <tr>
+            <th scope="col">{words.name}</th>
+            <th scope="col">{words.role}</th>
+            <th scope="col">{words.sees}</th>
+            {isInstructor.value && (
+              <th scope="col">
+                <span class="visually-hidden">{words.act}</span>
+              </th>
+            )}
+          </tr>
+        </thead>
+        <tbody>
+          {ordered.map((one) => (
+            <tr key={one.id}>
+              <th scope="row">
+                {one.name} {one.id === access.value?.id && <small>({words.you})</small>}
+              </th>
+              <td>{words.roles[one.role]}</td>
+              <td>{one.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
+              {isInstructor.value && (
+                <td class="class-act">
+                  {one.role !== "instructor" && (
+                    <button
+                      type="button"
+                      class="button is-small"
+                      aria-label={words.remove(one.name)}
+                      title={words.removeHint}
+                      onClick={() => remove(one.id)}
+                    >
+                      {words.removeShort}
+                    </button>
+                  )}
+                </td>
+              )}
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </section>
+  );
+}
+
+/** Whom the instructor has removed, to be let in again. */
+export function Removed({
+  removed,
+  restore,
+}: {
+  removed: ClassState["removed"];
+  restore: (id: string) => void;
+}) {
+  if (removed.length === 0) return null;
+  return (
+    <section>
+      <h3>{words.removed}</h3>
+      <p class="hint">{words.removedHint}</p>
+      <ul class="class-list">
+        {removed.map((one) => (
+          <li key={one.id}>
+            <span>{one.name}</span>
+            <button
+              type="button"
+              class="button is-small"
+              aria-label={words.restore(one.name)}
+              onClick={() => restore(one.id)}
+            >
+              {words.restoreShort}
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

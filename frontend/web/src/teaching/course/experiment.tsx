@@ -1,0 +1,150 @@
+/** A session is set up and run, and its record judged. */
+import { useEffect } from "preact/hooks";
+import type { Step } from "../../core/api/course";
+import { bench } from "../../core/state/bench";
+import { mayCommand } from "../../core/state/control";
+import { session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/problem";
+import { isHeld } from "../../hardware/hold";
+import { PlaceLink } from "../../runs/list/placelink";
+import { askedOf, handDue, isDoneHere, readinessOf } from "./benchstep";
+import {
+  CONTROL_OF_LESSON,
+  follow,
+  isBusy,
+  judged,
+  resultsOf,
+  resume,
+  run,
+  setUp,
+  trial,
+} from "./lesson";
+import { CutOff, Obstacle } from "./obstacle";
+import { Results } from "./results";
+import type { Task } from "./task";
+
+const words = text.lesson;
+
+/** When somebody hangs a load or takes it off; an emulated rig does it by itself. */
+function Hands({ of }: { of: Step }) {
+  const now = bench.value;
+  const state = session.value;
+  if (now === null || of.bench === null || of.bench.hands.length === 0) return null;
+  if (now.emulated) return <p class="hint">{words.handsEmulated}</p>;
+  const { by_hand: what, hands } = of.bench;
+  if (trial.value?.step !== of.name) {
+    return <p class="hint">{words.hands(what, hands)}</p>;
+  }
+  const timeS = state?.time_s ?? 0;
+  const due = handDue(of, timeS);
+  if (due === null) return null;
+  const isDue = timeS >= due.time_s;
+  return (
+    <p class={`lesson-hand ${isDue ? "is-due" : ""}`} aria-live="assertive">
+      {isDue ? words.handNow(what, due.is_on) : words.handAt(what, due.is_on, due.time_s)}
+    </p>
+  );
+}
+
+/** Until the run of a step is over, and judged. */
+function Running({ of }: { of: Step }) {
+  const now = trial.value;
+  if (now === null || now.step !== of.name) return null;
+  const state = session.value;
+  return (
+    <p class="lesson-running" role="status">
+      {now.isJudged ? words.judging : words.seconds(state?.time_s ?? 0, now.endS)}
+    </p>
+  );
+}
+
+export function Trial({ of, exercise, onDone }: Task) {
+  const state = session.value;
+  useEffect(() => resume(of), [of, state?.recording?.run_id]);
+  useEffect(() => {
+    void follow();
+  }, [state]);
+  const missing = exercise.parts.find(
+    (one) => one.kind === "predict" && one.judged_by === of.name && one.answer === null,
+  );
+  const isRunning = trial.value !== null;
+  useEffect(() => {
+    if (judged.value?.step === of.name) onDone();
+  }, [judged.value]);
+  const isOff =
+    missing !== undefined ||
+    isRunning ||
+    isBusy.value ||
+    !mayCommand.value ||
+    !isDoneHere(of, bench.value) ||
+    exercise.handed_in !== null;
+  const { mayBeSet, mayRun } = readinessOf(bench.value, isHeld.value);
+  const asked = askedOf(of, bench.value);
+  const isFree = of.free.length > 0;
+  const predictions = exercise.parts.filter(
+    (one) => one.kind === "predict" && one.judged_by === of.name,
+  );
+  const runShown = judged.value?.step === of.name ? judged.value.run : of.run_id;
+  return (
+    <>
+      {asked.length > 0 && (
+        <>
+          <h4>{words.asked}</h4>
+          <ul class="lesson-asked">
+            {asked.map((one) => (
+              <li key={one}>{one}</li>
+            ))}
+          </ul>
+        </>
+      )}
+      {isFree && (
+        <p class="hint">
+          {words.free(of.free.map((name) => words.freeNames[name] ?? name).join(", "))}
+        </p>
+      )}
+      {missing !== undefined && (
+        <p class="lesson-missing">
+          <PlaceLink to={{ kind: "learn", exercise: exercise.name, step: missing.name }}>
+            {words.predictFirst(missing.title)}
+          </PlaceLink>
+        </p>
+      )}
+      <CutOff of={of} />
+      <Obstacle of={of} />
+      <Hands of={of} />
+      <p class="lesson-buttons">
+        <button
+          type="button"
+          class={isFree && of.begun ? "button" : "button is-primary"}
+          title={words.setUpHint}
+          disabled={isOff || !(isFree ? mayBeSet : mayRun)}
+          onClick={() => void setUp(of)}
+        >
+          {isFree ? words.setUp : of.begun ? words.again : words.setUpAndRun}
+        </button>
+        {isFree && (
+          <button
+            type="button"
+            class="button is-primary"
+            title={words.runHint}
+            disabled={isOff || !mayRun || !of.begun}
+            onClick={() => void run(of)}
+          >
+            {words.run}
+          </button>
+        )}
+      </p>
+      <Problem control={CONTROL_OF_LESSON} />
+      <Running of={of} />
+      {!isRunning && (
+        <>
+          <Results of={of} results={resultsOf(of)} run={runShown} />
+          {predictions.map((one) => (
+            <Results key={one.name} of={one} results={one.results} run={of.run_id} />
+          ))}
+        </>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,61 @@
+/** A law of one's own: a file or a text, tried at once, and kept until it is handed in. */
+import { useMemo, useState } from "preact/hooks";
+import type { Exercise } from "../../core/api/course";
+import { text } from "../../core/text/en";
+import { findFault, LawText } from "../../core/widgets/lawtext";
+import { isBusy, tryLaw } from "./lesson";
+
+const words = text.lesson.law;
+
+/** The first program in a step's text, which is one to begin with; "" where there is none. */
+const findStart = (html: string): string =>
+  new DOMParser().parseFromString(html, "text/html").querySelector("pre > code")?.textContent ?? "";
+
+function Trial({ kept }: { kept: NonNullable<Exercise["law"]> }) {
+  return (
+    <div class={`lesson-law-trial is-${kept.verdict}`}>
+      <p>
+        <strong>{words.verdicts[kept.verdict]}.</strong> {kept.feedback}
+      </p>
+      {kept.output.trim() !== "" && (
+        <>
+          <h4>{words.output}</h4>
+          <pre>{kept.output.trim()}</pre>
+        </>
+      )}
+    </div>
+  );
+}
+
+export function OwnLaw({ kept, html }: { kept: Exercise["law"]; html: string }) {
+  const [law, setLaw] = useState(kept?.text ?? "");
+  const [isTrying, setTrying] = useState(false);
+  const start = useMemo(() => findStart(html), [html]);
+  return (
+    <form
+      class="lesson-form lesson-law"
+      aria-label={words.label}
+      onSubmit={async (event) => {
+        event.preventDefault();
+        setTrying(true);
+        await tryLaw(law);
+        setTrying(false);
+      }}
+    >
+      <LawText law={law} onLaw={setLaw} start={start} startWord={words.start} />
+      <button
+        type="submit"
+        class="button is-primary"
+        title={words.tryHint}
+        disabled={law.trim() === "" || findFault(law) !== "" || isBusy.value}
+      >
+        {words.try}
+      </button>
+      <div role="status">
+        {isTrying && <p class="lesson-running">{words.trying}</p>}
+        {!isTrying && kept && <Trial kept={kept} />}
+        {!isTrying && kept && kept.text !== law && <p class="hint">{words.changed}</p>}
+      </div>
+    </form>
+  );
+}

@@ -1,0 +1,110 @@
+import { useEffect } from "preact/hooks";
+import type { ExerciseSummary } from "../../core/api/course";
+import { EquationCard } from "../../core/equations/equation";
+import { TOPICS, type Topic } from "../../core/equations/equations";
+import { text } from "../../core/text/en";
+import { goTo } from "../../runs/list/place";
+import { PlaceLink } from "../../runs/list/placelink";
+import { Claims } from "./claims";
+import { exercises, openCourse, problem } from "./lesson";
+import { startTour } from "./tour";
+
+const words = text.learning;
+const lesson = text.lesson;
+
+function ExerciseCard({ of }: { of: ExerciseSummary }) {
+  const isDone = of.handed_in !== null;
+  const word = isDone ? lesson.look : of.done > 0 ? lesson.goOn : lesson.begin;
+  return (
+    <li class="exercise-card">
+      <p class="exercise-number">
+        {lesson.exercise(of.number)} · {lesson.minutes(of.minutes)} ·{" "}
+        {lesson.pointsAndLaw(of.max_points, of.law_points)}
+      </p>
+      <h4>{of.title}</h4>
+      <p>{of.goal}</p>
+      <progress
+        value={of.done}
+        max={of.steps}
+        aria-label={`${lesson.progress}: ${of.title}`}
+        title={lesson.done(of.done, of.steps)}
+      />
+      <p class="exercise-foot">
+        <span>
+          {isDone ? lesson.handedIn(of.points ?? 0, of.max_points) : lesson.done(of.done, of.steps)}
+        </span>
+        <PlaceLink
+          class={isDone ? "button" : "button is-primary"}
+          to={{ kind: "learn", exercise: of.name, step: of.at ?? "" }}
+          title={`${word}: ${of.title}`}
+        >
+          {word}
+          <span class="visually-hidden">: {of.title}</span>
+        </PlaceLink>
+      </p>
+    </li>
+  );
+}
+
+/** Exercises, the paper's claims, the equations and the tour. */
+export function LearnPage() {
+  useEffect(() => {
+    void openCourse();
+  }, []);
+  return (
+    <main class="learn-page" aria-label={words.title}>
+      <div class="learn-head">
+        <div>
+          <h2>{words.title}</h2>
+          <p>{words.lead}</p>
+        </div>
+        <button
+          type="button"
+          class="button"
+          onClick={() => {
+            goTo({ kind: "lab" });
+            startTour();
+          }}
+        >
+          {text.tour.take}
+        </button>
+      </div>
+      <p class="problem" role="alert" hidden={problem.value === ""}>
+        {problem.value}
+      </p>
+      <section aria-label={lesson.exercises}>
+        <h3>{lesson.exercises}</h3>
+        {exercises.value === null && problem.value === "" && <p class="hint">{lesson.loading}</p>}
+        <ul class="exercise-cards">
+          {exercises.value?.map((one) => (
+            <ExerciseCard key={one.name} of={one} />
+          ))}
+        </ul>
+      </section>
+      <div class="learn-body">
+        <Claims />
+        <section class="learn-equations">
+          <h3>{words.equations}</h3>
+          <p class="hint">{words.equationsHint}</p>
+          {TOPICS.map((topic: Topic) => (
+            <details key={topic} class="more">
+              <summary>{text.equations.topics[topic]}</summary>
+              <EquationCard topic={topic} />
+            </details>
+          ))}
+        </section>
+      </div>
+    </main>
+  );
+}
+
+export function LearnLink() {
+  return (
+    <PlaceLink class="button" to={{ kind: "learn", exercise: "", step: "" }} title={words.openHint}>
+      <svg viewBox="0 0 16 16" aria-hidden="true">
+        <path d="M8 2L0 5.8l8 3.8 6.4-3v4.6H16V5.8zM3 8.6v3.2c1.2 1.5 3 2.2 5 2.2s3.8-.7 5-2.2V8.6l-5 2.4z" />
+      </svg>
+      {words.open}
+    </PlaceLink>
+  );
+}

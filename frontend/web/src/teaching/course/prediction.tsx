@@ -1,0 +1,71 @@
+/** A number is foretold before the run that judges it. */
+import { useState } from "preact/hooks";
+import { text } from "../../core/text/en";
+import { answer } from "./lesson";
+import { Results } from "./results";
+import type { Task } from "./task";
+
+const words = text.lesson;
+
+const told = (value: number) => String(Number(value.toPrecision(6)));
+
+export function Prediction({ of, exercise, onDone }: Task) {
+  const [isChanging, setChanging] = useState(false);
+  const [draft, setDraft] = useState("");
+  const [isSent, setSent] = useState(false);
+  const given = of.answer;
+  const judge = exercise.parts.find(({ name }) => name === of.judged_by);
+  const range = words.from(told(of.low ?? 0), told(of.high ?? 0), of.unit);
+  if (given !== null && !isChanging) {
+    return (
+      <>
+        <p class="lesson-kept">
+          <strong>{words.kept(String(given), of.unit)}</strong>{" "}
+          {of.is_kept ? words.isKept : words.keptHint}
+        </p>
+        {!of.is_kept && (
+          <button type="button" class="button" onClick={() => setChanging(true)}>
+            {words.change}
+          </button>
+        )}
+        <Results of={of} results={of.results} run={judge?.run_id ?? null} />
+      </>
+    );
+  }
+  return (
+    <form
+      class="lesson-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        setSent(true);
+        void answer(of, Number(draft.replace(",", "."))).then(() => {
+          setSent(false);
+          setChanging(false);
+          requestAnimationFrame(onDone);
+        });
+      }}
+    >
+      <label>
+        <span>{of.asks}</span>
+        <span class="lesson-number">
+          <input
+            type="text"
+            inputMode="decimal"
+            autocomplete="off"
+            value={draft}
+            onInput={({ currentTarget }) => setDraft(currentTarget.value)}
+          />
+          <span class="unit">{of.unit}</span>
+        </span>
+        <small>{range}</small>
+      </label>
+      <button
+        type="submit"
+        class="button is-primary"
+        disabled={isSent || draft.trim() === "" || Number.isNaN(Number(draft.replace(",", ".")))}
+      >
+        {words.keep}
+      </button>
+    </form>
+  );
+}

@@ -1,0 +1,64 @@
+import type { CriterionResult, Step } from "../../core/api/course";
+import { showSpan } from "../../core/plots/span";
+import { samples, session } from "../../core/state/session";
+import { text } from "../../core/text/en";
+import { goTo } from "../../runs/list/place";
+import { shownRun } from "./lesson";
+
+const words = text.lesson;
+const BESIDE_S = 0.5;
+
+const wordOf = ({ points, max_points: most }: CriterionResult) =>
+  points >= most ? "right" : points > 0 ? "partly" : "wrong";
+
+/** The moment in the plots, where they still hold that run; else in its replay. */
+function lookThere(run: string, timeS: number): void {
+  const { ring } = samples;
+  const shown = shownRun.peek();
+  const isShown = shown?.run === run && shown.runNumber === session.peek()?.run_number;
+  if (isShown && ring.oldestTime <= timeS && timeS <= ring.newestTime) {
+    showSpan({ from: timeS - BESIDE_S, to: timeS + BESIDE_S });
+    document.getElementById("plots")?.scrollIntoView({ block: "nearest" });
+  } else goTo({ kind: "run", run, timeS });
+}
+
+/** What came of a step: points, what differs, and where to look. */
+export function Results({
+  of,
+  results,
+  run,
+}: {
+  of: Step;
+  results: readonly CriterionResult[];
+  run: string | null;
+}) {
+  if (results.length === 0) return null;
+  return (
+    <section class="lesson-results" aria-label={`${words.results}: ${of.title}`}>
+      <h4>{words.results}</h4>
+      <ul>
+        {results.map((one) => (
+          <li key={one.name} class={`is-${wordOf(one)}`}>
+            <p>
+              <strong>{words[wordOf(one)]}</strong> <span>{one.name}</span>{" "}
+              <small>
+                {one.points} / {one.max_points}
+              </small>
+            </p>
+            <p>{one.feedback}</p>
+            {run !== null && one.time_s !== null && (
+              <button
+                type="button"
+                class="button"
+                title={words.showHint}
+                onClick={() => lookThere(run, one.time_s as number)}
+              >
+                {words.show(one.time_s.toFixed(2))}
+              </button>
+            )}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

@@ -1,0 +1,142 @@
+import { signal } from "@preact/signals";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { remember, remembered } from "../../core/state/storage";
+import { text } from "../../core/text/en";
+import { closeOnEscape } from "../../core/widgets/escape";
+
+const STORE = "svsa.tour";
+const GAP_PX = 12;
+const words = text.tour;
+
+/** Each step and the part of the page that it speaks of; the first stands by itself. */
+const STEPS = [
+  { key: "welcome", target: ".view" },
+  { key: "view", target: ".view" },
+  { key: "plots", target: "#plots" },
+  { key: "load", target: ".load-button" },
+  { key: "controller", target: ".compare" },
+  { key: "gains", target: ".design-open" },
+] as const;
+
+/** The step shown; null when nobody is on the tour. */
+const step = signal<number | null>(remembered(STORE) === "done" ? null : 0);
+
+export function startTour(): void {
+  step.value = 1;
+}
+
+function endTour(): void {
+  step.value = null;
+  remember(STORE, "done");
+}
+
+function go(by: number): void {
+  const next = (step.peek() ?? 0) + by;
+  if (next >= STEPS.length) endTour();
+  else step.value = Math.max(0, next);
+}
+
+interface Box {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+}
+
+const clamp = (value: number, most: number) => Math.max(GAP_PX, Math.min(value, most));
+
+/** Beside what it speaks of, where there is room; the first at the foot of the 3D view. */
+function place(card: HTMLElement, target: Box, isFirst: boolean): void {
+  const { offsetWidth: width, offsetHeight: height } = card;
+  const mostX = window.innerWidth - width - GAP_PX;
+  const mostY = window.innerHeight - height - GAP_PX;
+  const right = target.left + target.width + GAP_PX;
+  let x = target.left + GAP_PX;
+  let y = target.top + target.height - height - GAP_PX;
+  if (!isFirst && right <= mostX) [x, y] = [right, target.top];
+  else if (!isFirst && target.left - width - GAP_PX >= GAP_PX) {
+    [x, y] = [target.left - width - GAP_PX, target.top];
+  } else if (!isFirst) y = target.top + target.height + GAP_PX;
+  card.style.left = `${clamp(x, mostX)}px`;
+  card.style.top = `${clamp(y, mostY)}px`;
+}
+
+/** Where the target is, also after a change of the window. */
+function useTarget(selector: string, isShown: boolean): Box | null {
+  const [box, setBox] = useState<Box | null>(null);
+  useLayoutEffect(() => {
+    const target = document.querySelector(selector);
+    if (target === null) return;
+    if (isShown) target.scrollIntoView({ block: "nearest" });
+    const look = () => setBox(target.getBoundingClientRect());
+    look();
+    const watching = new ResizeObserver(look);
+    watching.observe(target);
+    watching.observe(document.body);
+    window.addEventListener("scroll", look, true);
+    return () => {
+      watching.disconnect();
+      window.removeEventListener("scroll", look, true);
+    };
+  }, [selector, isShown]);
+  return box;
+}
+
+function Card({ index }: { index: number }) {
+  const { key, target } = STEPS[index] as (typeof STEPS)[number];
+  const { title, words: told } = words.steps[key];
+  const isFirst = index === 0;
+  const isLast = index === STEPS.length - 1;
+  const card = useRef<HTMLElement>(null);
+  const onward = useRef<HTMLButtonElement>(null);
+  const box = useTarget(target, !isFirst);
+  useLayoutEffect(() => {
+    if (card.current && box) place(card.current, box, isFirst);
+  }, [box, isFirst]);
+  useEffect(() => {
+    if (!isFirst) onward.current?.focus({ preventScroll: true });
+  }, [index, isFirst]);
+  useEffect(() => closeOnEscape(endTour), []);
+  const turn = (event: KeyboardEvent) => {
+    if (event.key === "ArrowRight") go(1);
+    if (event.key === "ArrowLeft") go(-1);
+  };
+  return (
+    <>
+      {box && !isFirst && (
+        <div
+          class="tour-ring"
+          style={{
+            left: `${box.left}px`,
+            top: `${box.top}px`,
+            width: `${box.width}px`,
+            height: `${box.height}px`,
+          }}
+        />
+      )}
+      <section ref={card} class="tour" aria-label={words.label} onKeyDown={turn}>
+        <p class="tour-count">{words.of(index + 1, STEPS.length)}</p>
+        <h2>{title}</h2>
+        <p aria-live="polite">{told}</p>
+        <div class="tour-buttons">
+          <button type="button" class="quiet" onClick={endTour} title={words.keys}>
+            {words.skip}
+          </button>
+          {index > 1 && (
+            <button type="button" class="button" onClick={() => go(-1)}>
+              {words.back}
+            </button>
+          )}
+          <button ref={onward} type="button" class="button is-primary" onClick={() => go(1)}>
+            {isFirst ? words.take : isLast ? words.done : words.next}
+          </button>
+        </div>
+      </section>
+    </>
+  );
+}
+
+/** The tour: offered on the first visit, then only where it is asked for. */
+export function Tour() {
+  return step.value === null ? null : <Card index={step.value} />;
+}

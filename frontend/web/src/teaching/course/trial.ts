@@ -1,0 +1,87 @@
+/** A figure of the paper run with both laws in a session of its own, and what came of it. */
+import { API, request } from "../../core/api/request";
+import type { Figure, Hello, SessionState } from "../../core/api/types";
+import { BatchDecoder } from "../../core/stream/decoder";
+import { type Course, sliceCourse } from "./outcome";
+
+const DURATION_S = 20;
+const MAX_STEP = 10_000;
+const RATE_HZ = 1000;
+const PATIENCE_MS = 20_000;
+const CHANNELS = ["time_s", "position_error_rad", "stiffness_error_nm_per_rad"] as const;
+
+const ask = (method: "post" | "get" | "delete" | "put", path: string, body?: unknown) =>
+  request(method, path, body, PATIENCE_MS) as Promise<SessionState>;
+
+/** The whole run as FL and NDOBC went through it. */
+export async function runFigureApart(figure: Figure): Promise<Course> {
+  const { session } = await ask("post", "sessions", {
+    figure,
+    law: "fl",
+    rivals: [{ law: "ndobc" }],
+    load: true,
+  });
+  const path = `sessions/${session}`;
+  try {
+    let state = await ask("post", `${path}/pause`);
+    const last = Math.round(DURATION_S * state.rate_hz);
+    while (state.tick < last && state.status !== "fault") {
+      const ticks = Math.min(MAX_STEP, last - state.tick);
+      state = await ask("post", `${path}/step`, { ticks });
+    }
+    return await readHistory(path, state.tick);
+  } finally {
+    await request("delete", path).catch(() => undefined);
+  }
+}
+
+/** Takes the run's past out of the stream, then closes it. */
+function readHistory(path: string, lastTick: number): Promise<Course> {
+  const address = new URL(`${path}/stream`, API);
+  address.protocol = address.protocol.replace("http", "ws");
+  address.search = String(
+    new URLSearchParams({
+      rate_hz: String(RATE_HZ),
+      history_s: String(DURATION_S),
+      lanes: "all",
+      channels: CHANNELS.join(","),
+    }),
+  );
+  return new Promise((resolve, reject) => {
+    const socket = new WebSocket(address);
+    socket.binaryType = "arraybuffer";
+    const parts: Course[] = [];
+    let decoder: BatchDecoder | null = null;
+    const give = setTimeout(() => socket.close(), PATIENCE_MS);
+    socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => {
+      if (typeof data === "string") {
+        const content = JSON.parse(data) as Hello | { type: "state" | "error" };
+        if (content.type === "hello") decoder = new BatchDecoder(content);
+        return;
+      }
+      const batch = decoder?.decode(data);
+      if (batch === undefined) return;
+      parts.push(sliceCourse(batch, CHANNELS.length));
+      if (batch.firstTick + batch.count * batch.stride >= lastTick) socket.close();
+    };
+    socket.onclose = () => {
+      clearTimeout(give);
+      const whole = join(parts);
+      if (whole.timeS.length > 0) resolve(whole);
+      else reject(new Error("no samples"));
+    };
+  });
+}
+
+function join(parts: readonly Course[]): Course {
+  const laws = (key: "positionRad" | "stiffness") =>
+    [0, 1].map((law) => parts.flatMap((part) => part[key][law] as number[])) as [
+      number[],
+      number[],
+    ];
+  return {
+    timeS: parts.flatMap((part) => part.timeS),
+    positionRad: laws("positionRad"),
+    stiffness: laws("stiffness"),
+  };
+}

@@ -1,0 +1,139 @@
+import { useEffect, useRef } from "preact/hooks";
+import type { Exercise, Step } from "../../core/api/course";
+import { Prose } from "../../core/equations/prose";
+import { text } from "../../core/text/en";
+import { place } from "../../runs/list/place";
+import { PlaceLink } from "../../runs/list/placelink";
+import { Ending } from "./ending";
+import { Trial } from "./experiment";
+import { exercise, openExercise, problem, step, visit } from "./lesson";
+import { Prediction } from "./prediction";
+import { Question } from "./question";
+
+const words = text.lesson;
+
+function Steps({ found, at }: { found: Exercise; at: Step }) {
+  return (
+    <nav aria-label={words.steps}>
+      <ol class="lesson-steps">
+        {found.parts.map((one, index) => (
+          <li key={one.name} class={one.done ? "is-done" : ""}>
+            <PlaceLink
+              to={{ kind: "learn", exercise: found.name, step: one.name }}
+              title={`${words.kinds[one.kind]}: ${one.title}`}
+              isHere={one.name === at.name}
+            >
+              <span aria-hidden="true">{one.done ? "✓" : index + 1}</span>
+              <span class="visually-hidden">
+                {words.kinds[one.kind]}: {one.title}
+                {one.done && `, ${words.stepDone}`}
+              </span>
+            </PlaceLink>
+          </li>
+        ))}
+      </ol>
+    </nav>
+  );
+}
+
+/** Where a form gives way to what came of it, the focus that was in the form goes there. */
+function Task({ found, at }: { found: Exercise; at: Step }) {
+  const box = useRef<HTMLDivElement>(null);
+  const onDone = () => {
+    if (document.activeElement === document.body) box.current?.focus();
+  };
+  const given = { of: at, exercise: found, onDone };
+  return (
+    <div ref={box} class="lesson-task" tabIndex={-1} key={at.name}>
+      {at.kind === "predict" && <Prediction {...given} />}
+      {at.kind === "experiment" && <Trial {...given} />}
+      {at.kind === "explain" && <Question {...given} />}
+      {at.kind === "hand-in" && <Ending {...given} />}
+    </div>
+  );
+}
+
+function Turn({ found, at }: { found: Exercise; at: Step }) {
+  const index = found.parts.findIndex(({ name }) => name === at.name);
+  const link = (to: Step | undefined, word: string, look: string) =>
+    to && (
+      <PlaceLink class={look} to={{ kind: "learn", exercise: found.name, step: to.name }}>
+        {word}
+      </PlaceLink>
+    );
+  return (
+    <p class="lesson-turn">
+      {link(found.parts[index - 1], `← ${words.previous}`, "button")}
+      {link(
+        found.parts[index + 1],
+        `${words.next} →`,
+        at.done || at.kind === "read" ? "button is-primary" : "button",
+      )}
+    </p>
+  );
+}
+
+const asLoaded = place.peek();
+
+/** An exercise at a step, beside the live lab. */
+export function Lesson({ name }: { name: string }) {
+  const found = exercise.value;
+  const at = step.value;
+  const heading = useRef<HTMLHeadingElement>(null);
+  useEffect(() => {
+    void openExercise(name);
+  }, [name]);
+  const here = found?.name === name && at !== null ? at.name : "";
+  useEffect(() => {
+    if (here === "") return;
+    void visit(name, here);
+    if (place.peek() !== asLoaded) heading.current?.focus();
+  }, [name, here]);
+  return (
+    <section class="surface lesson" aria-label={words.label(found?.title ?? name)}>
+      <p class="lesson-top">
+        <PlaceLink to={{ kind: "learn", exercise: "", step: "" }}>← {words.all}</PlaceLink>
+        {found && (
+          <span>
+            {words.exercise(found.number)} ·{" "}
+            {words.pointsAndLaw(found.max_points, found.law_points)}
+          </span>
+        )}
+      </p>
+      {found !== null && at !== null && found.name === name ? (
+        <>
+          <h2>{found.title}</h2>
+          <progress
+            value={found.done}
+            max={found.steps}
+            aria-label={words.progress}
+            title={words.done(found.done, found.steps)}
+          />
+          <Steps found={found} at={at} />
+          {at === found.parts[0] && (
+            <div class="lesson-intro">
+              <p>
+                <strong>{words.goal}:</strong> {found.goal}
+              </p>
+              <Prose html={found.html} />
+            </div>
+          )}
+          <h3 ref={heading} tabIndex={-1}>
+            <small class={`lesson-kind is-${at.kind}`}>{words.kinds[at.kind]}</small> {at.title}
+            {at.max_points > 0 && (
+              <small class="lesson-points">{words.points(at.max_points)}</small>
+            )}
+          </h3>
+          <Prose html={at.html} />
+          <Task found={found} at={at} />
+          <Turn found={found} at={at} />
+        </>
+      ) : (
+        problem.value === "" && <p class="hint">{words.loading}</p>
+      )}
+      <p class="problem" role="alert" hidden={problem.value === ""}>
+        {problem.value}
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,217 @@
+import { useEffect } from "preact/hooks";
+import {
+  GRADES_CSV,
+  GRADES_PAGE,
+  type Handed,
+  pageOfStudent,
+  type Student,
+} from "../../core/api/grades";
+import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { text } from "../../core/text/en";
+import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
+import {
+  cancel,
+  columns,
+  gradeAll,
+  grades,
+  handedBy,
+  job,
+  leave,
+  openGrades,
+  picked,
+  problem,
+  shown,
+  sumOf,
+  ungraded,
+} from "./grades";
+
+const words = text.grades;
+
+/** What of a hand-in stands in the table. */
+function tellHanded({ grade, problem: why }: Handed): string {
+  if (grade !== null) return words.of(formatPoints(grade.points), formatPoints(grade.max_points));
+  return why === "" ? words.ungraded : words.refused;
+}
+
+function Cell({ student, exercise }: { student: Student; exercise: string }) {
+  const handed = handedBy(student, exercise);
+  if (handed === undefined) return <td class="grades-none">{words.nothing}</td>;
+  const at = picked.value;
+  const isShown = at?.person === student.person && at.exercise === exercise;
+  return (
+    <td>
+      <button
+        type="button"
+        class={handed.problem === "" ? "" : "is-refused"}
+        aria-pressed={isShown}
+        onClick={() => {
+          picked.value = isShown ? null : { person: student.person, exercise };
+        }}
+      >
+        {tellHanded(handed)}
+      </button>
+    </td>
+  );
+}
+
+/** Students down, exercises across; a press on a number shows it by criterion. */
+function Table() {
+  return (
+    <section class="surface card desk-scroll" aria-label={words.table}>
+      <table class="desk-table grades-table">
+        <caption class="visually-hidden">{words.tableHint}</caption>
+        <thead>
+          <tr>
+            <th scope="col">{words.student}</th>
+            {columns.value.map((one) => (
+              <th key={one.name} scope="col">
+                {one.number}. {one.title}
+              </th>
+            ))}
+            <th scope="col">{words.sum}</th>
+          </tr>
+        </thead>
+        <tbody>
+          {grades.value?.students.map((student) => {
+            const sum = sumOf(student);
+            return (
+              <tr key={student.person}>
+                <th scope="row">
+                  <a
+                    href={pageOfStudent(student.person)}
+                    target="_blank"
+                    rel="noopener"
+                    title={words.report(student.name)}
+                  >
+                    {student.name}
+                  </a>
+                </th>
+                {columns.value.map(({ name }) => (
+                  <Cell key={name} student={student} exercise={name} />
+                ))}
+                <td>
+                  {sum === null ? "–" : words.of(formatPoints(sum.points), formatPoints(sum.most))}
+                </td>
+              </tr>
+            );
+          })}
+        </tbody>
+      </table>
+    </section>
+  );
+}
+
+/** One grade by criterion, or why there is none. */
+function Picked() {
+  const now = shown.value;
+  if (now === null) return <p class="hint">{words.pick}</p>;
+  const { student, handed } = now;
+  const { grade } = handed;
+  const exercise = grades.value?.exercises.find(({ name }) => name === handed.exercise);
+  return (
+    <section class="surface card" aria-labelledby="grades-picked">
+      <h3 id="grades-picked">
+        {student.name}: {exercise?.title ?? handed.exercise}
+      </h3>
+      {handed.problem !== "" && (
+        <p class="problem">
+          {grade === null ? words.noGrade : words.keptGrade} {handed.problem}
+        </p>
+      )}
+      {grade === null ? (
+        handed.problem === "" && <p>{words.notYet}</p>
+      ) : (
+        <>
+          <div class="desk-scroll">
+            <Criteria grade={grade} />
+          </div>
+          <VerifiedRuns grade={grade} />
+          <p class="hint grades-digest">
+            {words.made(grade.submission.slice(0, 12), grade.seed ?? null, grade.version)}
+          </p>
+        </>
+      )}
+    </section>
+  );
+}
+
+function Acts() {
+  const now = job.value;
+  const isBusy = isGoing(now);
+  return (
+    <div class="desk-buttons">
+      <button
+        type="button"
+        class="button is-primary"
+        disabled={isBusy || ungraded.value === 0}
+        title={words.gradeHint}
+        onClick={() => void gradeAll(false)}
+      >
+        {words.grade(ungraded.value)}
+      </button>
+      <button
+        type="button"
+        class="button"
+        disabled={isBusy}
+        title={words.againHint}
+        onClick={() => void gradeAll(true)}
+      >
+        {words.again}
+      </button>
+      <a class="button" href={GRADES_CSV} download="grades.csv">
+        {words.csv}
+      </a>
+      <a class="button" href={GRADES_PAGE} target="_blank" rel="noopener">
+        {words.page}
+      </a>
+      {now !== null && (
+        <JobProgress
+          job={now}
+          done={words.graded(now.done, now.total)}
+          total={now.total || 1}
+          label={words.grading}
+          onCancel={() => void cancel()}
+        />
+      )}
+    </div>
+  );
+}
+
+/** A class's grades: given by running again what was handed in, and shown by criterion. */
+export function GradesPage() {
+  useEffect(() => {
+    void openGrades();
+    return leave;
+  }, []);
+  const found = grades.value;
+  return (
+    <main class="page grades" aria-label={words.title}>
+      <div class="page-head">
+        <h2>{words.title}</h2>
+        <p>{words.lead}</p>
+      </div>
+      <p class="problem" role="alert" hidden={problem.value === ""}>
+        {problem.value}
+      </p>
+      {found?.not_isolated && (
+        <p class="surface card problem">
+          {words.notIsolated} {found.not_isolated}
+        </p>
+      )}
+      {found === null ? (
+        problem.value === "" && <p class="hint">{words.loading}</p>
+      ) : found.students.length === 0 ? (
+        <section class="surface card">
+          <h3>{words.empty}</h3>
+          <p>{words.emptyHint}</p>
+        </section>
+      ) : (
+        <>
+          <Acts />
+          <Table />
+          <Picked />
+        </>
+      )}
+    </main>
+  );
+}

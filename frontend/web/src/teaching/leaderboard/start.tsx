@@ -1,0 +1,158 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { isClass, isObserver } from "../../core/state/access";
+import { personName, rememberPerson } from "../../core/state/preferences";
+import { text } from "../../core/text/en";
+import { findFault, LawText } from "../../core/widgets/lawtext";
+import EXAMPLE from "./example.py?raw";
+import {
+  board,
+  cancel,
+  entries,
+  isAsking,
+  isEntered,
+  job,
+  measureLab,
+  note,
+  submit,
+} from "./leaderboard";
+
+const words = text.leaderboard;
+const LONGEST_NAME = 60;
+const ENDING = /\.py$/i;
+
+/** How far the law is, or what became of it. */
+function Progress() {
+  const now = job.value;
+  const box = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    box.current?.scrollIntoView({ block: "nearest" });
+  }, [now?.id, isGoing(now)]);
+  if (now === null) return null;
+  const failed = now.status === "failed";
+  return (
+    <div ref={box} class="surface card board-job">
+      <h3>
+        {isGoing(now) && !isEntered.value ? words.measuring(now.title) : words.measured(now.title)}
+      </h3>
+      {isEntered.value && <p class="hint">{words.labFollows}</p>}
+      {failed ? (
+        <p class="problem board-failed" role="alert">
+          <strong>{words.failed}</strong> {now.problem} {words.failedHint}
+        </p>
+      ) : (
+        <JobProgress
+          job={now}
+          done={words.runs(now.done, now.total)}
+          total={now.total || 1}
+          label={words.measuring(now.title)}
+          onCancel={() => void cancel()}
+        />
+      )}
+    </div>
+  );
+}
+
+/** The text of a law, pasted or of a file, what it is called and who submits it. */
+function Form() {
+  const [name, setName] = useState("");
+  const [author, setAuthor] = useState(personName.peek());
+  const [law, setLaw] = useState("");
+  const nameBy = (file: string) => {
+    if (name === "") setName(file.replace(ENDING, "").slice(0, LONGEST_NAME));
+  };
+  return (
+    <form
+      class="surface card desk-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (!isClass.peek()) rememberPerson(author.trim());
+        void submit({ name, author, law });
+      }}
+    >
+      <h3>{words.submit}</h3>
+      <p class="hint">{words.submitHint(board.value?.runs ?? 0)}</p>
+      <label>
+        <span>{words.name}</span>
+        <input
+          type="text"
+          required
+          maxLength={LONGEST_NAME}
+          value={name}
+          onInput={({ currentTarget }) => setName(currentTarget.value)}
+        />
+      </label>
+      {!isClass.value && (
+        <label>
+          <span>{words.author}</span>
+          <input
+            type="text"
+            maxLength={LONGEST_NAME}
+            autocomplete="name"
+            value={author}
+            onInput={({ currentTarget }) => setAuthor(currentTarget.value)}
+          />
+        </label>
+      )}
+      <LawText law={law} onLaw={setLaw} onFile={nameBy} start={EXAMPLE} startWord={words.example} />
+      <p class="hint">{words.law}</p>
+      <div class="desk-buttons">
+        <button
+          type="submit"
+          class="button is-primary"
+          disabled={
+            law.trim() === "" || findFault(law) !== "" || isAsking.value || isGoing(job.value)
+          }
+        >
+          {words.send}
+        </button>
+      </div>
+      <p role="status" hidden={note.value === ""}>
+        {note.value !== "" &&
+          words.known(entries.value.find((one) => one.key === note.value)?.name)}
+      </p>
+    </form>
+  );
+}
+
+/** How a law gets onto the board, what stands in the way here, and how far the present one is. */
+export function Start() {
+  const now = board.value;
+  if (now === null) return null;
+  const isMissing = now.missing.length > 0;
+  return (
+    <>
+      <Progress />
+      {now.not_isolated !== null ? (
+        <div class="surface card">
+          <h3>{words.submit}</h3>
+          <p class="problem">{words.notIsolated}</p>
+          <p class="hint">{now.not_isolated}</p>
+        </div>
+      ) : isObserver.value ? (
+        <p class="surface card hint">{words.observer}</p>
+      ) : (
+        <Form />
+      )}
+      {isMissing && !isObserver.value && (
+        <div class="surface card">
+          <h3>{words.lab}</h3>
+          <p class="hint">{words.missing(now.missing.length)}</p>
+          <button
+            type="button"
+            class="button"
+            disabled={isGoing(job.value)}
+            onClick={() => void measureLab()}
+          >
+            {words.measureLab}
+          </button>
+        </div>
+      )}
+      <div class="surface card">
+        <h3>{words.script}</h3>
+        <p class="hint">{words.scriptHint}</p>
+        <pre class="board-command">{words.command}</pre>
+      </div>
+    </>
+  );
+}

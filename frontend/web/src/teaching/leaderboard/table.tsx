@@ -1,0 +1,145 @@
+import type { BoardEntry } from "../../core/api/leaderboard";
+import { titleOf } from "../../core/state/laws";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { ScoreBar, ScoreKey } from "../../core/widgets/scorebar";
+import { SortHead } from "../../core/widgets/sorthead";
+import { PlaceLink } from "../../runs/list/placelink";
+import { formatMoment, formatMomentShort } from "../../runs/list/words";
+import { COLUMNS, type Column, nameOf } from "./columns";
+import { board, entries, ranks, sort, submitted } from "./leaderboard";
+
+const words = text.leaderboard;
+
+function Head({ column }: { column: Column }) {
+  const { name, hint } = words.columns[column.key];
+  return (
+    <SortHead
+      column={column.key}
+      sort={sort.value}
+      hint={hint}
+      isDownFirst={column.isDownFirst}
+      onSort={(next) => {
+        sort.value = next;
+      }}
+      class={`is-${column.key} ${column.isNumber ? "is-number" : ""}`}
+    >
+      {name}
+    </SortHead>
+  );
+}
+
+/** The score as a bar of its parts, and the ends of its interval over it, from 0 to 1. */
+function Score({ standing }: BoardEntry) {
+  const { score, low, high, parts } = standing;
+  return (
+    <td class="is-score">
+      <span class="board-score">
+        <strong>{score.toFixed(3)}</strong>{" "}
+        <small title={words.intervalHint}>{words.interval(low.toFixed(3), high.toFixed(3))}</small>
+      </span>
+      <ScoreBar parts={parts} interval={{ low, high }} />
+    </td>
+  );
+}
+
+function Row({ entry }: { entry: BoardEntry }) {
+  const { standing } = entry;
+  const { worst, parts } = standing;
+  const name = nameOf(entry);
+  const error = worst.rms_deg === null ? words.ended : words.degrees(formatNumber(worst.rms_deg));
+  const look = [
+    entry.is_installed ? "is-baseline" : "",
+    entry.key === submitted.value ? "is-mine" : "",
+  ];
+  return (
+    <tr class={look.join(" ")}>
+      <td class="is-rank is-number">{ranks.value.get(entry.key)}</td>
+      <th scope="row" class="is-law">
+        {name}
+        <small>
+          {entry.is_installed ? (
+            <span title={words.baselineHint}>{words.baseline}</span>
+          ) : entry.author ? (
+            words.by(entry.author)
+          ) : (
+            words.submittedLaw
+          )}
+        </small>
+      </th>
+      <Score {...entry} />
+      <td class="is-number">{parts.robustness.toFixed(2)}</td>
+      <td class="is-number" title={words.drawsHeld(standing.draws_held, standing.draws)}>
+        {parts.draws.toFixed(2)}
+      </td>
+      <td class="is-number">{parts.accuracy.toFixed(2)}</td>
+      <td class="is-number">{standing.tick_us === null ? "–" : standing.tick_us.toFixed(1)}</td>
+      <td class="is-worst">
+        <PlaceLink
+          to={{ kind: "leaderboard", entry: entry.key }}
+          title={worst.problem || words.seeHint(name)}
+        >
+          <span class="visually-hidden">{words.see(name)}</span>
+          <b class={worst.rms_deg === null ? "is-fault" : ""}>{error}</b>{" "}
+          <small>{worst.title}</small>
+        </PlaceLink>
+      </td>
+      <td class="is-entered" title={words.measuredWith(formatMoment(entry.entered), entry.version)}>
+        {formatMomentShort(entry.entered)}
+      </td>
+    </tr>
+  );
+}
+
+/** A law of the lab that nobody has measured in this season yet. */
+const Missing = ({ law }: { law: string }) => (
+  <tr class="is-baseline is-missing">
+    <td class="is-rank is-number">–</td>
+    <th scope="row" class="is-law">
+      {titleOf(law)}
+      <small>{words.baseline}</small>
+    </th>
+    <td colSpan={COLUMNS.length - 2}>{words.notMeasured}</td>
+  </tr>
+);
+
+/** Which colour of a bar is which part of the score. */
+const Key = () => (
+  <p class="hint board-key">
+    <ScoreKey names={words.weights} />
+    <span>
+      <b aria-hidden="true" /> {words.intervalKey}
+    </span>
+  </p>
+);
+
+/** An entry a row: the submitted laws among those of the lab. */
+export function BoardTable() {
+  return (
+    <section class="surface card" aria-labelledby="board-entries">
+      <h3 id="board-entries">{words.entries}</h3>
+      <Key />
+      <section class="desk-scroll board-scroll" aria-label={words.table}>
+        <table class="desk-table board-table">
+          <caption class="visually-hidden">{words.tableHint}</caption>
+          <thead>
+            <tr>
+              {COLUMNS.map((column) => (
+                <Head key={column.key} column={column} />
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {entries.value.map((entry) => (
+              <Row key={entry.key} entry={entry} />
+            ))}
+            {board.value?.missing.map((law) => (
+              <Missing key={law} law={law} />
+            ))}
+          </tbody>
+        </table>
+      </section>
+      <p class="hint board-note">{words.note}</p>
+    </section>
+  );
+}

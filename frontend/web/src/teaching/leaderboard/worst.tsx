@@ -1,0 +1,57 @@
+import { worstRunAddress } from "../../core/api/leaderboard";
+import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
+import { PlaceLink } from "../../runs/list/placelink";
+import { ReplayFrame } from "../../runs/list/replayframe";
+import { nameOf } from "./columns";
+import { board, looked, ranks } from "./leaderboard";
+
+const words = text.leaderboard;
+const PAPERS_LAW = "ndobc";
+const stay = () => {};
+
+/** An entry's worst run in 3D beside NDOBC. */
+export function Worst() {
+  const entry = looked.value;
+  const back = (
+    <PlaceLink to={{ kind: "leaderboard", entry: "" }} class="button">
+      ← {words.back}
+    </PlaceLink>
+  );
+  if (entry === undefined) {
+    return (
+      <div class="run-head">
+        {back}
+        {board.value !== null && <p>{words.unknown}</p>}
+      </div>
+    );
+  }
+  const { worst, score } = entry.standing;
+  const name = nameOf(entry);
+  const error = worst.rms_deg === null ? words.ended : words.rms(formatNumber(worst.rms_deg));
+  return (
+    <>
+      <div class="run-head">
+        {back}
+        <div class="board-worst">
+          <h2>{words.worstOf(name)}</h2>
+          <p>
+            {worst.title}: <strong>{error}</strong>
+            {worst.problem && ` · ${worst.problem}`} ·{" "}
+            {words.standing(ranks.value.get(entry.key) ?? 0, score.toFixed(3))}
+          </p>
+          <p class="hint">
+            {words.beside(entry.key === PAPERS_LAW ? "FL" : "NDOBC", entry.is_installed)}
+          </p>
+        </div>
+      </div>
+      <ReplayFrame
+        key={entry.key}
+        source={worstRunAddress(entry.key)}
+        name={name}
+        startS={0}
+        onMoment={stay}
+      />
+    </>
+  );
+}

@@ -1,0 +1,34 @@
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { stubBrowser } from "../../browser";
+
+const SLOW_MS = 20_000;
+const waits: number[] = [];
+
+beforeEach(() => {
+  waits.length = 0;
+  vi.spyOn(AbortSignal, "timeout").mockImplementation((waitMs) => {
+    waits.push(waitMs);
+    return new AbortController().signal;
+  });
+  stubBrowser();
+  vi.stubGlobal("fetch", async () => new Response("{}"));
+});
+
+afterEach(() => {
+  vi.restoreAllMocks();
+  vi.unstubAllGlobals();
+});
+
+it("lets a slow lab let somebody in, who would else be there twice", async () => {
+  const { comeBack, join, login } = await import("../../../src/core/api/access");
+  await Promise.all([join("Ada", "ABCD-EFGH"), comeBack("IJKL"), login("secret")]);
+  expect(waits).toHaveLength(3);
+  expect(Math.min(...waits)).toBeGreaterThan(SLOW_MS);
+});
+
+it("gives a prediction the time that a worker which has to begin takes, and asks it once", async () => {
+  const { askResponse, predict } = await import("../../../src/core/api/design");
+  await Promise.all([predict({}), askResponse({} as never)]);
+  expect(waits).toHaveLength(2);
+  expect(Math.min(...waits)).toBeGreaterThan(SLOW_MS);
+});

@@ -1,0 +1,157 @@
+import "../../browserless";
+import { beforeAll, beforeEach, expect, it, vi } from "vitest";
+
+type Modules = typeof import("../../../src/core/plots/frame") &
+  typeof import("../../../src/core/plots/span") &
+  typeof import("../../../src/core/plots/cursors") &
+  typeof import("../../../src/core/state/preferences") &
+  typeof import("../../../src/core/state/session");
+
+const asked: FrameRequestCallback[] = [];
+const FRAME_MS = 50;
+let now = 0;
+let page: Modules;
+
+/** The browser draws; how often it was asked to. */
+function passFrame(lapseMs = FRAME_MS): number {
+  const callbacks = asked.splice(0);
+  now += lapseMs;
+  for (const callback of callbacks) callback(now);
+  return callbacks.length;
+}
+
+/** Frames as long as one is asked for; how many. */
+function passFrames(): number {
+  let count = 0;
+  while (passFrame() > 0) count++;
+  return count;
+}
+
+beforeAll(async () => {
+  vi.stubGlobal("requestAnimationFrame", (callback: FrameRequestCallback) => asked.push(callback));
+  vi.stubGlobal("getComputedStyle", () => ({ getPropertyValue: () => "" }));
+  page = {
+    ...(await import("../../../src/core/plots/frame")),
+    ...(await import("../../../src/core/plots/span")),
+    ...(await import("../../../src/core/plots/cursors")),
+    ...(await import("../../../src/core/state/preferences")),
+    ...(await import("../../../src/core/state/session")),
+  };
+  page.startFrames();
+});
+
+beforeEach(() => {
+  page.goLive();
+  passFrames();
+});
+
+it("asks for no frame where there is no plot", () => {
+  page.countReceived();
+  expect(asked.length).toBe(0);
+});
+
+it("draws a new plot in one frame, and rests", () => {
+  const draw = vi.fn();
+  const drawing = page.addDrawing(draw);
+  expect(passFrames()).toBe(1);
+  expect(draw).toHaveBeenCalledOnce();
+  expect(asked.length).toBe(0);
+  drawing.remove();
+});
+
+it("asks for one frame when samples come, however many do before it", () => {
+  const draw = vi.fn();
+  const follow = vi.fn();
+  const drawing = page.addDrawing(draw);
+  const stop = page.onFrame(follow);
+  passFrames();
+  const [drawn, followed] = [draw.mock.calls.length, follow.mock.calls.length];
+  page.countReceived();
+  page.countReceived();
+  expect(asked.length).toBe(1);
+  expect(passFrames()).toBe(1);
+  expect(draw).toHaveBeenCalledTimes(drawn + 1);
+  expect(follow).toHaveBeenCalledTimes(followed + 1);
+  drawing.remove();
+  stop();
+});
+
+it("draws the last samples too that come sooner than it draws", () => {
+  let shown = -1;
+  const stop = page.onFrame(() => {
+    shown = page.received.peek();
+  });
+  passFrames();
+  page.countReceived();
+  passFrame();
+  page.countReceived();
+  passFrame(1);
+  expect(shown).toBe(page.received.peek() - 1);
+  passFrames();
+  expect(shown).toBe(page.received.peek());
+  stop();
+});
+
+it.each([
+  ["the length of the span", () => page.chooseWindow(page.windowS.peek() === 5 ? 10 : 5)],
+  ["the theme", () => page.toggleTheme()],
+  ["what is held", () => page.hold()],
+  ["the cursors", () => page.toggleCursors()],
+])("draws again for another state of %s", (_, change) => {
+  page.samples.ring.append(
+    {
+      ...{ run: 1, firstTick: 0, stride: 1, missed: 0, lanes: [1], count: 2 },
+      values: new Float32Array(0),
+    },
+    0.001,
+  );
+  const draw = vi.fn();
+  const drawing = page.addDrawing(draw);
+  passFrames();
+  draw.mockClear();
+  change();
+  expect(passFrames()).toBeGreaterThan(0);
+  expect(draw).toHaveBeenCalled();
+  drawing.remove();
+});
+
+it("draws no samples while it stands still, and those that came when it goes live", () => {
+  const draw = vi.fn();
+  const drawing = page.addDrawing(draw);
+  page.hold();
+  passFrames();
+  draw.mockClear();
+  page.countReceived();
+  expect(asked.length).toBe(0);
+  page.goLive();
+  expect(passFrames()).toBe(1);
+  expect(draw).toHaveBeenCalledOnce();
+  drawing.remove();
+});
+
+it("leaves what is scrolled out of sight, and draws it when it comes back", () => {
+  const draw = vi.fn();
+  const drawing = page.addDrawing(draw);
+  drawing.see(false);
+  passFrames();
+  draw.mockClear();
+  page.countReceived();
+  passFrames();
+  expect(draw).not.toHaveBeenCalled();
+  drawing.see(true);
+  expect(passFrames()).toBe(1);
+  expect(draw).toHaveBeenCalledOnce();
+  drawing.remove();
+});
+
+it("draws one again for another size without the others", () => {
+  const [draw, other] = [vi.fn(), vi.fn()];
+  const drawings = [page.addDrawing(draw), page.addDrawing(other)];
+  passFrames();
+  const before = other.mock.calls.length;
+  drawings[0]?.renew();
+  expect(passFrames()).toBe(1);
+  expect(draw).toHaveBeenCalledTimes(before + 1);
+  expect(other).toHaveBeenCalledTimes(before);
+  for (const drawing of drawings) drawing.remove();
+});

@@ -1,0 +1,26 @@
+import { describe, expect, it } from "vitest";
+import { nameMarks, rankOf } from "../../../src/core/plots/marklabels";
+
+const mark = (x: number, kind: string, room = 80) => ({ x, room, rank: rankOf(kind) });
+
+describe("the names of marks above the plots", () => {
+  it("stand to the right, or to the left where the plots end", () => {
+    expect(nameMarks([mark(100, "law"), mark(580, "law")], 600)).toEqual(["right", "left"]);
+  });
+
+  it("never leave out a fault for the load that came in the same moment", () => {
+    const marks = [mark(300, "fault"), mark(300, "load_on")];
+    expect(nameMarks(marks, 600)).toEqual(["right", "left"]);
+    const narrow = [mark(300, "load_off"), mark(300, "fault"), mark(300, "law")];
+    expect(nameMarks(narrow, 390)).toEqual(["left", "right", null]);
+    expect(nameMarks([mark(60, "load_on", 120), mark(60, "fault", 120)], 190)).toEqual([
+      null,
+      "right",
+    ]);
+  });
+
+  it("never cover one another, and of equal ones the newest is named", () => {
+    const marks = [mark(100, "gains"), mark(130, "gains"), mark(160, "gains")];
+    expect(nameMarks(marks, 600)).toEqual(["left", null, "right"]);
+  });
+});

@@ -1,0 +1,28 @@
+import { describe, expect, it } from "vitest";
+import { piecesOf } from "../../../src/core/plots/roll";
+
+describe("the roll that a plot's strokes are on", () => {
+  const WIDTH = 7;
+  /** The columns of the roll, each with the pixel since time 0 that is on it. */
+  const roll = (left: number, first: number) =>
+    piecesOf(left % WIDTH, first, WIDTH).flatMap(({ from, to, shift }) =>
+      Array.from({ length: to - from }, (_, index) => [from + index, left + from + index - shift]),
+    );
+
+  it("has every column of the plot once", () => {
+    for (let left = 0; left < 2 * WIDTH; left++) {
+      for (let first = 0; first <= WIDTH; first++) {
+        const pixels = roll(left, first).map(([, pixel]) => pixel);
+        expect(pixels).toEqual(
+          Array.from({ length: WIDTH - first }, (_, index) => left + first + index),
+        );
+      }
+    }
+  });
+
+  it("leaves each pixel where it is while time goes on", () => {
+    for (let left = 0; left < 3 * WIDTH; left++) {
+      for (const [column, pixel] of roll(left, 0)) expect(column).toBe((pixel as number) % WIDTH);
+    }
+  });
+});

@@ -1,0 +1,57 @@
+import { expect, it } from "vitest";
+import type { SessionState } from "../../../src/core/api/types";
+import { joinPast, type Progress } from "../../../src/core/state/past";
+
+const stretch = (name: string, end_tick: number | null) => ({ name, end_tick });
+const ended = (start_tick: number, end_tick: number) => ({ start_tick, end_tick });
+const stateAt = (tick: number, rest: object) =>
+  ({ run_number: 1, rate_hz: 1000, tick, ...rest }) as unknown as SessionState;
+
+const KNOWN = stateAt(500, {
+  law: "fl",
+  events: [{ tick: 100 }, { tick: 400 }],
+  ended_windows: [ended(0, 100), ended(100, 400)],
+  lanes: [
+    { id: 1, stretches: [stretch("FL", 400), stretch("NDOBC", null)] },
+    { id: 2, stretches: [stretch("FL", null)] },
+  ],
+});
+
+it("keeps what was over before, and takes what a message tells from its tick on", () => {
+  const told = stateAt(700, {
+    events: [{ tick: 600 }],
+    ended_windows: [ended(400, 600)],
+    lanes: [
+      { id: 1, stretches: [stretch("NDOBC", 600), stretch("NDOBC β 70", null)] },
+      { id: 3, stretches: [stretch("FL", null)] },
+    ],
+  });
+  const joined = joinPast(KNOWN, told as Progress, 500);
+  expect(joined.events.map(({ tick }) => tick)).toEqual([100, 400, 600]);
+  expect(joined.ended_windows.map(({ end_tick }) => end_tick)).toEqual([100, 400, 600]);
+  expect(joined.lanes.map((lane) => lane.stretches.map(({ name }) => name))).toEqual([
+    ["FL", "NDOBC", "NDOBC β 70"],
+    ["FL"],
+  ]);
+});
+
+it("takes nothing twice where an answer has told it already", () => {
+  const told = stateAt(500, {
+    events: [{ tick: 400 }],
+    ended_windows: [ended(100, 400)],
+    lanes: KNOWN.lanes,
+  });
+  expect(joinPast(KNOWN, told as Progress, 300)).toEqual(KNOWN);
+});
+
+it("forgets all where a message tells all, and what is over for a minute", () => {
+  const told = stateAt(500, { events: [], ended_windows: [] });
+  expect(joinPast(KNOWN, told as Progress, 0).events).toEqual([]);
+  const later = joinPast(KNOWN, stateAt(60_200, { ended_windows: [] }) as Progress, 60_000);
+  expect(later.ended_windows.map(({ end_tick }) => end_tick)).toEqual([400]);
+});
+
+it("leaves alone what a message does not tell", () => {
+  const joined = joinPast(KNOWN, { run_number: 1, tick: 900 }, 800);
+  expect(joined).toEqual({ ...KNOWN, tick: 900 });
+});

@@ -1,0 +1,72 @@
+import "../../browserless";
+import { describe, expect, it } from "vitest";
+import type { Violation } from "../../../src/core/api/errors";
+import { QUANTITIES, quantityOf } from "../../../src/core/quantities";
+import { explainViolation } from "../../../src/core/state/refusal";
+
+const violation = (change: Partial<Violation>): Violation => ({
+  name: "frequency_hz",
+  value: null,
+  unit: "",
+  bound: "given",
+  limits: {},
+  finding: "",
+  message: "as the server says",
+  ...change,
+});
+
+describe("a refusal on the page", () => {
+  it("has the name and the unit that the user typed", () => {
+    const amplitude = violation({
+      name: "amplitude_rad",
+      value: (9999 * Math.PI) / 180,
+      bound: "at most 6.28319 rad",
+      limits: { le: 2 * Math.PI },
+    });
+    expect(explainViolation(amplitude)).toBe(
+      "Amplitude: 9999 deg is out of range, at most 360 deg. It stays as it was.",
+    );
+    const lag = violation({
+      name: "current_lag.time_constant_s",
+      value: 0.2,
+      limits: { le: 0.05 },
+    });
+    expect(explainViolation(lag)).toContain("Time constant: 200 ms is out of range, at most 50 ms");
+    const stiffness = violation({ name: "stiffness", value: 151, limits: { ge: 1.7, le: 150.56 } });
+    expect(explainViolation(stiffness)).toContain(
+      "151 N·m/rad is out of range, from 1.7 to 150.56 N·m/rad",
+    );
+  });
+
+  it("tells which of several of one name it is about", () => {
+    const names = (path: string) => quantityOf(path)?.label;
+    expect(names("bandwidth_rad_per_s[2]")).toContain("Motor 2");
+    expect(names("actuator.link_inertia_kg_m2")).toBe("M link inertia, True");
+    expect(names("nominal.link_inertia_kg_m2")).toBe("M link inertia, Model");
+    expect(names("noise.motor_std_rad")).toBe("Motors, std. dev.");
+  });
+
+  it("tells poles, not coefficients", () => {
+    const gains = violation({
+      name: "position_coefficients",
+      value: [1, 2, 3, 4],
+      bound: "Hurwitz",
+      finding: "24.4 ± 24.4j lies right of the imaginary axis",
+    });
+    expect(explainViolation(gains)).toBe(
+      "Position poles: 24.4 ± 24.4j lies right of the imaginary axis.",
+    );
+  });
+
+  it("leaves what the page has no name for as the server says it", () => {
+    expect(explainViolation(violation({ name: "rivals[0].law" }))).toBe("as the server says");
+    expect(quantityOf("toString")).toBeNull();
+  });
+
+  it("knows every field by a name that is not the API's", () => {
+    for (const [name, { label }] of Object.entries(QUANTITIES)) {
+      expect(label, name).not.toContain("_");
+      expect(label.length, name).toBeGreaterThan(2);
+    }
+  });
+});

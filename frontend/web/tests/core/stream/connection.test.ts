@@ -1,0 +1,82 @@
+import { describe, expect, it, vi } from "vitest";
+import { backoffMs, type Finding, StreamConnection } from "../../../src/core/stream/connection";
+
+describe("reconnecting", () => {
+  it("waits longer each time, up to about four seconds", () => {
+    const waits = [0, 1, 2, 3, 4, 9].map((attempt) => backoffMs(attempt, 0.5));
+    expect(waits).toEqual([500, 1000, 2000, 4000, 4000, 4000]);
+    expect(backoffMs(0, 0)).toBeLessThan(backoffMs(0, 1));
+  });
+});
+
+interface Socket {
+  onclose: (() => void) | null;
+  onmessage: ((event: { data: string }) => void) | null;
+  close: () => void;
+}
+
+/** Every socket that is opened. */
+function stubSockets(): Socket[] {
+  const sockets: Socket[] = [];
+  vi.stubGlobal(
+    "WebSocket",
+    class {
+      onclose: (() => void) | null = null;
+      onmessage: ((event: { data: string }) => void) | null = null;
+      constructor() {
+        sockets.push(this);
+      }
+      close() {}
+    },
+  );
+  return sockets;
+}
+
+describe("a stream that is slow to come", () => {
+  it("is lost only once it was there", async () => {
+    vi.useFakeTimers();
+    const sockets = stubSockets();
+    const phases: string[] = [];
+    const connection = new StreamConnection(
+      () => new URL("ws://lab/stream"),
+      async () => "down",
+      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
+    );
+    connection.open();
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(sockets.length, "it has tried again").toBeGreaterThan(1);
+    expect(phases).toEqual([]);
+    sockets.at(-1)?.onmessage?.({ data: "{}" });
+    sockets.at(-1)?.onclose?.();
+    expect(phases).toEqual(["live", "lost"]);
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(phases.at(-1)).toBe("lost");
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+});
+
+describe("a stream whose session has ended", () => {
+  it("says so and does not come back by itself, while one that only broke does", async () => {
+    vi.useFakeTimers();
+    const sockets = stubSockets();
+    const findings: Finding[] = ["up", "ended"];
+    const phases: string[] = [];
+    const connection = new StreamConnection(
+      () => new URL("ws://lab/stream"),
+      async () => findings.shift() ?? "down",
+      { onPhase: (phase) => void phases.push(phase), onText: () => {}, onBinary: () => {} },
+    );
+    connection.open();
+    sockets.at(-1)?.onclose?.();
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(sockets.length, "it was there: opened again").toBeGreaterThan(1);
+    const opened = sockets.length;
+    sockets.at(-1)?.onclose?.();
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(phases.at(-1)).toBe("ended");
+    expect(sockets).toHaveLength(opened);
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+});

@@ -1,0 +1,24 @@
+import { describe, expect, it } from "vitest";
+import { positionOf, STEPS, valueAt } from "../../../src/core/widgets/scale";
+
+describe("slider scale", () => {
+  const even = { min: -90, max: 90, step: 1 };
+  const byRatio = { min: 1.7, max: 150.56, logarithmic: true };
+
+  it("reaches both ends exactly", () => {
+    for (const range of [even, byRatio]) {
+      expect(valueAt(0, range)).toBe(range.min);
+      expect(valueAt(STEPS, range)).toBe(range.max);
+    }
+  });
+
+  it("finds a value again", () => {
+    expect(valueAt(positionOf(30, even), even)).toBe(30);
+    expect(valueAt(positionOf(60, byRatio), byRatio)).toBeCloseTo(60, 0);
+  });
+
+  it("holds what lies beyond at the end", () => {
+    expect(positionOf(500, byRatio)).toBe(STEPS);
+    expect(positionOf(-500, even)).toBe(0);
+  });
+});

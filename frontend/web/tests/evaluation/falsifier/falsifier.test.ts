@@ -1,0 +1,168 @@
+import "../../browserless";
+import { beforeEach, describe, expect, test } from "vitest";
+import type { Adversary, LawTrace, Scenario, Search } from "../../../src/core/api/falsifications";
+import {
+  changeKind,
+  describeTerms,
+  readForm,
+  writeForm,
+} from "../../../src/evaluation/falsifier/definition";
+
+const { rankLaws } = await import("../../../src/evaluation/falsifier/laws");
+const { spanOf } = await import("../../../src/evaluation/falsifier/span");
+const { besideOf, kept, laws, scenario, search } = await import(
+  "../../../src/evaluation/falsifier/falsifier"
+);
+const { place, readPlace, writePlace } = await import("../../../src/runs/list/place");
+const { tellJob } = await import("../../../src/core/jobs/progress");
+
+const ADVERSARY: Adversary = {
+  title: "A pulse and a sine",
+  law: "ndobc",
+  harm: "peak",
+  base: { figure: "4b", effects: "rig", loads: [] },
+  duration_s: 9,
+  measure_from_s: 2,
+  terms: [
+    { kind: "pulse", bodies: ["link"], torque_nm: 1.4, start_s: [2, 7], duration_s: [0.01, 2] },
+    { kind: "sine", bodies: ["motor1"], torque_nm: 2, start_s: [2, 7], frequency_hz: [0.1, 20] },
+    { kind: "step", bodies: ["link", "motor2"], torque_nm: 1, start_s: [0, 1] },
+  ],
+  vary: [],
+};
+const perturbed = (path: string, low: number, high: number) =>
+  ({ kind: "uniform", path, low, high, relative: true }) as Adversary["vary"][number];
+const INERTIA = "actuator.link_inertia_kg_m2";
+const SPRING = "actuator.spring_stiffness_n_per_m";
+
+describe("the form of an adversary", () => {
+  test("what it does not show is sent back as it came", () => {
+    expect(writeForm(readForm(ADVERSARY))).toEqual(ADVERSARY);
+    const other = { ...ADVERSARY, vary: [perturbed("gains.x", 0.5, 1.5)] };
+    expect(writeForm(readForm(other))).toEqual(other);
+  });
+
+  test("a model that is off is one number of per cent", () => {
+    const off = {
+      ...ADVERSARY,
+      vary: [perturbed(INERTIA, 0.8, 1.2), perturbed(SPRING, 0.8, 1.2)],
+    };
+    const form = readForm(off);
+    expect([form.offPercent, form.vary]).toEqual([20, []]);
+    expect(writeForm(form)).toEqual(off);
+    expect(writeForm({ ...form, offPercent: 0 }).vary).toEqual([]);
+    const uneven = {
+      ...ADVERSARY,
+      vary: [perturbed(INERTIA, 0.8, 1.2), perturbed(SPRING, 0.9, 1.1)],
+    };
+    expect(readForm(uneven).offPercent).toBe(0);
+    expect(writeForm(readForm(uneven))).toEqual(uneven);
+  });
+
+  test("a load of another kind has that kind's own range", () => {
+    const form = readForm(ADVERSARY);
+    const [pulse] = form.terms;
+    const sine = writeForm({ ...form, terms: [changeKind(pulse as never, "sine")] }).terms[0];
+    expect(sine).toMatchObject({ kind: "sine", frequency_hz: [0.1, 20], torque_nm: 1.4 });
+    expect(sine).not.toHaveProperty("duration_s");
+  });
+
+  test("a changed family is called by what it may do", () => {
+    const words = {
+      kinds: { step: "Step", pulse: "Pulse", sine: "Sine" },
+      bodies: { link: "link", motor1: "motor 1", motor2: "motor 2" },
+    };
+    const { terms } = readForm(ADVERSARY);
+    expect(describeTerms(terms.slice(0, 1), words)).toBe("Pulse of at most 1.4 N·m on link");
+    expect(describeTerms([...terms, ...terms, ...terms], words).length).toBeLessThanOrEqual(200);
+  });
+});
+
+const lawOf = (law: string, peak: number, faultS: number | null = null): LawTrace => ({
+  law,
+  fault: faultS === null ? null : "lever_end",
+  fault_s: faultS,
+  metrics: { peak_position_error_rad: peak },
+  position_error_rad: [],
+  stiffness_error_nm_per_rad: [],
+});
+
+test("laws that held come first by their error, then the one that held on longest", () => {
+  const ranked = rankLaws([
+    lawOf("early", 0.1, 2.5),
+    lawOf("poor", 0.3),
+    lawOf("late", 9, 4),
+    lawOf("good", 0.2),
+  ]);
+  expect(ranked.map(({ law }) => law)).toEqual(["good", "poor", "late", "early"]);
+});
+
+test("the picture begins a second before the first load, or where the run does", () => {
+  const time = [0, 1, 2, 9];
+  const load = (start: number) => ({ kind: "step", start_s: start });
+  expect(spanOf({ loads: [load(5), load(3)] } as unknown as Scenario, time)).toEqual({
+    from: 2,
+    to: 9,
+  });
+  expect(spanOf({ loads: [load(0.4)] } as unknown as Scenario, time).from).toBe(0);
+  expect(spanOf({} as Scenario, time)).toEqual({ from: 0, to: 9 });
+});
+
+describe("what is looked at", () => {
+  const at = (more: object) => ({ kind: "falsifier", search: "", scenario: "", laws: [], ...more });
+  beforeEach(() => {
+    search.value = null;
+    kept.value = null;
+  });
+
+  test("a search and a scenario have an address, with the laws that are put through", () => {
+    for (const [address, more] of [
+      ["?falsifier=all", {}],
+      ["?falsifier=3f2a", { search: "3f2a" }],
+      ["?falsifier=all&scenario=blow&laws=ndobc,fl", { scenario: "blow", laws: ["ndobc", "fl"] }],
+    ] as const) {
+      expect(readPlace(address)).toEqual(at(more));
+      expect(writePlace(readPlace(address), "?studies=all&sx=a")).toBe(address);
+    }
+    expect(writePlace({ kind: "lab" }, "?falsifier=all&scenario=x&laws=a")).toBe("");
+  });
+
+  test("of a search that goes on the worst and the one law; of one that ended the simplest", () => {
+    place.value = readPlace("?falsifier=3f2a");
+    const found = (law: string) => ({ found: { law } });
+    search.value = { status: "running", worst: found("fl"), scenario: null } as unknown as Search;
+    expect([scenario.value, laws.value]).toEqual([found("fl"), ["fl"]]);
+    const simple = { ...found("fl"), loads: [] };
+    search.value = { ...search.value, status: "done", scenario: simple } as Search;
+    expect([scenario.value, laws.value]).toEqual([simple, ["fl", "ndobc"]]);
+    place.value = readPlace("?falsifier=3f2a&laws=esp");
+    expect(laws.value).toEqual(["esp"]);
+    expect(besideOf("ndobc")).toEqual(["ndobc", "fl"]);
+  });
+
+  test("a scenario that is kept is found by its name, whatever was searched before", () => {
+    place.value = readPlace("?falsifier=all&scenario=blow");
+    expect(scenario.value).toBeNull();
+    const one = { title: "A blow", found: null };
+    kept.value = [{ name: "blow", title: "A blow", scenario: one }];
+    expect(scenario.value).toEqual(one);
+    expect(laws.value).toEqual(["ndobc", "fl"]);
+  });
+});
+
+describe("how a job stands", () => {
+  const job = (more: object) =>
+    ({ status: "running", rate_per_s: 80, left_s: 75, problem: null, ...more }) as never;
+  test("rate and time left while it runs, compiling until there is a rate", () => {
+    expect(tellJob(job({}))).toEqual(["running", "80 runs/s", "1:15 left"]);
+    expect(tellJob(job({ rate_per_s: null, left_s: null }))).toEqual(["running", "compiling …"]);
+  });
+  test("nothing of what is done, and why of what failed", () => {
+    expect(tellJob(job({ status: "done" }))).toEqual([]);
+    expect(tellJob(job({ status: "failed", problem: "It needs none." }))).toEqual([
+      "failed",
+      "It needs none.",
+    ]);
+    expect(tellJob(null)).toEqual([]);
+  });
+});

@@ -1,0 +1,44 @@
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { stubBrowser } from "../../browser";
+
+const asked: string[] = [];
+let refusal: string | null = null;
+
+async function load() {
+  stubBrowser();
+  vi.stubGlobal("history", { pushState: () => {}, replaceState: () => {} });
+  vi.stubGlobal("location", { search: "?studies=mine", href: "http://lab/?studies=mine" });
+  vi.stubGlobal("fetch", async (url: URL, { method }: RequestInit) => {
+    asked.push(`${method} ${url.pathname.replace("/api/v1/", "")}`);
+    if (method === "DELETE" && refusal !== null) {
+      return new Response(JSON.stringify({ detail: refusal, violations: [] }), { status: 409 });
+    }
+    if (method === "DELETE") return new Response(null, { status: 204 });
+    return new Response(JSON.stringify({ built_in: [], kept: [], metrics: [] }));
+  });
+  return import("../../../src/evaluation/studies/studies");
+}
+
+beforeEach(() => {
+  vi.resetModules();
+  asked.length = 0;
+  refusal = null;
+});
+afterEach(() => vi.unstubAllGlobals());
+
+it("a study that was deleted is left, and the list is read anew", async () => {
+  const studies = await load();
+  expect(studies.chosenName.value).toBe("mine");
+  expect(await studies.remove("mine")).toBe(true);
+  expect(asked).toEqual(["DELETE studies/mine", "GET studies"]);
+  expect(studies.chosenName.value).toBe("");
+  expect(studies.isBusy.value).toBe("");
+});
+
+it("one that is not deleted stays where it is, and why is said", async () => {
+  const studies = await load();
+  refusal = "Study mine is being worked at by another process.";
+  expect(await studies.remove("mine")).toBe(false);
+  expect(studies.problem.value).toBe(refusal);
+  expect(studies.chosenName.value).toBe("mine");
+});

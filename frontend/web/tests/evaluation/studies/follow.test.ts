@@ -1,0 +1,45 @@
+import "../../browserless";
+import { expect, test, vi } from "vitest";
+
+const api = {
+  readStudy: vi.fn(),
+  readSummary: vi.fn(),
+  readSensitivity: vi.fn(),
+  readRows: vi.fn(),
+  listStudies: vi.fn(),
+};
+vi.doMock("../../../src/core/api/studies", async (load) => ({ ...(await load<object>()), ...api }));
+const { follow, indices } = await import("../../../src/evaluation/studies/studies");
+const { place } = await import("../../../src/runs/list/place");
+
+const ended = (name: string) => ({
+  name,
+  study: { sampling: "sensitivity" },
+  job: { state: "done" },
+  laws: ["fl"],
+  columns: [],
+  done: 8,
+});
+const look = (study: string) => {
+  place.value = { kind: "studies", study, look: {} };
+  return follow(study);
+};
+
+test("the shares of a study that is left before they are worked out stand under no other", async () => {
+  let arrive: (shares: object[]) => void = () => undefined;
+  for (const call of Object.values(api)) call.mockRejectedValue(new Error("not asked for here"));
+  api.readStudy.mockImplementation(async (name: string) => ended(name));
+  api.readSensitivity.mockImplementationOnce(
+    () =>
+      new Promise((resolve) => {
+        arrive = resolve;
+      }),
+  );
+  const first = look("first");
+  await vi.waitFor(() => expect(api.readSensitivity).toHaveBeenCalledOnce());
+  api.readSensitivity.mockResolvedValue([{ parameter: "of the second" }]);
+  await look("second");
+  arrive([{ parameter: "of the first" }]);
+  await first;
+  expect(indices.value).toEqual([{ parameter: "of the second" }]);
+});

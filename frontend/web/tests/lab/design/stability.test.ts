@@ -1,0 +1,74 @@
+import { describe, expect, test } from "vitest";
+import { pathOf, shareOf } from "../../../src/lab/design/curves";
+import { errorAxis } from "../../../src/lab/design/erroraxis";
+import { caveatOf, rangeOf } from "../../../src/lab/design/words";
+
+const RANGE = { parameter: "link_inertia_kg_m2", symbol: "M", present: 0.67 };
+
+describe("charts of a design", () => {
+  test("a logarithmic axis has equal ways for equal ratios", () => {
+    const axis = { from: 0.1, to: 100, ticks: [], label: "Hz", isLogarithmic: true };
+    expect(shareOf(0.1, axis)).toBeCloseTo(0);
+    expect(shareOf(1, axis)).toBeCloseTo(1 / 3);
+    expect(shareOf(100, axis)).toBeCloseTo(1);
+  });
+
+  test("no points are no path", () => {
+    const axis = { from: 0, to: 1, ticks: [], label: "" };
+    expect(pathOf([], axis, axis)).toBe("");
+    expect(
+      pathOf(
+        [
+          [0, 0],
+          [1, 1],
+        ],
+        axis,
+        axis,
+      ),
+    ).toMatch(/^M.*L/);
+  });
+
+  test("the axis of the error holds both curves and the zero", () => {
+    const axis = errorAxis([
+      [
+        [0, 0],
+        [0.1, -4.1],
+      ],
+      [
+        [0, 0],
+        [0.1, -5.9],
+      ],
+    ]);
+    expect(axis.from).toBeLessThan(-5.9);
+    expect(axis.to).toBeGreaterThan(0);
+    expect(axis.ticks).toContain(0);
+  });
+});
+
+describe("curves of a loop that is unstable", () => {
+  test("a loop that settles on the rig needs no words", () => {
+    expect(caveatOf({ largest_pole: 0.97, encoders: "rig" })).toBeNull();
+  });
+
+  test("of one that only settles here it is said where it does not, and by how much", () => {
+    const caveat = caveatOf({ largest_pole: 1.0312, encoders: "rig" });
+    expect(caveat?.short).toBe("unstable on the rig");
+    expect(caveat?.told).toContain("|z| = 1.0312");
+    expect(caveat?.told).toContain("without the encoders' counts and delay");
+  });
+
+  test("a session with encoders of its own is spoken of itself, also at the edge", () => {
+    const caveat = caveatOf({ largest_pole: 1, encoders: "session" });
+    expect(caveat?.short).toContain("does not come to rest");
+    expect(caveat?.told).not.toContain("rig");
+  });
+});
+
+describe("how wrong a parameter may be", () => {
+  test("both ends, one, or none", () => {
+    expect(rangeOf({ ...RANGE, low: 0.2317, high: 3.844 })).toBe("0.23 – 3.84");
+    expect(rangeOf({ ...RANGE, low: null, high: 4.39 })).toBe("up to 4.39");
+    expect(rangeOf({ ...RANGE, low: 0.25, high: null })).toBe("from 0.25");
+    expect(rangeOf({ ...RANGE, low: null, high: null })).toBe("all");
+  });
+});

@@ -1,0 +1,63 @@
+import { describe, expect, it } from "vitest";
+import { readLevels, writeLevels } from "../../../src/lab/panels/levels";
+import { buildReference, drawCourse, FIRST, INPUTS } from "../../../src/lab/panels/shapes";
+
+describe("references from what is typed", () => {
+  it("stiffness stays in its own unit", () => {
+    expect(buildReference("stiffness", "minimum_jerk", FIRST.stiffness)).toEqual({
+      kind: "minimum_jerk",
+      start_nm_per_rad: 15,
+      end_nm_per_rad: 60,
+      duration_s: 5,
+    });
+  });
+
+  it("a chirp has its frequencies and its angle", () => {
+    const chirp = buildReference("position", "chirp", { ...FIRST.position, amplitude: "90" });
+    expect(chirp).toMatchObject({ amplitude_rad: Math.PI / 2, start_hz: 0.1, end_hz: 1 });
+  });
+
+  it("is nothing while a number that it needs is missing, and needs no other", () => {
+    for (const shape of ["minimum_jerk", "chirp"] as const) {
+      for (const name of INPUTS[shape]) {
+        expect(buildReference("position", shape, { ...FIRST.position, [name]: " " })).toBeNull();
+      }
+    }
+    expect(buildReference("position", "chirp", { ...FIRST.position, low: "" })).not.toBeNull();
+  });
+});
+
+describe("steps", () => {
+  it("between two levels are a list", () => {
+    expect(writeLevels(-20, 20, 0.7, 3)).toBe("0, -20\n0.7, 20\n1.4, -20\n2.1, 20");
+  });
+
+  it("are what the list says, in SI, however its numbers are kept apart", () => {
+    expect(readLevels("position", " 0, 0\n2 180\n\n4.5;-90\n")).toEqual({
+      kind: "steps",
+      time_s: [0, 2, 4.5],
+      position_rad: [0, Math.PI, -Math.PI / 2],
+    });
+    expect(readLevels("stiffness", "0\t15\n1\t60")).toMatchObject({
+      stiffness_nm_per_rad: [15, 60],
+    });
+  });
+
+  it("are refused by the line that is none, and by their number", () => {
+    expect(() => readLevels("position", "0, 0\n1, two\n")).toThrow("Line 2 is “1, two”");
+    expect(() => readLevels("position", "0, 0\n\n3")).toThrow("Line 3 is “3”");
+    expect(() => readLevels("position", "0, 0, 1")).toThrow("a time and a level");
+    expect(() => readLevels("position", " \n")).toThrow("0 lines: it must have 1 to 200");
+    expect(() => readLevels("position", writeLevels(0, 1, 1, 200))).toThrow("201 lines");
+  });
+});
+
+describe("the picture before", () => {
+  it("has the greatest on top and time to the right", () => {
+    expect(drawCourse([0, 1, 2], [-1, 1, 0], 100, 50)).toBe("0.00,50.00 50.00,0.00 100.00,25.00");
+  });
+
+  it("draws what stands still in the middle", () => {
+    expect(drawCourse([0, 1], [3, 3], 10, 10)).toBe("0.00,5.00 10.00,5.00");
+  });
+});

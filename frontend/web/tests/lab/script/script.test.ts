@@ -1,0 +1,166 @@
+import { beforeEach, describe, expect, it } from "vitest";
+import { calls, clearCalls, noteCall, noteDownload } from "../../../src/core/api/calls";
+import type { CommandKind, RunOrigin } from "../../../src/core/api/types";
+import { writeCommand, writeExperiment } from "../../../src/lab/script/experiment";
+import { buildValue, toPython } from "../../../src/lab/script/python";
+import { toSnippet, toSnippets } from "../../../src/lab/script/snippets";
+
+const LAB = new URL("http://127.0.0.1:8000/api/v1/");
+const load = { method: "post", path: "sessions/lab/loads", body: { kind: "paper" } };
+
+describe("the calls of the page", () => {
+  beforeEach(clearCalls);
+
+  it("are those that change something, with the time that the answer tells", () => {
+    noteCall("get", "sessions/lab", undefined, 200);
+    noteCall("post", "references/position/preview", { kind: "constant" }, 200, { time_s: [0] });
+    noteCall("post", "sessions/lab/loads", { kind: "paper" }, 201, { time_s: 2.5 });
+    noteCall("put", "sessions/lab/speed", { factor: 99 }, 422, { message: "no" });
+    noteDownload("runs/a/export?kind=csv");
+    expect(calls.value.map(({ path, status, timeS }) => [path, status, timeS])).toEqual([
+      ["sessions/lab/loads", 201, 2.5],
+      ["sessions/lab/speed", 422, null],
+      ["runs/a/export?kind=csv", 200, null],
+    ]);
+  });
+
+  it("never hold the secret", () => {
+    noteCall("post", "login", { secret: "correct horse" }, 204);
+    expect(calls.value).toEqual([]);
+  });
+
+  it("are kept to the newest 200", () => {
+    for (let index = 0; index < 250; index++) noteCall("put", String(index), undefined, 200);
+    expect(calls.value).toHaveLength(200);
+    expect(calls.value.at(-1)?.path).toBe("249");
+  });
+});
+
+describe("a call as code", () => {
+  it("is one line of Python or of a shell", () => {
+    expect(toSnippet(load, "python", LAB)).toBe(
+      'httpx.post("http://127.0.0.1:8000/api/v1/sessions/lab/loads", json={"kind": "paper"})',
+    );
+    expect(toSnippet(load, "curl", LAB)).toBe(
+      "curl -X POST 'http://127.0.0.1:8000/api/v1/sessions/lab/loads'" +
+        ` -H 'Content-Type: application/json' -d '{"kind":"paper"}'`,
+    );
+    expect(toSnippets([load], "python", LAB)).toMatch(/^import httpx\n\nhttpx\.post/);
+  });
+
+  it("lets nothing out of its quotes", () => {
+    const named = { method: "post", path: "a", body: { name: `it's "1"\n\\$(x)` } };
+    expect(toSnippet(named, "curl", LAB)).toContain(`it'\\''s`);
+    expect(toSnippet(named, "python", LAB)).toContain('"it\'s \\"1\\"\\n\\\\$(x)"');
+  });
+
+  it("says None, True and False", () => {
+    expect(toPython({ a: null, b: [true, false, 1.5], c: undefined })).toBe(
+      '{"a": None, "b": [True, False, 1.5]}',
+    );
+  });
+
+  it("breaks a long value into lines", () => {
+    const long = Object.fromEntries(Array.from({ length: 9 }, (_, i) => [`a_long_name_${i}`, i]));
+    expect(buildValue("svsa.A", long, "").split("\n")).toHaveLength(11);
+    expect(buildValue("svsa.A", { b: 1 }, "")).toBe("svsa.A(b=1)");
+  });
+});
+
+const DEFAULTS = {
+  law: "ndobc",
+  rivals: [],
+  effects: {},
+  seed: 0,
+  position: { kind: "sine" },
+  stiffness: { kind: "constant", stiffness_nm_per_rad: 15 },
+  gains: { position_coefficients: [1] },
+  observer: { bandwidth_rad_per_s: [60, 60, 60] },
+  actuator: { link_inertia_kg_m2: 0.01, joint_offset_m: null },
+  nominal: { link_inertia_kg_m2: 0.01 },
+  loads: [],
+};
+const origin = (change: object, commands: RunOrigin["commands"] = []): RunOrigin => ({
+  configuration: { ...DEFAULTS, ...change },
+  commands,
+  tick: 7250,
+  period_s: 0.001,
+  plant: "simulated",
+  defaults: DEFAULTS,
+});
+type Given = RunOrigin["commands"][number];
+const given = <Kind extends CommandKind>(
+  tick: number,
+  kind: Kind,
+  argument: Extract<Given["command"], { kind: Kind }>["argument"],
+) => ({ tick, command: { tick, kind, argument } }) as Given;
+
+describe("an experiment as a script", () => {
+  it("says where a bench was stopped, which a simulation cannot do again", () => {
+    const script = writeExperiment(origin({}, [given(2500, "stop", null)]), "bench", "http://lab");
+    expect(script).toContain("# Here the bench was stopped");
+  });
+
+  it("gives every command at its time and goes on to the end", () => {
+    const script = writeExperiment(
+      origin({}, [
+        given(2500, "load", { kind: "paper", start_s: null }),
+        given(2500, "law", "fl"),
+        given(4000, "unload", 1),
+      ]),
+      "3 kg",
+      "http://lab",
+    );
+    const lines = script.split("\n").map((line) => line.trim());
+    const from = lines.indexOf("session.reset()");
+    expect(lines.slice(from + 1, from + 7)).toEqual([
+      "session.run_until(2.5)",
+      "session.loads.add(svsa.PaperLoad())",
+      'session.law = "fl"',
+      "session.run_until(4)",
+      "session.loads.remove(1)",
+      "session.run_until(7.25)",
+    ]);
+  });
+
+  it("sets only what differs from a new session", () => {
+    const plain = writeExperiment(origin({}), "a", "http://lab");
+    expect(plain).not.toMatch(/session\.\w+ = /);
+    const changed = writeExperiment(
+      origin({
+        stiffness: { kind: "constant", stiffness_nm_per_rad: 60 },
+        actuator: { link_inertia_kg_m2: 0.02, joint_offset_m: null },
+        rivals: [{ law: "fl", gains: null }],
+      }),
+      "a",
+      "http://lab",
+    );
+    expect(changed.match(/session\.\w+ = .*/g)).toEqual([
+      "session.stiffness = svsa.ConstantStiffness(stiffness_nm_per_rad=60)",
+      'session.rivals = [svsa.Lane(law="fl")]',
+      "session.actuator = session.actuator.changed(link_inertia_kg_m2=0.02)",
+    ]);
+  });
+
+  it("cannot be broken out of by a name", () => {
+    const script = writeExperiment(origin({}), '"""\nimport os\n"""\\', "http://lab");
+    expect(script.split("\n")[0]).toBe(
+      `"""''' import os '''/: an experiment of SVSA Lab, 0 to 7.25 s, to be run again.`,
+    );
+  });
+
+  it("knows the words of every kind of command", () => {
+    expect(writeCommand("rivals", [])).toEqual(["session.rivals = []"]);
+    const setting = { lane: 3, setting: { law: "fl", gains: null } };
+    expect(writeCommand("lane", setting)).toEqual(['session.set_lane(3, svsa.Lane(law="fl"))']);
+    expect(writeCommand("laws", ["fl", "ndobc"])).toEqual(['session.set_laws("fl", "ndobc")']);
+    const jerk = { kind: "minimum_jerk", start_rad: 0, end_rad: 1 };
+    expect(writeCommand("position", jerk)).toEqual([
+      "session.position = svsa.MinimumJerkPosition(start_rad=0, end_rad=1)",
+    ]);
+    const parameters = { fl_integral: { position_pole_rad_per_s: 50 } };
+    expect(writeCommand("parameters", parameters)).toEqual([
+      'session.set_parameters("fl_integral", position_pole_rad_per_s=50)',
+    ]);
+  });
+});

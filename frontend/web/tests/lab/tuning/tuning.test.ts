@@ -1,0 +1,140 @@
+import "../../browserless";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Trial, Tuning } from "../../../src/core/api/tunings";
+
+const { ticksUpTo } = await import("../../../src/lab/tuning/costcurve");
+const { applyBest, bestSoFar, isUnderWay, problem, start, trials, tuning } = await import(
+  "../../../src/lab/tuning/tuning"
+);
+
+const trial = (number: number, cost: number): Trial => ({
+  number,
+  stage: number === 0 ? "present" : "sobol",
+  values: [40],
+  cost,
+  runs: [],
+});
+
+const state = (status: Tuning["status"], told: Trial[], more: Partial<Tuning> = {}): Tuning => ({
+  id: "abc",
+  law: "fl_integral",
+  status,
+  budget: 3,
+  seed: 0,
+  held: {},
+  duration_s: 8,
+  axes: [],
+  runs: [],
+  tried: told.length,
+  trials: told,
+  present: null,
+  best: null,
+  best_setting: null,
+  problem: null,
+  ...more,
+});
+
+type Call = { method: string; path: string; body: unknown };
+let calls: Call[] = [];
+let answers: (unknown | "lost")[] = [];
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  calls = [];
+  answers = [];
+  tuning.value = null;
+  trials.value = [];
+  problem.value = null;
+  vi.stubGlobal("fetch", async (url: URL, init: RequestInit) => {
+    const path = `${url.pathname.split("/api/v1/")[1]}${url.search}`;
+    const body = typeof init.body === "string" ? JSON.parse(init.body) : null;
+    calls.push({ method: init.method ?? "", path, body });
+    if (init.method === "PUT") return Response.json({ run: 1, tick: 1, lanes: [] });
+    const answer = answers.shift();
+    if (answer === "lost") throw new TypeError("Failed to fetch");
+    return Response.json(answer);
+  });
+});
+
+afterEach(() => vi.useRealTimers());
+
+describe("a tuning that is followed", () => {
+  it("asks for what it has not got, over a lost answer, until it has ended", async () => {
+    answers = [
+      state("waiting", []),
+      state("running", [trial(0, 3), trial(1, 2)]),
+      "lost",
+      state("done", [trial(2, 1), trial(3, 4)], { tried: 4 }),
+    ];
+    await start("fl_integral", 3);
+    expect(calls[0]).toEqual({
+      method: "POST",
+      path: "tunings",
+      body: { law: "fl_integral", budget: 3, session: "lab" },
+    });
+    expect(isUnderWay.value).toBe(true);
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(problem.value).not.toBeNull();
+    await vi.advanceTimersByTimeAsync(5000);
+    expect(calls.slice(1).map(({ path }) => path)).toEqual([
+      "tunings/abc?first=0",
+      "tunings/abc?first=2",
+      "tunings/abc?first=2",
+    ]);
+    expect(trials.value.map(({ number }) => number)).toEqual([0, 1, 2, 3]);
+    expect([isUnderWay.value, problem.value]).toEqual([false, null]);
+  });
+
+  it("is not begun where the server refuses it, and the last one stays", async () => {
+    tuning.value = state("done", []);
+    vi.stubGlobal("fetch", async () =>
+      Response.json({ type: "urn:svsa:problem:busy", detail: "too much" }, { status: 503 }),
+    );
+    await start("fl_integral", 3);
+    expect(String(problem.value)).toContain("too much");
+    expect(tuning.value?.status).toBe("done");
+  });
+});
+
+describe("what a tuning has found", () => {
+  it("is the least cost so far, after every candidate", () => {
+    expect(bestSoFar([trial(0, 3), trial(1, 5), trial(2, 1), trial(3, 2)])).toEqual([
+      [0, 3],
+      [1, 3],
+      [2, 1],
+      [3, 1],
+    ]);
+  });
+
+  it("is put into the session as parameters of its law, or as gains and the observer", async () => {
+    const parameters = { position_pole_rad_per_s: 41 };
+    const own = { law: "fl_integral", gains: null, parameters, observer: null };
+    tuning.value = state("done", [], { best_setting: own as never });
+    await applyBest();
+    const gains = { position_coefficients: [1, 2, 3, 4], stiffness_coefficients: [5, 6] };
+    const observer = { bandwidth_rad_per_s: [44, 44, 44] };
+    const shared = { law: "ndobc", gains, parameters: null, observer };
+    tuning.value = state("done", [], { law: "ndobc", best_setting: shared as never });
+    await applyBest();
+    const session = "sessions/lab";
+    expect(calls.map(({ method, path, body }) => [method, path, body])).toEqual([
+      ["PUT", `${session}/parameters`, { fl_integral: parameters }],
+      ["PUT", `${session}/gains`, gains],
+      ["PUT", `${session}/observer`, observer],
+    ]);
+  });
+});
+
+describe("the ticks of its curve", () => {
+  it("are even and at most six, and whole where candidates are counted", () => {
+    expect(ticksUpTo(124, 1)).toEqual([0, 50, 100]);
+    expect(ticksUpTo(2, 1)).toEqual([0, 1, 2]);
+    expect(ticksUpTo(3.1, 0)).toEqual([0, 1, 2, 3]);
+    for (const most of [0.7, 1, 4.2, 9.9, 15, 2000]) {
+      const ticks = ticksUpTo(most, 0);
+      expect(ticks.length).toBeGreaterThan(1);
+      expect(ticks.length).toBeLessThan(7);
+      expect(ticks.at(-1)).toBeLessThanOrEqual(most + 1e-9);
+    }
+  });
+});

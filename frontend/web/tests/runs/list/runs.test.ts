@@ -1,0 +1,231 @@
+import "../../browserless";
+import { beforeAll, describe, expect, it, vi } from "vitest";
+import type { RunDetails } from "../../../src/core/api/types";
+import { inkOf } from "../../../src/core/plots/inks";
+import type {
+  readPlace as ReadPlace,
+  writePlace as WritePlace,
+} from "../../../src/runs/list/place";
+
+const details = (change: object) =>
+  ({
+    configuration: { law: "ndobc", rivals: [], loads: [] },
+    commands: [],
+    lanes: ["lane1"],
+    plant: "simulated",
+    period_s: 0.001,
+    first_tick: 0,
+    ticks: 10_000,
+    stretches: [],
+    ...change,
+  }) as unknown as RunDetails;
+let readPlace: typeof ReadPlace;
+let writePlace: typeof WritePlace;
+let tellDegrees: typeof import("../../../src/runs/list/columns").tellDegrees;
+let describeMeasured: typeof import("../../../src/runs/list/measured").describeMeasured;
+let explainSettled: typeof import("../../../src/runs/list/measured").explainSettled;
+let overlay: typeof import("../../../src/runs/list/overlaid").overlay;
+let whyUnlike: typeof import("../../../src/runs/list/alike").whyUnlike;
+let drawSpark: typeof import("../../../src/runs/list/spark").drawSpark;
+let findWords: typeof import("../../../src/runs/list/found").findWords;
+let excerpt: typeof import("../../../src/runs/list/found").excerpt;
+let formatSetting: typeof import("../../../src/runs/list/difference").formatSetting;
+let nextSort: typeof import("../../../src/core/widgets/sorthead").nextSort;
+let followSaved: typeof import("../../../src/runs/list/saved").followSaved;
+let saved: typeof import("../../../src/runs/list/saved").saved;
+
+beforeAll(async () => {
+  ({ readPlace, writePlace } = await import("../../../src/runs/list/place"));
+  ({ describeMeasured, explainSettled } = await import("../../../src/runs/list/measured"));
+  ({ tellDegrees } = await import("../../../src/runs/list/columns"));
+  ({ overlay } = await import("../../../src/runs/list/overlaid"));
+  ({ whyUnlike } = await import("../../../src/runs/list/alike"));
+  ({ drawSpark } = await import("../../../src/runs/list/spark"));
+  ({ findWords, excerpt } = await import("../../../src/runs/list/found"));
+  ({ formatSetting } = await import("../../../src/runs/list/difference"));
+  ({ nextSort } = await import("../../../src/core/widgets/sorthead"));
+  ({ followSaved, saved } = await import("../../../src/runs/list/saved"));
+});
+
+describe("a place in the address", () => {
+  it("is read as it was written", () => {
+    for (const query of ["", "?runs=all", "?run=a-1&t=12.3", "?run=a-1", "?overlay=a,b"]) {
+      expect(writePlace(readPlace(query), query)).toBe(query);
+    }
+  });
+
+  it("opens an exercise at a step", () => {
+    for (const query of ["?learn=all", "?learn=observer", "?learn=observer/rig"]) {
+      expect(writePlace(readPlace(query), query)).toBe(query);
+    }
+    expect(readPlace("?learn=observer/rig&session=x")).toEqual({
+      kind: "learn",
+      exercise: "observer",
+      step: "rig",
+    });
+    expect(readPlace("?learn=all")).toEqual({ kind: "learn", exercise: "", step: "" });
+  });
+
+  it("of a study says what of it is looked at", () => {
+    const query = "?studies=load&sx=a&ty=b&law=fl&brush=s%3A1,2,3,4";
+    const look = { sx: "a", ty: "b", law: "fl", brush: "s:1,2,3,4" };
+    expect(readPlace(query)).toEqual({ kind: "studies", study: "load", look });
+    expect(writePlace(readPlace(query), query)).toBe(query);
+    expect(writePlace({ kind: "studies", study: "", look: {} }, query)).toBe("?studies=all");
+    expect(writePlace({ kind: "arena" }, query)).toBe("?arena=all");
+  });
+
+  it("keeps what else the address says", () => {
+    expect(writePlace({ kind: "list" }, "?session=private-1&run=a&t=2")).toBe(
+      "?session=private-1&runs=all",
+    );
+  });
+
+  it("takes no moment that is none", () => {
+    for (const query of ["?run=a&t=soon", "?run=a&t=-1"]) {
+      expect(readPlace(query)).toEqual({ kind: "run", run: "a", timeS: 0 });
+    }
+  });
+});
+
+describe("the window of a run's numbers", () => {
+  const window = {
+    ...{ kind: "load", label: "3 kg load", first_tick: 2000, end_tick: 5000 },
+    ...{ start_s: 2, end_s: 5, is_whole: false, lanes: ["FL"], load_ended: false },
+  } as const;
+  const samples = { time_s: [2, 5], lanes: {} } as never;
+
+  it("is named with its ends, and with the law where others controlled before or after", () => {
+    const measured = { ...window, lanes: [...window.lanes] };
+    expect(describeMeasured(measured)).toBe("3 kg load, 2.00–5.00 s");
+    expect(describeMeasured(measured, true)).toBe("FL: 3 kg load, 2.00–5.00 s");
+    expect(describeMeasured({ ...measured, is_whole: true })).toBe("Whole run");
+    expect(describeMeasured({ ...measured, label: "" })).toBe("From the start, 2.00–5.00 s");
+  });
+
+  it("has every lane's number by its law, for where a table has no room for all", () => {
+    const metrics = [{ peak_position_error_rad: 0.0628 }, { peak_position_error_rad: 0.195 }];
+    const run = details({ window: { ...window, lanes: ["NDOBC", "FL"] }, metrics });
+    expect(tellDegrees(run, "peak_position_error_rad")).toBe("NDOBC 3.6°, FL 11°");
+    expect(tellDegrees(details({ window: null, metrics }), "peak_position_error_rad")).toBe(
+      undefined,
+    );
+  });
+
+  it("has a steady error where its load stays, and is long enough", () => {
+    const measured = { ...window, lanes: [] };
+    expect(explainSettled(measured)).toMatch(/last 0.5 s/);
+    expect(explainSettled({ ...measured, load_ended: true })).toMatch(/ended by itself/);
+    expect(explainSettled({ ...measured, end_s: 2.9 })).toMatch(/shorter than 1 s/);
+  });
+
+  it("begins at 0 of an overlay, which says where it ends and whose numbers those are", () => {
+    const run = details({ title: "A", lane_names: ["NDOBC → FL"], window, metrics: [{}] });
+    const stretches = [
+      [
+        { ink: 0, start_s: 0 },
+        { ink: 1, start_s: 1.5 },
+      ],
+    ];
+    const [curve] = overlay({ ...run, stretches } as never, samples);
+    expect(curve?.ownInk).toBe(1);
+    expect(curve).toMatchObject({ hasOnset: true, changedS: 3, measuredLane: "FL" });
+    expect([...(curve?.time ?? [])]).toEqual([0, 3]);
+    const whole = { ...window, kind: "start", end_tick: 10_000, end_s: 10 };
+    const later = overlay(details({ ...run, first_tick: 1500, ticks: 8500 }), samples);
+    expect(later[0]?.window).toMatchObject({ start_s: 0.5, end_s: 3.5 });
+    const [other] = overlay(details({ ...run, window: whole }), samples);
+    expect(other).toMatchObject({ hasOnset: false, changedS: null });
+    expect(whyUnlike([curve, other] as never, null)).toMatch(/did not begin in the same way/);
+    expect(whyUnlike([curve, curve] as never, null)).toBe("");
+  });
+});
+
+describe("curves", () => {
+  it("of an overlay share colour and dash with no other", () => {
+    const inks = Array.from({ length: 20 }, (_, index) => inkOf(index));
+    expect(new Set(inks.map((ink) => `${ink.colour} ${ink.dash.join()}`)).size).toBe(20);
+  });
+
+  it("of a small plot are interrupted where a value is missing", () => {
+    const lanes = { lane1: { position_error_rad: [0, null, -0.1, 0.05] } };
+    const ndobc = { number: 1, name: "NDOBC", ink: 0, start_tick: 0, start_s: 0, end_tick: null };
+    const spark = drawSpark({ time_s: [0, 1, 2, 3], lanes }, [[{ ...ndobc, end_s: null }]]);
+    expect(spark.peak).toBe(0.1);
+    expect(spark.paths[0]?.path.match(/M/g)).toHaveLength(2);
+    const fl = { ...ndobc, number: 2, name: "FL", ink: 1, start_s: 2, end_s: null };
+    const switched = drawSpark({ time_s: [0, 1, 2, 3], lanes }, [[{ ...ndobc, end_s: 2 }, fl]]);
+    expect(switched.paths.map(({ ink }) => ink)).toEqual([0, 1]);
+    expect(switched.paths[1]?.path).toMatch(/^M200\.0 /);
+  });
+});
+
+describe("what a search has found", () => {
+  const shown = (text: string, words: string[]) =>
+    findWords(text, words).map(({ text: part, isFound }) => (isFound ? `[${part}]` : part));
+
+  it("is marked where it stands, whatever its case", () => {
+    expect(shown("Student 07", ["07", "stud"])).toEqual(["[Stud]", "ent ", "[07]"]);
+    expect(shown("aaa", ["aa"])).toEqual(["[aaa]"]);
+    expect(shown("100 %", ["%"])).toEqual(["100 ", "[%]"]);
+  });
+
+  it("is the whole text where nothing was searched for or folding moves its letters", () => {
+    expect(shown("Fig. 4A", [])).toEqual(["Fig. 4A"]);
+    expect(shown("U\u0308bung", ["übung"])).toEqual(["U\u0308bung"]);
+    expect(shown("", ["a"])).toEqual([]);
+  });
+
+  it("is in sight in a long note", () => {
+    const note = `${"before ".repeat(20)}heavy load`;
+    expect(excerpt(note, ["heavy"])).toBe("…e before before heavy load".slice(-27));
+    expect(excerpt(note, ["nowhere"])).toBe(note);
+  });
+});
+
+describe("a setting that differs", () => {
+  it("is told in the units that people read", () => {
+    const angle = { group: "Motion", name: "Amplitude", unit: "rad", values: [Math.PI / 3, null] };
+    expect(formatSetting(angle)).toEqual({ unit: "deg", values: ["60", "–"] });
+    const others = { group: "Realism", name: "x", unit: "N·m", values: [-0.25, "on", true] };
+    expect(formatSetting(others)).toEqual({ unit: "N·m", values: ["−0.25", "on", "yes"] });
+  });
+});
+
+describe("the order of the table", () => {
+  it("turns round with the second press on a column", () => {
+    expect(nextSort("-created", "name", false)).toBe("name");
+    expect(nextSort("name", "name", false)).toBe("-name");
+    expect(nextSort("name", "peak_position_error_rad", true)).toBe("-peak_position_error_rad");
+    expect(nextSort("-peak_position_error_rad", "peak_position_error_rad", true)).toBe(
+      "peak_position_error_rad",
+    );
+  });
+});
+
+describe("a recording that has ended", () => {
+  it("is saved when its file is finished, and unknown where no answer comes", async () => {
+    vi.useFakeTimers();
+    const answers = [{ state: "recording" }, { state: "complete", title: "Fig. 4A" }];
+    vi.stubGlobal("fetch", async () => Response.json(answers.shift()));
+    const done = followSaved("run-1");
+    expect(saved.value).toEqual({ stage: "saving", run: "run-1" });
+    await vi.advanceTimersByTimeAsync(1000);
+    await done;
+    expect(saved.value).toMatchObject({ stage: "saved", details: { title: "Fig. 4A" } });
+    await vi.advanceTimersByTimeAsync(15_000);
+    expect(saved.value).not.toBeNull();
+    await vi.advanceTimersByTimeAsync(6000);
+    expect(saved.value, "it does not stay for ever").toBeNull();
+    vi.stubGlobal("fetch", async () => Response.json({ state: "cut", message: "cut off" }));
+    await followSaved("run-3");
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(saved.value, "what is not whole stays until it was seen").not.toBeNull();
+    vi.stubGlobal("fetch", () => Promise.reject(new TypeError("offline")));
+    const lost = followSaved("run-2", 1000);
+    await vi.advanceTimersByTimeAsync(5000);
+    await lost;
+    expect(saved.value).toEqual({ stage: "unknown", run: "run-2" });
+    vi.useRealTimers();
+  });
+});

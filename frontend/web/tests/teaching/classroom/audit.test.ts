@@ -1,0 +1,126 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { stubBrowser } from "../../browser";
+
+const line = {
+  time: "2026-01-02T03:04:05.678+00:00",
+  person: "p-1",
+  name: "Ada",
+  role: "operator" as const,
+  kind: "settings",
+  did: "Set law",
+  path: "/api/v1/sessions/lab/law",
+  status: 200,
+  refused: false,
+  why: null,
+  session: "lab",
+  run_number: 1,
+  tick: 1234,
+};
+
+const asked: URLSearchParams[] = [];
+let answers: (() => Promise<Response>)[] = [];
+const page = (total: number, until = "T") => ({
+  lines: [line],
+  total,
+  until,
+  people: [],
+  kinds: [],
+});
+const answer = (body: unknown, status = 200) =>
+  Promise.resolve(new Response(JSON.stringify(body), { status }));
+
+async function load() {
+  stubBrowser();
+  vi.stubGlobal("fetch", (url: URL) => {
+    asked.push(url.searchParams);
+    return (answers.shift() ?? (() => answer(page(120))))();
+  });
+  return import("../../../src/teaching/classroom/audit");
+}
+
+beforeEach(() => {
+  vi.resetModules();
+  asked.length = 0;
+  answers = [];
+});
+afterEach(() => vi.unstubAllGlobals());
+
+describe("the audit log", () => {
+  it("turns to older pages of what the first one was read of", async () => {
+    const log = await load();
+    await log.askFor();
+    await log.turnTo(2);
+    expect(asked.map((query) => [query.get("page"), query.get("until")])).toEqual([
+      ["1", ""],
+      ["2", "T"],
+    ]);
+    expect(log.countPages(120)).toBe(3);
+    expect(log.countPages(0)).toBe(1);
+  });
+
+  it("begins at the newest again with another filter, and keeps the others", async () => {
+    const log = await load();
+    await log.askFor({ person: "p-1" });
+    await log.turnTo(2);
+    await log.askFor({ kind: "settings" });
+    await log.askFor({ onlyRefused: true });
+    const last = asked.at(-1) as URLSearchParams;
+    expect(Object.fromEntries(last)).toEqual({
+      person: "p-1",
+      kind: "settings",
+      refused: "true",
+      page: "1",
+      until: "",
+    });
+  });
+
+  it("shows what was asked for last where an earlier answer comes later", async () => {
+    const log = await load();
+    let late: (response: Response) => void = () => {};
+    answers = [
+      () =>
+        new Promise((resolve) => {
+          late = resolve;
+        }),
+      () => answer(page(7)),
+    ];
+    const first = log.askFor();
+    await log.askFor({ kind: "settings" });
+    late(await answer(page(99)));
+    await first;
+    expect(log.told.value?.total).toBe(7);
+    expect(log.isReading.value).toBe(false);
+  });
+
+  it("says why it cannot be read, and keeps what it had", async () => {
+    const log = await load();
+    await log.askFor();
+    answers = [() => answer({ detail: "Too much is being made.", violations: [] }, 503)];
+    await log.askFor();
+    expect(log.problem.value).toBe("Too much is being made.");
+    expect(log.told.value?.total).toBe(120);
+  });
+});
+
+describe("a line of it", () => {
+  it("says the time of day here, with the date of another day", async () => {
+    const { tellTime } = await load();
+    const at = new Date(line.time);
+    const clock = at.toLocaleTimeString("en-GB");
+    expect(tellTime(line.time, at)).toBe(clock);
+    const next = new Date(at.getTime() + 86_400_000);
+    expect(tellTime(line.time, next)).toMatch(new RegExp(`^\\d+ Jan ${clock}$`));
+  });
+
+  it("says what came of it, and why of what failed or went on by itself", async () => {
+    const { nameKind, tellEnd } = await load();
+    expect(tellEnd(line)).toBe("done");
+    expect(tellEnd({ ...line, refused: true, status: 409 })).toBe("refused (409)");
+    expect(tellEnd({ ...line, status: null, why: "idle" })).toBe("idle");
+    expect(tellEnd({ ...line, refused: true, status: null, why: "No key." })).toBe(
+      "refused: No key.",
+    );
+    expect(nameKind("settings")).toBe("Settings");
+    expect(nameKind("toString")).toBe("toString");
+  });
+});

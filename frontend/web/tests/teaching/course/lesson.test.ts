@@ -1,0 +1,300 @@
+import "../../browserless";
+import { beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Exercise, Step } from "../../../src/core/api/course";
+import type { SessionState } from "../../../src/core/api/types";
+
+const calls = {
+  pause: vi.fn(),
+  reset: vi.fn(),
+  start: vi.fn(),
+  stopRecording: vi.fn(),
+  setUpStep: vi.fn(),
+  recordStep: vi.fn(),
+  checkRun: vi.fn(),
+  readExercise: vi.fn(),
+  putAnswer: vi.fn(),
+  putLaw: vi.fn(),
+  putPlace: vi.fn(),
+  readRun: vi.fn(),
+};
+
+const step = (name: string, change: object = {}) =>
+  ({
+    name,
+    kind: "experiment",
+    duration_s: 6,
+    free: [],
+    results: [],
+    ...change,
+  }) as unknown as Step;
+const result = (of: string, title: string) => ({ step: of, title }) as never;
+const course = (change: object = {}) =>
+  ({
+    name: "mechanism",
+    at: null,
+    changes: 0,
+    parts: [step("idea", { kind: "read" }), step("lever"), step("bend")],
+    ...change,
+  }) as unknown as Exercise;
+const state = (change: object = {}) =>
+  ({
+    status: "running",
+    tick: 0,
+    time_s: 0,
+    run_number: 7,
+    recording: null,
+    bench: null,
+    ...change,
+  }) as SessionState;
+/** What a call answers; what the session is now comes from elsewhere, and is newer. */
+const OLDER = state({ tick: -1 });
+const recording = { state: "recording", run_id: "run-1", name: "mechanism/lever" };
+
+let lesson: typeof import("../../../src/teaching/course/lesson");
+let place: typeof import("../../../src/runs/list/place").place;
+let session: typeof import("../../../src/core/state/session").session;
+let RefusedError: typeof import("../../../src/core/api/errors").RefusedError;
+
+beforeAll(async () => {
+  const only = (...names: (keyof typeof calls)[]) =>
+    Object.fromEntries(names.map((name) => [name, calls[name]]));
+  vi.doMock("../../../src/core/api/client", async (load) => ({
+    ...(await load<object>()),
+    ...only("pause", "reset", "start", "stopRecording"),
+  }));
+  vi.doMock("../../../src/core/api/course", async (load) => ({
+    ...(await load<object>()),
+    ...only(
+      "setUpStep",
+      "recordStep",
+      "checkRun",
+      "readExercise",
+      "putAnswer",
+      "putLaw",
+      "putPlace",
+    ),
+  }));
+  vi.doMock("../../../src/core/api/runs", async (load) => ({
+    ...(await load<object>()),
+    ...only("readRun"),
+  }));
+  lesson = await import("../../../src/teaching/course/lesson");
+  ({ place } = await import("../../../src/runs/list/place"));
+  ({ session } = await import("../../../src/core/state/session"));
+  ({ RefusedError } = await import("../../../src/core/api/errors"));
+});
+
+beforeEach(() => {
+  for (const call of Object.values(calls)) call.mockReset().mockResolvedValue(OLDER);
+  calls.readExercise.mockResolvedValue(course());
+  place.value = { kind: "learn", exercise: "mechanism", step: "" };
+  session.value = state();
+  lesson.exercise.value = course();
+  lesson.trial.value = null;
+  lesson.judged.value = null;
+  lesson.shownRun.value = null;
+  lesson.problem.value = "";
+});
+
+describe("the step one is at", () => {
+  it("is that of the address, by name or number, or where one was last, or the first", () => {
+    const at = (said: string) => {
+      place.value = { kind: "learn", exercise: "mechanism", step: said };
+      return lesson.step.value?.name;
+    };
+    expect(at("bend")).toBe("bend");
+    expect(at("2")).toBe("lever");
+    expect(at("9")).toBe("idea");
+    expect(at("no such step")).toBe("idea");
+    expect(at("")).toBe("idea");
+    lesson.exercise.value = course({ at: "bend" });
+    expect(at("")).toBe("bend");
+    expect(at("lever")).toBe("lever");
+  });
+
+  it("has settings to choose only where it leaves some free", () => {
+    const free = step("bend", { free: ["stiffness"] });
+    lesson.exercise.value = course({ parts: [step("idea", { kind: "read" }), free] });
+    expect(lesson.hasFreeSettings.value).toBe(false);
+    place.value = { kind: "learn", exercise: "mechanism", step: "bend" };
+    expect(lesson.hasFreeSettings.value).toBe(true);
+  });
+
+  it("is none of another exercise, nor where none is open", () => {
+    place.value = { kind: "learn", exercise: "observer", step: "" };
+    expect(lesson.step.value).toBeNull();
+    place.value = { kind: "lab" };
+    expect(lesson.step.value).toBeNull();
+  });
+});
+
+describe("a step's run", () => {
+  const record = () =>
+    calls.recordStep.mockImplementation(async () => {
+      session.value = state({ recording });
+      return OLDER;
+    });
+
+  it("is cut off where control is lost in the middle, not judged, and can be begun again", async () => {
+    record();
+    await lesson.run(step("lever"));
+    const other = { holder: "Bob", mine: false, watching: 1 };
+    session.value = state({ recording, time_s: 4.2, control: other });
+    await lesson.follow();
+    expect(lesson.cut.value).toEqual({ step: "lever", why: "control", timeS: 4.2 });
+    expect(lesson.trial.value).toBeNull();
+    expect(calls.stopRecording).not.toHaveBeenCalled();
+    expect(calls.checkRun).not.toHaveBeenCalled();
+    lesson.resume(step("lever"));
+    expect(lesson.trial.value, "another's run of the same step").toBeNull();
+    session.value = state();
+    record();
+    await lesson.run(step("lever"));
+    expect(lesson.cut.value).toBeNull();
+    expect(lesson.trial.value?.step).toBe("lever");
+  });
+
+  it("that is refused when it is begun is no trial, and its recording ends", async () => {
+    record();
+    calls.start.mockRejectedValue(new RefusedError(409, "The bench is off."));
+    await lesson.run(step("lever"));
+    expect(lesson.trial.value).toBeNull();
+    expect(calls.stopRecording).toHaveBeenCalledOnce();
+  });
+
+  it("is set up, recorded under the step's name and begun at once where nothing is free", async () => {
+    record();
+    await lesson.setUp(step("lever"));
+    expect(calls.setUpStep).toHaveBeenCalledWith("mechanism", "lever");
+    expect(calls.recordStep).toHaveBeenCalledWith("mechanism/lever");
+    expect(calls.start).toHaveBeenCalledOnce();
+    expect(lesson.trial.value).toMatchObject({ step: "lever", run: "run-1", endS: 6 });
+    expect(lesson.isOfLesson("run-1")).toBe(true);
+    expect(lesson.isOfLesson("run-2")).toBe(false);
+  });
+
+  it("waits for the choice where one is free", async () => {
+    await lesson.setUp(step("lever", { free: ["law"] }));
+    expect(calls.setUpStep).toHaveBeenCalledOnce();
+    expect(calls.recordStep).not.toHaveBeenCalled();
+  });
+
+  it("is not begun where its recording is refused", async () => {
+    calls.recordStep.mockRejectedValue(new RefusedError(409, "The disk is full."));
+    await lesson.run(step("lever"));
+    expect(calls.start).not.toHaveBeenCalled();
+    expect(lesson.trial.value).toBeNull();
+  });
+
+  it("goes on to the step's end, and is then stopped and judged once", async () => {
+    record();
+    await lesson.run(step("lever"));
+    session.value = state({ time_s: 5.9, recording });
+    await lesson.follow();
+    expect(calls.stopRecording).not.toHaveBeenCalled();
+
+    calls.readRun.mockResolvedValue({ state: "complete" });
+    calls.checkRun.mockResolvedValue([result("lever", "four times as stiff")]);
+    session.value = state({ time_s: 6, recording });
+    await Promise.all([lesson.follow(), lesson.follow()]);
+    expect(calls.stopRecording).toHaveBeenCalledOnce();
+    expect(calls.pause).toHaveBeenCalledTimes(2);
+    expect(calls.checkRun).toHaveBeenCalledExactlyOnceWith("mechanism", "lever", "run-1");
+    expect(lesson.judged.value?.run).toBe("run-1");
+    expect(lesson.trial.value).toBeNull();
+  });
+
+  it("that ends in a fault, or that somebody else stopped, is judged as far as it went", async () => {
+    calls.readRun.mockResolvedValue({ state: "complete" });
+    for (const ended of [{ status: "fault", recording }, { recording: null }]) {
+      session.value = state({ recording });
+      lesson.resume(step("lever"));
+      expect(lesson.trial.value?.run).toBe("run-1");
+      calls.checkRun.mockClear();
+      session.value = state({ time_s: 2, ...ended });
+      await lesson.follow();
+      expect(calls.checkRun).toHaveBeenCalledOnce();
+    }
+    expect(calls.stopRecording).toHaveBeenCalledOnce();
+  });
+
+  it("is followed again after a reload, and only by the step it is of", () => {
+    session.value = state({ recording });
+    lesson.resume(step("bend"));
+    expect(lesson.trial.value).toBeNull();
+    lesson.resume(step("lever"));
+    expect(lesson.trial.value).toMatchObject({ exercise: "mechanism", step: "lever" });
+  });
+
+  it("is judged when its record is finished, not before", async () => {
+    vi.useFakeTimers();
+    session.value = state({ time_s: 6, recording });
+    lesson.resume(step("lever"));
+    calls.readRun
+      .mockRejectedValueOnce(new TypeError("no answer"))
+      .mockResolvedValueOnce({ state: "recording" })
+      .mockResolvedValue({ state: "complete" });
+    calls.checkRun.mockResolvedValue([]);
+    const ended = lesson.follow();
+    await vi.advanceTimersByTimeAsync(299);
+    expect(calls.checkRun).not.toHaveBeenCalled();
+    await vi.advanceTimersByTimeAsync(400);
+    await ended;
+    vi.useRealTimers();
+    expect(calls.readRun).toHaveBeenCalledTimes(3);
+    expect(calls.checkRun).toHaveBeenCalledOnce();
+  });
+});
+
+describe("what is shown of a step", () => {
+  it("is the newest judgement of its run, and else what is kept", () => {
+    const lever = step("lever", { results: [result("lever", "kept")] });
+    const bend = step("bend", { results: [result("bend", "kept")] });
+    expect(lesson.resultsOf(lever)).toEqual(lever.results);
+    const newest = [result("lever", "new"), result("predict-lever", "new")];
+    lesson.judged.value = { step: "lever", run: "run-2", results: newest };
+    expect(lesson.resultsOf(lever)).toEqual([newest[0]]);
+    expect(lesson.resultsOf(bend)).toEqual(bend.results);
+  });
+
+  it("says why an answer was not taken, and forgets it with the next", async () => {
+    calls.putAnswer.mockRejectedValueOnce(new RefusedError(422, "5 is above 1."));
+    await lesson.answer(step("predict-lever"), 5);
+    expect(lesson.problem.value).toContain("5 is above 1.");
+    expect(lesson.isBusy.value).toBe(false);
+    calls.putAnswer.mockResolvedValue(course({ at: "lever" }));
+    await lesson.answer(step("predict-lever"), 0.7);
+    expect(lesson.problem.value).toBe("");
+    expect(lesson.exercise.value?.at).toBe("lever");
+  });
+
+  it("is what knows of more changes, where one answer overtakes another", async () => {
+    let arrive: (found: Exercise) => void = () => undefined;
+    calls.putPlace.mockReturnValue(
+      new Promise((resolve) => {
+        arrive = resolve;
+      }),
+    );
+    const visited = lesson.visit("mechanism", "predict-lost");
+    const answered = course({ changes: 2, at: "answered" });
+    calls.putAnswer.mockResolvedValue(answered);
+    await lesson.answer(step("predict-lost"), 0.544);
+    arrive(course({ changes: 1 }));
+    await visited;
+    expect(lesson.exercise.value).toBe(answered);
+  });
+
+  it("is not of an exercise that was left before it was read", async () => {
+    place.value = { kind: "learn", exercise: "observer", step: "" };
+    const observer = course({ name: "observer" });
+    lesson.exercise.value = observer;
+    await lesson.openExercise("observer");
+    expect(lesson.exercise.value).toBe(observer);
+  });
+
+  it("keeps no place of one who only watches, and does not complain of it", async () => {
+    calls.putPlace.mockRejectedValue(new RefusedError(403, "An observer changes nothing."));
+    await lesson.visit("mechanism", "lever");
+    expect(lesson.problem.value).toBe("");
+  });
+});

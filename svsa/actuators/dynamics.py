@@ -1,0 +1,186 @@
+"""The dynamics: Eq 1 as torques on three inertias, and the disturbance of Eq 6–9.
+
+J q̈ = F(x) + u + w on link, principal motor and stiffness motor, with the inertias
+J = (M, B1, B2) and the internal torques F. The true plant and the nominal model are the
+same functions with other constants.
+"""
+
+from typing import NamedTuple
+
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.actuators.spring import (
+    REACTION_ENERGY,
+    REACTION_PRINTED,
+    compute_elastic_torque,
+    compute_printed_reaction_torque,
+    compute_reaction_torque,
+)
+from svsa.numerics.compilation import compiled
+from svsa.numerics.simd.choice import choose, some
+from svsa.numerics.trigonometry import sin
+
+
+class Actuator(NamedTuple):
+    """The constants of Eq 1–5: Table 1 or the nominal model, SI, gear output side.
+
+    M, B1, B2: kg·m². D, D1, D2: N·m·s/rad. K = K_s R²: N·m/rad. gamma: 1. mu0: lever
+    ratio at θ2 = 0, 1. reaction: `REACTION_ENERGY` or `REACTION_PRINTED`.
+    """
+
+    M: float
+    B1: float
+    B2: float
+    D: float
+    D1: float
+    D2: float
+    K: float
+    gamma: float
+    mu0: float
+    reaction: int
+
+
+def build_actuator(parameters: ActuatorParameters, mu0: float) -> Actuator:
+    """The constants of Eq 1–5 from checked parameters; mu0: lever ratio at θ2 = 0."""
+    printed = parameters.reaction_torque == "printed"
+    return Actuator(
+        M=parameters.link_inertia_kg_m2,
+        B1=parameters.motor1_inertia_kg_m2,
+        B2=parameters.motor2_inertia_kg_m2,
+        D=parameters.link_damping_nms_per_rad,
+        D1=parameters.motor1_damping_nms_per_rad,
+        D2=parameters.motor2_damping_nms_per_rad,
+        K=parameters.rotational_stiffness_nm_per_rad,
+        gamma=parameters.spiral_reduction,
+        mu0=float(mu0),
+        reaction=REACTION_PRINTED if printed else REACTION_ENERGY,
+    )
+
+
+class ExternalLoad(NamedTuple):
+    """What the world does to the plant in one instant.
+
+    w2, w4, w6: torques on link, motor 1, motor 2, N·m. inertia: added to M, kg·m².
+    gravity_moment: m g r of a hung mass, N·m; its torque is −m g r sin q.
+    """
+
+    w2: float
+    w4: float
+    w6: float
+    inertia: float
+    gravity_moment: float
+
+
+class Acceleration(NamedTuple):
+    """q̈, θ̈1, θ̈2, rad/s²."""
+
+    ddq: float
+    ddtheta1: float
+    ddtheta2: float
+
+
+class InternalTorque(NamedTuple):
+    """F(x) of Eq 1 on link, motor 1 and motor 2, N·m: damping, spring and reaction."""
+
+    link: float
+    motor1: float
+    motor2: float
+
+
+@compiled
+def compute_deflection(x: State) -> float:
+    """φ = q − θ1, rad (Eq 1)."""
+    return x.q - x.theta1
+
+
+@compiled
+def compute_internal_torque(actuator: Actuator, x: State) -> InternalTorque:
+    """F = (−D q̇ − τ_e, −D1 θ̇1 + τ_e, −D2 θ̇2 − τ_r), N·m: Eq 1 without u and w.
+
+    actuator: `Actuator`. x: `State`. Returns `InternalTorque`.
+    """
+    phi = compute_deflection(x)
+    mu = compute_lever_ratio(x.theta2, actuator.mu0, actuator.gamma)
+    torque = compute_elastic_torque(mu, phi, actuator.K)
+    reaction = compute_reaction_torque(mu, phi, actuator.K, actuator.gamma)
+    printed = actuator.reaction == REACTION_PRINTED
+    if some(printed):
+        torque_printed = compute_printed_reaction_torque(mu, phi, actuator.K)
+        reaction = choose(printed, torque_printed, reaction)
+    return InternalTorque(
+        -actuator.D * x.dq - torque,
+        -actuator.D1 * x.dtheta1 + torque,
+        -actuator.D2 * x.dtheta2 - reaction,
+    )
+
+
+@compiled
+def compute_acceleration(
+    actuator: Actuator, x: State, u: Torque, load: ExternalLoad
+) -> Acceleration:
+    """q̈, θ̈1, θ̈2 of Eq 1 under the torques u and the external load, rad/s².
+
+    actuator: `Actuator`. x: `State`. u: `Torque`, N·m. load: `ExternalLoad`.
+    """
+    F = compute_internal_torque(actuator, x)
+    gravity = 0.0
+    weighs = load.gravity_moment != 0.0
+    if some(weighs):
+        gravity = choose(weighs, load.gravity_moment * sin(x.q), gravity)
+    return Acceleration(
+        (F.link - gravity + load.w2) * (1.0 / (actuator.M + load.inertia)),
+        (F.motor1 + u.u1 + load.w4) * (1.0 / actuator.B1),
+        (F.motor2 + u.u2 + load.w6) * (1.0 / actuator.B2),
+    )
+
+
+@compiled
+def compute_rate(actuator: Actuator, x: State, u: Torque, load: ExternalLoad) -> State:
+    """ẋ = f(x) + g(x)u + p(x)w of Eq 9, as a `State` of velocities and accelerations."""
+    acceleration = compute_acceleration(actuator, x, u, load)
+    return State(
+        x.dq,
+        acceleration.ddq,
+        x.dtheta1,
+        acceleration.ddtheta1,
+        x.dtheta2,
+        acceleration.ddtheta2,
+    )
+
+
+@compiled
+def shift(x: State, rate: State, step: float) -> State:
+    """x + step · ẋ; x and rate: `State`, step: s."""
+    return State(
+        x.q + step * rate.q,
+        x.dq + step * rate.dq,
+        x.theta1 + step * rate.theta1,
+        x.dtheta1 + step * rate.dtheta1,
+        x.theta2 + step * rate.theta2,
+        x.dtheta2 + step * rate.dtheta2,
+    )
+
+
+@compiled
+def compute_disturbance(
+    nominal: Actuator, x: State, u: Torque, acceleration: Acceleration
+) -> Disturbance:
+    """w = J_n q̈ − F_n(x) − u: the torque that the nominal model does not explain (Eq 6–9).
+
+    nominal: `Actuator`. x: `State`. u: `Torque`, N·m. acceleration: the true one,
+    rad/s². Returns `Disturbance`, N·m, positive with growing angles.
+    """
+    return compute_unexplained_torque(nominal, compute_internal_torque(nominal, x), u, acceleration)
+
+
+@compiled
+def compute_unexplained_torque(
+    nominal: Actuator, F: InternalTorque, u: Torque, acceleration: Acceleration
+) -> Disturbance:
+    """`compute_disturbance` where F = F_n(x), `InternalTorque`, N·m, is known."""
+    return Disturbance(
+        nominal.M * acceleration.ddq - F.link,
+        nominal.B1 * acceleration.ddtheta1 - F.motor1 - u.u1,
+        nominal.B2 * acceleration.ddtheta2 - F.motor2 - u.u2,
+    )

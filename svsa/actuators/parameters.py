@@ -1,0 +1,71 @@
+"""Parameters: the physics of the actuator and the limits of a run, frozen and checked."""
+
+from typing import Literal, Self
+
+from pydantic import model_validator
+
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, Number, quantity
+
+ReactionLaw = Literal["energy", "printed"]
+
+
+class ActuatorParameters(Checked):
+    """The constants of Eq 1–5, of the true plant or of the nominal model."""
+
+    link_inertia_kg_m2: Number = quantity("kg·m²", "Output link inertia M", ge=1e-6, le=10)
+    motor1_inertia_kg_m2: Number = quantity("kg·m²", "Principal motor inertia B1", ge=1e-6, le=10)
+    motor2_inertia_kg_m2: Number = quantity("kg·m²", "Stiffness motor inertia B2", ge=1e-6, le=10)
+    link_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Link damping D", ge=0, le=10)
+    motor1_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 1 damping D1", ge=0, le=10)
+    motor2_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 2 damping D2", ge=0, le=10)
+    spring_stiffness_n_per_m: Number = quantity("N/m", "Spring stiffness K_s", ge=1, le=1e6)
+    radius_m: Number = quantity("m", "Radius R", ge=1e-3, le=1)
+    spiral_reduction: Number = quantity("1", "Reduction γ of the spiral", ge=0.1, le=1000)
+    reaction_torque: ReactionLaw = quantity("", "τ_r: energy-consistent, or as printed in Eq 5")
+
+    @property
+    def rotational_stiffness_nm_per_rad(self) -> float:
+        """K = K_s R², N·m/rad (Eq 2)."""
+        return self.spring_stiffness_n_per_m * self.radius_m**2
+
+
+class Limits(Checked):
+    """Torque limits, and the guards that keep a run inside the domain of the model."""
+
+    torque1_nm: Number = quantity("N·m", "Largest |u1|", gt=0, le=200)
+    torque2_nm: Number = quantity("N·m", "Largest |u2|", gt=0, le=200)
+    deflection_fraction: Number = quantity(
+        "1", "Fault beyond this share of the deflection at which the stiffness is zero", gt=0, le=1
+    )
+    deflection_max_rad: Number = quantity("rad", "Fault beyond this deflection", gt=0, le=1.5)
+    singularity_fraction: Number = quantity(
+        "1", "Fault when det A falls below this share of its value at φ = 0", gt=0, lt=1
+    )
+    stiffness_min_nm_per_rad: Number = quantity(
+        "N·m/rad", "Least stiffness; gives the lower end of μ", gt=0, le=1e4
+    )
+    stiffness_max_nm_per_rad: Number = quantity(
+        "N·m/rad", "Greatest stiffness; gives the upper end of μ", gt=0, le=1e4
+    )
+    lever_ratio_margin: Number = quantity(
+        "1", "How far μ may leave its range before the run ends in a fault", ge=0, le=0.1
+    )
+
+    @model_validator(mode="after")
+    def _check_order(self) -> Self:
+        least, greatest = self.stiffness_min_nm_per_rad, self.stiffness_max_nm_per_rad
+        if not least < greatest:
+            bound = f"less than stiffness_max_nm_per_rad, {greatest:g} N·m/rad"
+            violation = Violation("stiffness_min_nm_per_rad", least, "N·m/rad", bound)
+            raise ParameterError(violation)
+        return self
+
+    def check_stiffness(self, name: str, low: float, high: float) -> None:
+        """Raise `ParameterError` unless low … high (N·m/rad) lies in the stiffness range."""
+        least, greatest = self.stiffness_min_nm_per_rad, self.stiffness_max_nm_per_rad
+        for value in (low, high):
+            if not least <= value <= greatest:
+                bound = f"from {least:g} to {greatest:g} N·m/rad at all times"
+                limits = {"ge": least, "le": greatest}
+                raise ParameterError(Violation(name, value, "N·m/rad", bound, limits))

@@ -1,0 +1,1 @@
+"""Stability, design, margins and identification."""

@@ -1,0 +1,111 @@
+"""The region of attraction: from which positions and velocities the loop comes to rest."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS, State
+from svsa.control.installed import get_law
+from svsa.runs.configuration import Configuration
+from svsa.runs.run import Run
+from svsa.simulation.loop.lane import LaneState, build_lane_state
+from svsa.simulation.loop.loop import advance
+from svsa.simulation.loop.slices import advance_in_slices
+from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+
+MAX_POSITION_RAD = math.pi / 2.0
+MAX_VELOCITY_RAD_PER_S = 20.0
+DURATION_S = 2.0
+LAST_S = 0.2
+CLOSE_RAD = math.radians(1.0)
+
+Outcome = Literal["rest", "fault", "astray"]
+
+
+class Cell(NamedTuple):
+    """A place of the map: row of the velocity and column of the position."""
+
+    row: int
+    column: int
+
+
+class Fate(NamedTuple):
+    """What becomes of a start. after_s: when it was close for good, or when the fault came."""
+
+    outcome: Outcome
+    after_s: float
+
+
+class Map(NamedTuple):
+    """The starts. positions: q0, rad, a column each. velocities: q̇0, rad/s, a row each."""
+
+    positions: np.ndarray
+    velocities: np.ndarray
+
+
+def build_map(count: int) -> Map:
+    """Starts in `count` rows and columns: q0 within ±90°, q̇0 within ±20 rad/s."""
+    return Map(
+        np.linspace(-MAX_POSITION_RAD, MAX_POSITION_RAD, count),
+        np.linspace(-MAX_VELOCITY_RAD_PER_S, MAX_VELOCITY_RAD_PER_S, count),
+    )
+
+
+def order_cells(count: int) -> list[Cell]:
+    """Every cell once, from a coarse net to a fine one, so that a map says something early."""
+    ordered: dict[Cell, None] = {}
+    stride = 1 << max(0, (count - 1).bit_length() - 2)
+    while stride >= 1:
+        for row in range(0, count, stride):
+            for column in range(0, count, stride):
+                ordered.setdefault(Cell(row, column))
+        stride //= 2
+    return list(ordered)
+
+
+def find_fates(
+    configuration: Configuration, sigma: float, starts: Map, cells: Sequence[Cell]
+) -> Iterator[tuple[Cell, Fate]]:
+    """What becomes of each start, one after another, simulated with the compiled loop.
+
+    The actuator starts as one body, φ = 0, with link and motor 1 at q0 and q̇0; σ = σ_d =
+    `sigma`, N·m/rad; the loop is to bring it to q_d = 0. It has come to rest if |e| < 1° in the
+    last 0.2 of 2 s. A run that leaves the domain of the model is a fault. The configuration's
+    first lane, limits and effects hold.
+    """
+    run = Run(
+        configuration.changed(
+            position=ConstantPosition(),
+            stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
+            rivals=(),
+            loads=(),
+        )
+    )
+    blocks, law, period = run.blocks[0], run.laws[0], run.period_s
+    samples = np.empty((round(DURATION_S / period), len(CHANNELS)))
+    column = CHANNEL_INDEX["position_error_rad"]
+
+    def follow(lane: LaneState, first: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
+        return advance(blocks, law, run.inputs, lane, first, rows)
+
+    last = round(LAST_S / period)
+    for cell in cells:
+        q, dq = float(starts.positions[cell.column]), float(starts.velocities[cell.row])
+        memory = get_law(configuration.law).start_memory()
+        lane = build_lane_state(memory, State(q, dq, q, dq, 0.0, 0.0))
+        kind = law.function, blocks.steps
+        _, done, _ = advance_in_slices(follow, kind, lane, 0, samples)
+        if done < len(samples):
+            yield cell, Fate("fault", done * period)
+            continue
+        far = np.flatnonzero(np.abs(samples[:, column]) >= CLOSE_RAD)
+        settled = int(far[-1]) + 1 if len(far) else 0
+        is_rest = settled <= done - last
+        yield cell, Fate("rest" if is_rest else "astray", settled * period)
+
+
+def compute_share(fates: Sequence[Fate]) -> float:
+    """The share of starts that come to rest."""
+    return sum(fate.outcome == "rest" for fate in fates) / len(fates)

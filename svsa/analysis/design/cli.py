@@ -1,0 +1,139 @@
+"""`svsa stability`: Theorem 1 in tables, as JSON and as a picture."""
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from svsa.inputs.extras import require_extra
+
+if TYPE_CHECKING:
+    from svsa.analysis.design.report import Report
+    from svsa.analysis.design.robustness import StableRange
+
+
+def stability(
+    law: Annotated[str, typer.Option(help="Name of a law that is installed.")] = "ndobc",
+    stiffness: Annotated[
+        list[float] | None, typer.Option(help="σ_d, N·m/rad; 15 and 60 if left out.")
+    ] = None,
+    pole: Annotated[
+        float | None, typer.Option(help="Four position poles at −POLE, rad/s, of FL and NDOBC.")
+    ] = None,
+    observer: Annotated[
+        float | None, typer.Option(help="Observer bandwidth β on all channels, rad/s.")
+    ] = None,
+    parameters: Annotated[Path | None, typer.Option(help="Parameter file (TOML).")] = None,
+    starts: Annotated[
+        int, typer.Option(min=0, max=101, help="Starts along each side of the map; 0: no map.")
+    ] = 41,
+    plot: Annotated[Path | None, typer.Option(help="Draw it all into this file.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
+) -> None:
+    """Show Theorem 1: poles under model error, gain from ẇ to e, fastest observer, attraction."""
+    from svsa.analysis.design.report import build_configuration, build_report
+
+    if plot is not None:
+        require_extra("plot")
+    configuration = build_configuration(law, pole, observer, parameters)
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("Compiling, then counting what comes to rest", total=1.0)
+        reports = build_report(
+            configuration,
+            tuple(stiffness or (15.0, 60.0)),
+            starts,
+            lambda done: bar.update(task, completed=done),
+        )
+    if plot is not None:
+        from svsa.analysis.design.figures import save_picture
+
+        save_picture(configuration, reports, plot)
+    if as_json:
+        typer.echo(json.dumps({"law": law, "stability": [one.to_json() for one in reports]}))
+        return
+    Console().print(*_build_tables(reports), highlight=False)
+
+
+def _build_tables(reports: "list[Report]") -> list[Table]:
+    return [_build_loop_table(reports), _build_range_table(reports)]
+
+
+def _build_loop_table(reports: "list[Report]") -> Table:
+    table = Table("at σ, N·m/rad", title="The loop about rest", title_justify="left")
+    rows: list[tuple[str, list[str]]] = [
+        ("slowest real part, rad/s", [f"{one.stability.loop.slowest:.2f}" for one in reports]),
+        ("least damping", [f"{one.stability.loop.least_damping:.2f}" for one in reports]),
+        ("e per ẇ2, ° per N·m/s", [_tell_degrees(one.stability.gain.ramp) for one in reports]),
+        ("  by the formula", [_tell_degrees(one.stability.formula) for one in reports]),
+        ("  simulated ramps", [_tell_ramps(one) for one in reports]),
+        ("  the worst ẇ2 can do", [_tell_degrees(one.stability.gain.worst) for one in reports]),
+        ("  floor as β → ∞", [_tell_degrees(one.stability.floor) for one in reports]),
+        ("|w2 − ŵ2| per ẇ2, s", [_tell_lag(one) for one in reports]),
+        ("fastest β on the rig, rad/s", [_tell_fastest(one, 1) for one in reports]),
+        ("  with two samples of delay", [_tell_fastest(one, 2) for one in reports]),
+        ("  ideal", [_tell_fastest(one, 0) for one in reports]),
+        ("share that comes to rest", [_tell_share(one) for one in reports]),
+    ]
+    for one in reports:
+        table.add_column(f"{one.sigma:g}", justify="right")
+    for name, values in rows:
+        table.add_row(name, *values)
+    return table
+
+
+def _build_range_table(reports: "list[Report]") -> Table:
+    from svsa.analysis.design.robustness import MAX_RATIO, MIN_RATIO
+
+    table = Table(
+        "true / nominal",
+        title="Stays stable, one parameter at a time",
+        caption=f"looked for from {MIN_RATIO:g} to {MAX_RATIO:g}",
+        title_justify="left",
+        caption_justify="left",
+    )
+    table.add_column("now", justify="right")
+    for one in reports:
+        table.add_column(f"σ = {one.sigma:g}", justify="right")
+    for rows in zip(*(one.stability.ranges for one in reports), strict=True):
+        ends = [_tell_range(row) for row in rows]
+        table.add_row(rows[0].symbol, f"{rows[0].present:.2f}", *ends)
+    return table
+
+
+def _tell_range(found: "StableRange") -> str:
+    if found.high is None:
+        return "all" if found.low is None else f"from {found.low:.2f}"
+    return f"up to {found.high:.2f}" if found.low is None else f"{found.low:.2f} – {found.high:.2f}"
+
+
+def _tell_degrees(gain: float | None) -> str:
+    if gain is None:
+        return "–"
+    return f"{math.degrees(gain):.4f}" if math.isfinite(gain) else "none: w itself stays"
+
+
+def _tell_ramps(report: "Report") -> str:
+    if not math.isfinite(report.stability.gain.ramp):
+        return "–"
+    return ", ".join("fault" if r.fault else f"{math.degrees(r.gain):.4f}" for r in report.ramps)
+
+
+def _tell_lag(report: "Report") -> str:
+    lags = [ramp.lag for ramp in report.ramps if ramp.lag is not None]
+    return f"{lags[-1]:.4f}" if lags else "–"
+
+
+def _tell_fastest(report: "Report", delay: int) -> str:
+    if not report.is_observed:
+        return "–"
+    beta: Any = report.fastest[delay]
+    return "over 1000" if beta is None else f"{beta:.0f}"
+
+
+def _tell_share(report: "Report") -> str:
+    return "–" if report.share is None else f"{report.share:.2f}"

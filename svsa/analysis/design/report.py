@@ -1,0 +1,121 @@
+"""All that `svsa stability` tells of a law at one stiffness."""
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from svsa.analysis.design.attraction import (
+    Cell,
+    Fate,
+    build_map,
+    compute_share,
+    find_fates,
+    order_cells,
+)
+from svsa.analysis.design.iss import RAMPS_NM_PER_S, RampRun, simulate_ramp
+from svsa.analysis.design.sampling import find_fastest_observer
+from svsa.analysis.design.stability import Stability, assess
+from svsa.control.gains import Gains
+from svsa.control.installed import get_law
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.runs.configuration import Configuration, load_prototype, read_design
+from svsa.simulation.plant.effects import IDEAL, RIG
+from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+
+DELAYS = {0: IDEAL, 1: RIG, 2: RIG.changed(delay_samples=2)}
+
+
+class Report(NamedTuple):
+    """At σ_d = sigma, N·m/rad. fastest: β, rad/s, by samples of delay, 0 being the ideal loop.
+
+    fates: of the map's starts on the paper's rig; empty without a map, and share None.
+    """
+
+    sigma: float
+    stability: Stability
+    ramps: list[RampRun]
+    fastest: dict[int, float | None]
+    is_observed: bool
+    fates: dict[Cell, Fate]
+    share: float | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Numbers with their units in their names; null where there is none."""
+        loop, gain = self.stability.loop, self.stability.gain
+        return {
+            "stiffness_nm_per_rad": self.sigma,
+            "poles_rad_per_s": [[pole.real, pole.imag] for pole in loop.poles.tolist()],
+            "slowest_rad_per_s": loop.slowest,
+            "least_damping": loop.least_damping,
+            "ranges": [one._asdict() for one in self.stability.ranges],
+            "error_deg_per_nm_per_s": {
+                "linear": _finite(math.degrees(gain.ramp)),
+                "worst": _finite(math.degrees(gain.worst)),
+                "formula": _degrees(self.stability.formula),
+                "floor": _degrees(self.stability.floor),
+                "simulated": [_finite(math.degrees(ramp.gain)) for ramp in self.ramps],
+            },
+            "estimate_lag_s": [ramp.lag for ramp in self.ramps],
+            "fastest_observer_rad_per_s": {
+                f"{delay}_samples_of_delay": beta for delay, beta in self.fastest.items()
+            },
+            "share_that_comes_to_rest": self.share,
+        }
+
+
+def build_configuration(
+    law: str, pole: float | None, beta: float | None, parameters: Path | None
+) -> Configuration:
+    """A design at rest, the paper's if no file is given; raises `ParameterError`."""
+    design = read_design(parameters) if parameters else load_prototype()
+    least = design.limits.stiffness_min_nm_per_rad
+    c = Configuration(
+        **dict(design),
+        law=get_law(law).name,
+        position=ConstantPosition(),
+        stiffness=ConstantStiffness(stiffness_nm_per_rad=least),
+    )
+    if pole is not None:
+        stiffness = c.gains.stiffness_roots
+        c = c.changed(gains=Gains.from_poles([-pole] * 4, stiffness))
+    if beta is not None:
+        c = c.changed(observer=ObserverBandwidth(bandwidth_rad_per_s=(beta, beta, beta)))
+    return c
+
+
+def build_report(
+    configuration: Configuration,
+    sigmas: Sequence[float],
+    starts: int,
+    tell: Callable[[float], None] = lambda share: None,
+) -> list[Report]:
+    """A report for each stiffness, N·m/rad. tell: is given the share of the maps that is done."""
+    for sigma in sigmas:
+        configuration.limits.check_stiffness("stiffness", sigma, sigma)
+    done, total = 0, max(1, len(sigmas) * starts**2)
+    reports = []
+    for sigma in sigmas:
+        stability = assess(configuration, sigma)
+        ramps = [simulate_ramp(configuration, sigma, rate) for rate in RAMPS_NM_PER_S]
+        fastest = {
+            delay: find_fastest_observer(configuration.changed(effects=effects), sigma)
+            for delay, effects in DELAYS.items()
+        }
+        fates: dict[Cell, Fate] = {}
+        on_rig = configuration.changed(effects=RIG)
+        for cell, fate in find_fates(on_rig, sigma, build_map(starts), order_cells(starts)):
+            fates[cell], done = fate, done + 1
+            tell(done / total)
+        is_observed = get_law(configuration.law).estimate == "observer"
+        share = compute_share(list(fates.values())) if fates else None
+        reports.append(Report(sigma, stability, ramps, fastest, is_observed, fates, share))
+    return reports
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _degrees(value: float | None) -> float | None:
+    return None if value is None else math.degrees(value)

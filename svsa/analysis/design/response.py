@@ -1,0 +1,49 @@
+"""What the 3 kg do at rest, simulated."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
+from svsa.runs.configuration import Configuration
+from svsa.runs.run import Run
+from svsa.simulation.plant.loads import PaperLoad
+from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+
+ONSET_S = 0.1
+DURATION_S = 0.9
+
+
+class LoadResponse(NamedTuple):
+    """time, s, from the load's onset on, and before it < 0. error: q_d − q, rad. torque1: u1, N·m.
+
+    fault: why it ended early, or "".
+    """
+
+    time: np.ndarray
+    error: np.ndarray
+    torque1: np.ndarray
+    fault: str
+
+
+def simulate_load(configuration: Configuration, sigma: float) -> LoadResponse:
+    """The configuration's first lane at rest at q = 0, σ_d = `sigma`, when the paper's load comes.
+
+    With the configuration's own limits and effects.
+    """
+    run = Run(
+        configuration.changed(
+            position=ConstantPosition(),
+            stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
+            rivals=(),
+            loads=(PaperLoad(start_s=ONSET_S),),
+        )
+    )
+    samples = np.empty((1, round((ONSET_S + DURATION_S) / run.period_s), len(CHANNELS)))
+    rows = samples[0, : run.advance(samples)]
+    return LoadResponse(
+        rows[:, CHANNEL_INDEX["time_s"]] - ONSET_S,
+        rows[:, CHANNEL_INDEX["position_error_rad"]],
+        rows[:, CHANNEL_INDEX["torque1_nm"]],
+        run.fault.message if run.fault else "",
+    )

@@ -1,0 +1,79 @@
+"""How wrong a parameter may be before the closed loop about rest is unstable."""
+
+from typing import NamedTuple
+
+from svsa.analysis.design.closed_loop import LawDerivatives, connect, linearize_law
+from svsa.runs.configuration import Configuration
+
+PARAMETERS = {
+    "link_inertia_kg_m2": "M",
+    "motor1_inertia_kg_m2": "B1",
+    "motor2_inertia_kg_m2": "B2",
+    "link_damping_nms_per_rad": "D",
+    "motor1_damping_nms_per_rad": "D1",
+    "motor2_damping_nms_per_rad": "D2",
+    "spring_stiffness_n_per_m": "Ks",
+}
+MIN_RATIO, MAX_RATIO = 0.05, 20.0
+_STRIDE = 1.12
+_CLOSE = 1e-4
+
+
+class StableRange(NamedTuple):
+    """True over nominal value of one parameter, all others nominal, with a Hurwitz loop.
+
+    parameter: its name among `ActuatorParameters`; symbol: the paper's. low, high: None where it
+    is stable as far as was looked, from `MIN_RATIO` to `MAX_RATIO`. present: the ratio in
+    the configuration.
+    """
+
+    parameter: str
+    symbol: str
+    low: float | None
+    high: float | None
+    present: float
+
+
+def find_stable_ranges(
+    configuration: Configuration, sigma: float, law: LawDerivatives | None = None
+) -> list[StableRange]:
+    """Where the loop about rest at σ_d = `sigma`, N·m/rad, is Hurwitz, one parameter at a time.
+
+    law: its derivatives, if they are known. Empty where the nominal loop itself is unstable.
+    """
+    c, nominal = configuration, configuration.nominal
+    derivatives = law or linearize_law(c, sigma)
+
+    def is_stable(name: str, ratio: float) -> bool:
+        actuator = nominal.model_copy(update={name: ratio * getattr(nominal, name)})
+        return connect(c, sigma, derivatives, actuator).is_hurwitz
+
+    def find_end(name: str, end: float) -> float | None:
+        step = _STRIDE if end > 1.0 else 1.0 / _STRIDE
+        inside = outside = 1.0
+        while is_stable(name, outside):
+            inside = outside
+            if inside == end:
+                return None
+            outside = min(inside * step, end) if end > 1.0 else max(inside * step, end)
+        while abs(outside - inside) > _CLOSE * inside:
+            middle = 0.5 * (inside + outside)
+            if is_stable(name, middle):
+                inside = middle
+            else:
+                outside = middle
+        return inside
+
+    if not connect(c, sigma, derivatives, nominal).is_hurwitz:
+        return []
+    return [
+        StableRange(
+            name,
+            symbol,
+            find_end(name, MIN_RATIO),
+            find_end(name, MAX_RATIO),
+            getattr(c.actuator, name) / getattr(nominal, name),
+        )
+        for name, symbol in PARAMETERS.items()
+        if getattr(nominal, name) > 0.0
+    ]

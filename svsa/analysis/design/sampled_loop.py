@@ -1,0 +1,116 @@
+"""The discrete loop, linearised about rest: one tick as a matrix."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.dynamics import compute_internal_torque
+from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, Positions, State, Torque
+from svsa.analysis.design.differences import differentiate
+from svsa.control.call import build_call, read_estimate
+from svsa.runs.configuration import Configuration
+from svsa.runs.run import Run
+from svsa.simulation.loop.lane import Inputs, LaneState
+from svsa.simulation.loop.loop import apply_torque, decide, observe
+from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES
+from svsa.simulation.plant.loads import ConstantLoad, build_load_table, schedule_load
+from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+
+TORQUES = slice(15, 17)
+_PUSH_NM = 1e-3
+_BEGINNING_S = 0.05
+
+
+class SampledLoop(NamedTuple):
+    """z' = A z + B n + W w2, a tick of the loop about rest.
+
+    z = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law, what was
+    heard last beside x), without what never changes; it begins with q. n: noise on θ1, θ2, φ, rad.
+    w2: a torque on the link during the tick, N·m.
+    """
+
+    A: np.ndarray
+    B: np.ndarray
+    W: np.ndarray
+
+    @property
+    def radius(self) -> float:
+        """The largest |z| of the poles, 1; below 1 the loop is stable."""
+        return float(np.max(np.abs(np.linalg.eigvals(self.A))))
+
+
+def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
+    """A tick at q = 0, σ = `sigma`, at rest, by central differences of the loop's own functions.
+
+    Limits, counts, noise and friction, which have no derivative, are left out, and so is what the
+    law remembers and never changes.
+    """
+    smooth = configuration.effects.changed(
+        encoders=None, noise=None, friction=None, torque_limits=False
+    )
+    run = Run(
+        configuration.changed(
+            position=ConstantPosition(),
+            stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
+            effects=smooth,
+            rivals=(),
+            loads=(),
+        )
+    )
+    blocks, law = run.blocks[0], run.laws[0]
+    rest, sample = find_rest(run), np.empty(len(CHANNELS))
+
+    def tick(z: np.ndarray, inputs: Inputs = run.inputs) -> np.ndarray:
+        lane, heard = _unpack(z[:-3]), z[-3:].tolist()
+        call, x = build_call(law, lane.memory), lane.x
+        measured = Positions(x.q + heard[0], x.theta1 + heard[1], x.theta2 + heard[2])
+        reference, torque = decide(
+            blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, 0
+        )
+        estimate = read_estimate(call, lane.estimate)
+        F = compute_internal_torque(blocks.nominal, lane.known)
+        lane, _ = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, 0, sample)
+        return _pack(lane)
+
+    def hear(n: np.ndarray) -> np.ndarray:
+        heard = Measurement(n[0], n[1], n[2], 0.0, 0.0, 0.0)
+        known, estimate = observe(blocks, rest.known, rest.estimate, rest.torque, heard)
+        return _pack(rest._replace(known=known, estimate=estimate), (n[0] + n[2], n[0], n[1]))
+
+    def push(torque: float) -> np.ndarray:
+        load = ConstantLoad(torque_nm=(torque, 0.0, 0.0))
+        table = build_load_table((schedule_load(1, load, 0, run.period_s),))
+        return tick(_pack(rest), run.inputs._replace(loads=table))
+
+    A, B = differentiate(tick, _pack(rest)), differentiate(hear, np.zeros(3))
+    W = (push(_PUSH_NM) - push(-_PUSH_NM)) / (2.0 * _PUSH_NM)
+    is_same = np.isclose(A, np.eye(len(A)), rtol=0.0, atol=1e-7)
+    is_fixed = np.all(is_same, axis=1) & np.all(B == 0.0, axis=1)
+    is_fixed[-3:] |= np.all(A[:, -3:] == 0.0, axis=0)
+    moving = np.flatnonzero(~is_fixed)
+    return SampledLoop(A[np.ix_(moving, moving)], B[moving], W[moving])
+
+
+def find_rest(run: Run) -> LaneState:
+    """The first lane of a run at rest, once its law has begun: many do otherwise at first."""
+    run.advance(np.empty((1, round(_BEGINNING_S / run.period_s), len(CHANNELS))))
+    return run.lanes[0]
+
+
+def _pack(lane: LaneState, heard: Sequence[float] = (0.0, 0.0, 0.0)) -> np.ndarray:
+    parts = (lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, lane.memory)
+    return np.concatenate((*parts, heard))
+
+
+def _unpack(z: np.ndarray) -> LaneState:
+    values, queue = z.tolist(), 2 * MAX_DELAY_SAMPLES + 2
+    return LaneState(
+        State(*values[:6]),
+        State(*values[6:12]),
+        Disturbance(*values[12:15]),
+        Torque(*values[TORQUES]),
+        Torque(*values[17:19]),
+        tuple(values[19 : 19 + queue]),
+        z[19 + queue :].copy(),
+    )

@@ -1,0 +1,74 @@
+"""A motion from which the parameters can be told apart: slow, fast, soft and stiff.
+
+Slow sines cross the Stribeck velocity, where friction shows; long strokes at speed show the
+dampings; fast ones the inertias and the delay of the torque, which at one frequency alone
+would pass for damping; the spring shows where the link is thrown about. The stiffness never
+rests while the link swings fast, and no two frequencies are multiples: else every period
+would meet the same counts of the encoders, and their error would not average out.
+"""
+
+from typing import Literal, NamedTuple
+
+from svsa.runs.command import Command, build_command
+from svsa.simulation.reference.sine import (
+    ConstantPosition,
+    ConstantStiffness,
+    SinePosition,
+    SineStiffness,
+)
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+
+EXCITATION_DURATION_S = 32.0
+
+
+class Cue(NamedTuple):
+    """A reference to fade over to, so many seconds after the beginning."""
+
+    time_s: float
+    kind: Literal["position", "stiffness"]
+    reference: PositionReference | StiffnessReference
+
+
+def _move(time_s: float, amplitude_rad: float, frequency_hz: float) -> Cue:
+    reference = SinePosition(amplitude_rad=amplitude_rad, frequency_hz=frequency_hz)
+    return Cue(time_s, "position", reference)
+
+
+def _stiffen(time_s: float, mean: float, amplitude: float = 0.0, frequency_hz: float = 0.0) -> Cue:
+    if not amplitude:
+        return Cue(time_s, "stiffness", ConstantStiffness(stiffness_nm_per_rad=mean))
+    reference = SineStiffness(
+        offset_nm_per_rad=mean, amplitude_nm_per_rad=amplitude, frequency_hz=frequency_hz
+    )
+    return Cue(time_s, "stiffness", reference)
+
+
+EXCITATION = (
+    _move(0.0, 1.0, 0.1),
+    _stiffen(0.0, 30.0),
+    _move(4.0, 0.8, 1.0),
+    _stiffen(6.0, 50.0, 30.0, 0.23),
+    _move(9.0, 0.2, 5.0),
+    _stiffen(9.0, 60.0, 15.0, 0.31),
+    _move(12.0, 0.3, 3.1),
+    _stiffen(12.0, 25.0, 5.0, 0.37),
+    _move(16.0, 0.4, 1.9),
+    _stiffen(16.0, 60.0, 35.0, 1.03),
+    _stiffen(19.0, 50.0, 28.0, 2.0),
+    _move(22.0, 0.6, 0.7),
+    _stiffen(22.0, 45.0, 6.0, 5.0),
+    _move(25.0, 0.15, 4.3),
+    _stiffen(25.0, 100.0, 20.0, 0.41),
+    _move(28.0, 0.4, 2.3),
+    _stiffen(28.0, 18.0, 3.0, 0.53),
+    Cue(30.5, "position", ConstantPosition()),
+    _stiffen(30.5, 30.0),
+)
+
+
+def build_commands(period_s: float, first_tick: int = 0) -> list[Command]:
+    """The excitation as commands for a run that has reached `first_tick`."""
+    return [
+        build_command(first_tick + round(cue.time_s / period_s), cue.kind, cue.reference)
+        for cue in EXCITATION
+    ]

@@ -1,0 +1,142 @@
+"""Output error by multiple shooting: the parameters with which the plant does as recorded.
+
+The record is cut into short segments, each with a start state of its own, so that neither
+drift nor an instability grows (Bock 1983). Levenberg–Marquardt on all unknowns at once; the
+start states are eliminated segment by segment, so that the work is linear in the length of
+the record.
+
+The covariance is the sandwich with the segments as clusters and their leverage taken off
+(CR3, the jackknife): counts of an encoder are not white noise, and nothing is assumed about
+them but that segments are independent.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.analysis.identification.guess import guess_parameters, guess_states
+from svsa.analysis.identification.problem import SHAPE, UNKNOWNS, Point, Problem
+from svsa.analysis.identification.record import Evidence, IdentificationError
+
+_FIRST_DEVIATION = np.array([2e-5, 2e-5, 2e-4])
+_MIN_DEVIATION = 1e-9
+_MAX_PASSES = 6
+_STEADY = 0.02
+_MAX_ITERATIONS = 30
+_ROUGH, _FINE = 0.05, 1e-6
+_ROUGH_SHARE = 3
+_MIN_DAMPING, _MAX_DAMPING = 1e-9, 1e6
+_OUTLIER = 5.0
+_MAX_DROPPED = 0.2
+_MODEL_SHARE = 1e-4
+
+Progress = Callable[[float], None]
+
+
+class Fit(NamedTuple):
+    """What was found.
+
+    values, deviations: (16,) of `Parameters` and their standard deviations; to what the
+    record gives a ten-thousandth of the value is added, for torques between samples. residual:
+    (3,) rms of θ1, θ2, φ that the model does not explain, rad. used, dropped: segments; dropped
+    are those that the model explains far worse than the others.
+    """
+
+    values: np.ndarray
+    deviations: np.ndarray
+    residual: np.ndarray
+    used: int
+    dropped: int
+
+
+def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
+    """The parameters of a record; `progress` is told the share of the work that is done.
+
+    A rough pass over some of the segments, then passes over all, each of which weighs the
+    angles by what the last one left of them. Raises `IdentificationError` where the model
+    does not explain the record.
+    """
+    segments, residual = evidence.segments, _FIRST_DEVIATION
+    centre, starts = guess_parameters(evidence), guess_states(evidence)[segments]
+    few = slice(None, None, _ROUGH_SHARE)
+    problem = Problem(evidence, segments[few], residual, centre, SHAPE)
+    tell = _build_teller(progress, 0)
+    point, _ = _minimize(problem, Point(centre, starts[few]), _ROUGH, tell)
+    point = Point(point.values, starts)
+    for step in range(1, _MAX_PASSES):
+        problem = Problem(evidence, segments, residual, centre)
+        point, squares = _minimize(problem, point, _FINE, _build_teller(progress, step))
+        before, share = residual, np.sum(squares / residual**2, axis=1)
+        kept = share <= _OUTLIER**2 * np.median(share)
+        segments, point = segments[kept], Point(point.values, point.starts[kept])
+        _check_dropped(evidence, len(segments))
+        mean = squares[kept].sum(axis=0) / (len(segments) * evidence.length)
+        residual = np.maximum(np.sqrt(mean), _MIN_DEVIATION)
+        if kept.all() and np.all(np.abs(residual - before) <= _STEADY * before):
+            break
+    problem = Problem(evidence, segments, residual, centre)
+    covariance = compute_covariance(problem, point)
+    floor = _MODEL_SHARE * np.abs(point.values)
+    deviations = np.sqrt(np.diag(covariance) + floor**2)
+    progress(1.0)
+    dropped = len(evidence.segments) - len(segments)
+    return Fit(point.values, deviations, residual, len(segments), dropped)
+
+
+def compute_covariance(problem: Problem, point: Point) -> np.ndarray:
+    """Of the parameters: A⁻¹ (Σ s sᵀ + P) A⁻¹.
+
+    A: their information, that of the prior P with it. s = (1 − A_k A⁻¹)⁻¹ g_k: the score of a
+    segment without its own leverage on what was found.
+    """
+    reduced = problem.reduce(problem.linearize(point), 0.0)
+    total, _ = problem.sum_up(reduced, point.values)
+    scale = 1.0 / np.sqrt(np.diag(total))
+    inverse = np.linalg.inv(total * np.outer(scale, scale))
+    share = np.eye(UNKNOWNS) - reduced.information * np.outer(scale, scale) @ inverse
+    scores = np.linalg.solve(share, (reduced.score * scale)[:, :, None])[:, :, 0]
+    half = scores @ inverse * scale
+    prior = np.sqrt(problem.prior_weight)[:, None] * scale[:, None] * inverse * scale
+    return half.T @ half + prior.T @ prior
+
+
+def _minimize(
+    problem: Problem, point: Point, tolerance: float, tell: Callable[[int], None]
+) -> tuple[Point, np.ndarray]:
+    """Levenberg–Marquardt until the cost falls by less than this share of it.
+
+    Returns the best point and its squares (segments, 3), see `Normal`.
+    """
+    normal = problem.linearize(point)
+    cost, damping = problem.compute_cost(normal.squares, point.values), 1e-3
+    for iteration in range(_MAX_ITERATIONS):
+        tell(iteration)
+        while True:
+            trial = problem.step(normal, point, damping)
+            found = problem.compute_cost(problem.compute_squares(trial), trial.values)
+            if found <= cost:
+                break
+            if damping > _MAX_DAMPING:
+                return point, normal.squares
+            damping *= 10.0
+        fall, point, cost = cost - found, trial, found
+        normal = problem.linearize(point)
+        damping = max(0.1 * damping, _MIN_DAMPING)
+        if fall <= tolerance * cost:
+            break
+    return point, normal.squares
+
+
+def _build_teller(progress: Progress, step: int) -> Callable[[int], None]:
+    """Progress for the iterations of a pass: nobody knows how many there will be of either."""
+    return lambda iterations: progress(1.0 - 0.5**step * (0.5 + 0.5 * 0.85**iterations))
+
+
+def _check_dropped(evidence: Evidence, kept: int) -> None:
+    count = len(evidence.segments)
+    if count - kept > _MAX_DROPPED * count:
+        raise IdentificationError(
+            f"The model does not explain {count - kept} of {count} pieces of this run: was"
+            " there a load, a contact or a wrong geometry?"
+        )

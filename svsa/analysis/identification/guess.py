@@ -1,0 +1,91 @@
+"""A first guess of the parameters: the equations of motion in weak form, by least squares.
+
+Every term of Eq 1 goes through the same Gaussian window; the derivatives then fall on the
+window, not on the counts of the encoders (as in weak-form regression, e.g. Messenger and
+Bortz 2021). What is left is linear in the parameters.
+"""
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from svsa.analysis.identification.kernel import STATES, Parameters, compute_unit_torques
+from svsa.analysis.identification.record import Evidence
+
+_WINDOW_S = 0.012
+_CREEP_RAD_PER_S = 0.05
+_MIN = 1e-5
+_SMOOTH_ROWS = 11
+_SHAPE = {"static_ratio": 1.2, "stribeck": 0.1, "creep1": 0.02, "creep2": 0.02} | {
+    "delay1": 0.0,
+    "delay2": 0.0,
+}
+
+
+def guess_states(evidence: Evidence) -> np.ndarray:
+    """The states (rows, 6) from the measured angles, smoothed."""
+    angles, width = evidence.angles, 0.5 * _WINDOW_S / evidence.setting.period
+    q = angles[:, 0] + angles[:, 2]
+    states = np.empty((len(angles), STATES))
+    for column, angle in enumerate((q, angles[:, 0], angles[:, 1])):
+        states[:, 2 * column] = gaussian_filter1d(angle, width)
+        states[:, 2 * column + 1] = _filter(angle, width, 1, evidence.setting.period)
+    return states
+
+
+def guess_noise(evidence: Evidence) -> np.ndarray:
+    """Rms of what of θ1, θ2, φ no smooth motion explains, (3,), rad."""
+    from scipy.signal import savgol_filter  # late: it takes a while
+
+    rough = evidence.angles - savgol_filter(evidence.angles, _SMOOTH_ROWS, 3, axis=0)
+    return np.sqrt(np.mean(rough**2, axis=0))
+
+
+def guess_parameters(evidence: Evidence) -> np.ndarray:
+    """The vector of `Parameters`; what this method cannot see is at a usual value."""
+    period = evidence.setting.period
+    width = _WINDOW_S / period
+    spring = np.empty((len(evidence.angles), 3))
+    compute_unit_torques(evidence.setting, evidence.angles, spring)
+    theta1, theta2, phi = evidence.angles.T
+    q = theta1 + phi
+    rows = _find_inner_rows(evidence, round(4 * width))
+
+    def weigh(signal: np.ndarray, order: int = 0) -> np.ndarray:
+        return _filter(signal, width, order, period)[rows]
+
+    def compute_friction(angle: np.ndarray) -> np.ndarray:
+        velocity = _filter(angle, width, 1, period)
+        return weigh(np.tanh(velocity / _CREEP_RAD_PER_S))
+
+    zero = np.zeros(len(rows))
+    link, motor1, motor2 = (weigh(column) for column in spring.T)
+    columns = {
+        "M": (weigh(q, 2), zero, zero),
+        "B1": (zero, weigh(theta1, 2), zero),
+        "B2": (zero, zero, weigh(theta2, 2)),
+        "D": (weigh(q, 1), zero, zero),
+        "D1": (zero, weigh(theta1, 1), zero),
+        "D2": (zero, zero, weigh(theta2, 1)),
+        "K": (-link, -motor1, -motor2),
+        "coulomb1": (zero, compute_friction(theta1), zero),
+        "coulomb2": (zero, zero, compute_friction(theta2)),
+        "gravity_moment": (weigh(np.sin(q)), zero, zero),
+    }
+    matrix = np.stack([np.concatenate(parts) for parts in columns.values()], 1)
+    asked = np.concatenate([zero, *(weigh(u) for u in evidence.torques.asked.T)])
+    scale = np.linalg.norm(matrix, axis=0) + 1e-12
+    solution = np.linalg.lstsq(matrix / scale, asked, rcond=1e-9)[0] / scale
+    found = dict(zip(columns, solution.tolist(), strict=True))
+    moment = found.pop("gravity_moment")
+    values = {name: max(value, _MIN) for name, value in found.items()} | _SHAPE
+    return np.array(Parameters(**values, gravity_moment=moment))
+
+
+def _filter(signal: np.ndarray, width: float, order: int, period: float) -> np.ndarray:
+    return gaussian_filter1d(signal, width, order=order) / period**order
+
+
+def _find_inner_rows(evidence: Evidence, margin: int) -> np.ndarray:
+    """All rows of the segments but those that the window joins with an end of the record."""
+    rows = (evidence.segments[:, None] + np.arange(evidence.length)).ravel()
+    return rows[(rows >= margin) & (rows < len(evidence.angles) - margin)]

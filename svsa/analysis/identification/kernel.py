@@ -1,0 +1,195 @@
+"""The compiled side of identification: the plant through a segment, and how it depends on all.
+
+The equations are those of the simulated plant; no other compiled function of this room may
+be in another file, since numba's cache follows a change here by this file alone.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.dynamics import Actuator, compute_internal_torque
+from svsa.actuators.signals import State, Torque
+from svsa.numerics.compilation import compiled
+from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.integration import integrate_period
+from svsa.simulation.plant.loads import LoadTable
+from svsa.simulation.plant.sensors import read_sensors
+
+UNLOADED = LoadTable(np.zeros((0, 12)), np.zeros((0, 4)), False)
+STATES = 6
+OUTPUTS = 3
+
+
+class Setting(NamedTuple):
+    """What is known beforehand. gamma, mu0, reaction: see `Actuator`.
+
+    period: T, s. lag: of the current loop, s (see `plant.drive`).
+    """
+
+    gamma: float
+    mu0: float
+    reaction: int
+    period: float
+    lag: float
+    loads: LoadTable
+
+
+class Torques(NamedTuple):
+    """Of both motors at every sample, (rows, 2), N·m: made then, and asked for until the next."""
+
+    made: np.ndarray
+    asked: np.ndarray
+
+
+class Parameters(NamedTuple):
+    """All that is estimated, in SI units, in the order of the vector of unknowns.
+
+    M … K: see `Actuator`. coulomb, static_ratio, stribeck, creep: of `compute_friction`.
+    gravity_moment: m g r of the link, N·m. delay1, delay2: from a recorded torque to the
+    motor's, s: drives that are told one after the other act one after the other.
+    """
+
+    M: float
+    B1: float
+    B2: float
+    D: float
+    D1: float
+    D2: float
+    K: float
+    coulomb1: float
+    coulomb2: float
+    static_ratio: float
+    stribeck: float
+    creep1: float
+    creep2: float
+    gravity_moment: float
+    delay1: float
+    delay2: float
+
+
+@compiled
+def build_parameters(p: np.ndarray) -> Parameters:
+    """The vector of unknowns (16,) as `Parameters`."""
+    return Parameters(
+        p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], p[13],
+        p[14], p[15],
+    )  # fmt: skip
+
+
+@compiled
+def compute_late_value(torques: np.ndarray, row: int, motor: int, shift: float) -> float:
+    """A motor's torque at the sample `row` of a recorded one that is late, N·m.
+
+    torques: (rows, 2), N·m. motor: 0 or 1. shift: by how many periods; between two samples on
+    the straight line, beyond the ends the last.
+    """
+    whole = math.floor(shift)
+    share = shift - whole
+    last = torques.shape[0] - 1
+    late = min(max(row - int(whole), 0), last)
+    later = min(max(row - int(whole) - 1, 0), last)
+    return (1.0 - share) * torques[late, motor] + share * torques[later, motor]
+
+
+@compiled
+def compute_shifted_torque(torques: np.ndarray, row: int, shift1: float, shift2: float) -> Torque:
+    """Both motors' `Torque` at the sample `row`, each late by its own shift, periods."""
+    return Torque(
+        compute_late_value(torques, row, 0, shift1), compute_late_value(torques, row, 1, shift2)
+    )
+
+
+@compiled
+def simulate(
+    setting: Setting,
+    p: np.ndarray,
+    start: np.ndarray,
+    torques: Torques,
+    first: int,
+    outputs: np.ndarray,
+) -> None:
+    """θ1, θ2, φ of the plant from the sample `first` on: outputs (samples, 3), rad, written.
+
+    p: (16,) see `Parameters`. start: (6,) the state at the first sample. torques: of the
+    whole record, `Torques`.
+    """
+    c = build_parameters(p)
+    actuator = Actuator(
+        c.M, c.B1, c.B2, c.D, c.D1, c.D2, c.K, setting.gamma, setting.mu0, setting.reaction
+    )
+    bench = Bench(
+        0.0, 0.0, 0.0, 0.0, 0, 0, setting.lag, c.coulomb1, c.coulomb2,
+        c.coulomb1 * c.static_ratio, c.coulomb2 * c.static_ratio, c.stribeck, c.creep1, c.creep2,
+        c.gravity_moment,
+    )  # fmt: skip
+    x = State(start[0], start[1], start[2], start[3], start[4], start[5])
+    shift1, shift2 = c.delay1 / setting.period, c.delay2 / setting.period
+    for k in range(outputs.shape[0]):
+        outputs[k, 0] = x.theta1
+        outputs[k, 1] = x.theta2
+        outputs[k, 2] = x.q - x.theta1
+        made = compute_shifted_torque(torques.made, first + k, shift1, shift2)
+        asked = compute_shifted_torque(torques.asked, first + k, shift1, shift2)
+        x = integrate_period(
+            actuator, bench, x, made, asked, setting.loads, first + k, setting.period, 1
+        )
+
+
+@compiled
+def differentiate(
+    setting: Setting,
+    p: np.ndarray,
+    start: np.ndarray,
+    steps: np.ndarray,
+    torques: Torques,
+    first: int,
+    outputs: np.ndarray,
+    slopes: np.ndarray,
+) -> None:
+    """`simulate`, and the difference quotients by every unknown and by the start.
+
+    steps: (16 + 6,) of the quotients. outputs: (samples, 3), slopes: (16 + 6, samples, 3),
+    both written.
+    """
+    unknowns = p.shape[0]
+    for i in range(-1, steps.shape[0]):
+        moved, moved_start = p.copy(), start.copy()
+        if 0 <= i < unknowns:
+            moved[i] += steps[i]
+        elif i >= unknowns:
+            moved_start[i - unknowns] += steps[i]
+        target = outputs if i < 0 else slopes[i]
+        simulate(setting, moved, moved_start, torques, first, target)
+        if i >= 0:
+            for k in range(outputs.shape[0]):
+                for m in range(OUTPUTS):
+                    target[k, m] = (target[k, m] - outputs[k, m]) / steps[i]
+
+
+@compiled
+def compute_unit_torques(setting: Setting, angles: np.ndarray, torques: np.ndarray) -> None:
+    """What the spring would do with K = 1 N·m/rad: torques (rows, 3) written, as `InternalTorque`.
+
+    angles: (rows, 3) θ1, θ2, φ, rad.
+    """
+    unit = Actuator(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, setting.gamma, setting.mu0, setting.reaction)
+    for k in range(angles.shape[0]):
+        theta1, theta2, phi = angles[k, 0], angles[k, 1], angles[k, 2]
+        F = compute_internal_torque(unit, State(theta1 + phi, 0.0, theta1, 0.0, theta2, 0.0))
+        torques[k, 0], torques[k, 1], torques[k, 2] = F.link, F.motor1, F.motor2
+
+
+@compiled
+def measure(bench: Bench, first_tick: int, states: np.ndarray, measured: np.ndarray) -> None:
+    """What the sensors say of the true angles.
+
+    bench: `Bench`. states: (rows, 3) θ1, θ2, φ. measured: (rows, 3), the same as measured,
+    written.
+    """
+    for k in range(states.shape[0]):
+        theta1, theta2, phi = states[k, 0], states[k, 1], states[k, 2]
+        x = State(theta1 + phi, 0.0, theta1, 0.0, theta2, 0.0)
+        y = read_sensors(bench, x, first_tick + k)
+        measured[k, 0], measured[k, 1], measured[k, 2] = y.theta1, y.theta2, y.phi

@@ -1,0 +1,147 @@
+"""What a record says to identification: measured angles, torques, and where they may be used.
+
+Only what a bench knows is read. The angles of a simulated run, which are the true ones, are
+put through the encoders and noise that the run had; those of a bench are measured already.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.analysis.identification.kernel import UNLOADED, Setting, Torques, measure
+from svsa.errors import SvsaError
+from svsa.numerics.exponential import exp
+from svsa.runs.command import Command, SetActuator, SetEffects
+from svsa.runs.configuration import Configuration
+from svsa.runs.records.reader import Record
+from svsa.runs.records.resimulation import read_origin
+from svsa.runs.replay import list_loads
+from svsa.simulation.plant.effects import build_bench
+
+SEGMENT_S = 0.25
+MIN_SEGMENTS = 24
+_CHANNELS = (
+    "motor1_position_rad",
+    "motor2_position_rad",
+    "deflection_rad",
+    "torque1_nm",
+    "torque2_nm",
+    "lever_ratio",
+)
+_TRUTH = "disturbance_link_nm"
+_CHANGES = {"actuator": "the plant's parameters", "effects": "the effects"}
+
+
+class IdentificationError(SvsaError):
+    """A run from which the parameters cannot be found, and why."""
+
+
+class Evidence(NamedTuple):
+    """The record as identification sees it.
+
+    angles: (rows, 3) θ1, θ2, φ as measured, rad. segments: first rows of the pieces that are
+    used, each `length` rows long. loaded: rows under a load.
+    """
+
+    configuration: Configuration
+    setting: Setting
+    angles: np.ndarray
+    torques: Torques
+    segments: np.ndarray
+    length: int
+    loaded: int
+
+
+def read_evidence(record: Record) -> Evidence:
+    """The first lane of a record, without the stretches under a load and missed ticks.
+
+    Raises `IdentificationError` where too little is left, or the plant was changed on the
+    way.
+    """
+    configuration, commands = read_origin(record)
+    configuration = _find_plant(record, configuration, commands)
+    rows = record.read_channels(_CHANNELS)[:, 0]
+    is_measured = bool(np.isnan(record.read_channels([_TRUTH], 0, 1)).all())
+    missed = np.zeros(len(rows), bool)
+    if is_measured:
+        missed[:] = np.isnan(rows).all(axis=1)
+    rows = _hold(rows, missed)
+    if not np.isfinite(rows).all():
+        raise IdentificationError(f"Run {record.header.run_id} has samples that are no numbers.")
+    period = record.header.period_s
+    length = round(SEGMENT_S / period)
+    ticks = record.first_tick + np.arange(len(rows))
+    loaded = np.zeros(len(rows), bool)
+    for load in list_loads(configuration, commands):
+        loaded[(ticks >= load.start_tick) & (ticks < load.end_tick)] = True
+    segments = _find_segments(~(loaded | missed), length)
+    if len(segments) < MIN_SEGMENTS:
+        raise IdentificationError(
+            f"Run {record.header.run_id} has {len(segments) * SEGMENT_S:g} s without a load:"
+            f" at least {MIN_SEGMENTS * SEGMENT_S:g} s are needed."
+        )
+    a = configuration.actuator
+    mu0 = rows[0, 5] - compute_lever_ratio(rows[0, 1], 0.0, a.spiral_reduction)
+    known = build_actuator(a, mu0)
+    effects = configuration.effects
+    lag = effects.current_lag.time_constant_s if effects.current_lag else 0.0
+    setting = Setting(known.gamma, known.mu0, known.reaction, period, lag, UNLOADED)
+    angles, torques = np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:5])
+    if not is_measured:
+        true = angles.copy()
+        measure(
+            build_bench(effects, configuration.seed, a, period), record.first_tick, true, angles
+        )
+    torques = build_torques(torques, is_measured, lag, period)
+    return Evidence(configuration, setting, angles, torques, segments, length, int(np.sum(loaded)))
+
+
+def _hold(rows: np.ndarray, missed: np.ndarray) -> np.ndarray:
+    """Rows that the loop missed as the last before them: the drives hold their currents."""
+    known = np.where(missed, 0, np.arange(len(rows)))
+    return rows[np.maximum.accumulate(known)]
+
+
+def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: float) -> Torques:
+    """Torques made and asked for from those recorded (rows, 2), N·m.
+
+    A bench records what it asked for, a simulation what the motors make at that instant:
+    with the lag, each follows from the other (`compute_lagged_torque`). lag, period: s.
+    """
+    rest = exp(-period / lag) if lag > 0.0 else 0.0
+    if is_measured:
+        from scipy.signal import lfilter  # late: it takes a while
+
+        made = lfilter([0.0, 1.0 - rest], [1.0, -rest], recorded, axis=0)
+        return Torques(np.ascontiguousarray(made), recorded)
+    following = np.concatenate([recorded[1:], recorded[-1:]])
+    asked = (following - rest * recorded) / (1.0 - rest) if rest else recorded
+    return Torques(recorded, np.ascontiguousarray(asked))
+
+
+def _find_plant(
+    record: Record, configuration: Configuration, commands: Sequence[Command]
+) -> Configuration:
+    """The configuration with the actuator and effects of the record's samples."""
+    for command in commands:
+        if not isinstance(command, SetActuator | SetEffects):
+            continue
+        if command.tick > record.first_tick:
+            time = command.tick * record.header.period_s
+            raise IdentificationError(
+                f"Run {record.header.run_id} is not of one plant: {_CHANGES[command.kind]} were"
+                f" changed at {time:g} s. Record a run in which they stay."
+            )
+        configuration = command.configure(configuration)
+    return configuration
+
+
+def _find_segments(free: np.ndarray, length: int) -> np.ndarray:
+    """First rows of the whole pieces of `length` rows in the free stretches."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], free, [False]]).astype(int)))
+    stretches = zip(edges[::2], edges[1::2], strict=True)
+    pieces = [np.arange(first, end - length + 1, length) for first, end in stretches]
+    return np.concatenate([np.empty(0, int), *pieces])

@@ -1,0 +1,55 @@
+"""Control of a session: taken, waited for, handed over, given back."""
+
+import time
+
+from svsa.client.authentication import SessionDoor
+from svsa.client.refusals import ControlError
+from svsa.errors import ParameterError, Violation
+
+WAIT_S = 0.5
+
+
+class ControlledDoor(SessionDoor):
+    """A session that one client at a time may be in control of."""
+
+    def take_control(
+        self, by: str = "A script", take_over: bool = False, wait_s: float = 600.0
+    ) -> None:
+        """Only this script may command from now on; everybody may pause and stop it.
+
+        by: as whom everybody is told; in a class it is the person whose token the script has.
+        Raises `ControlError` where somebody else is in control, unless `take_over`; in a class,
+        where it is not this script's turn within `wait_s`, and then it waits no longer.
+        """
+        state = self.call("PUT", "/control", {"by": by, "take_over": take_over})
+        until = time.monotonic() + wait_s
+        while not state["control"]["mine"]:
+            if time.monotonic() > until:
+                place = state["queue"] and state["queue"]["place"]
+                self.give_control_back()
+                raise ControlError(
+                    f"{state['control']['holder'] or 'Nobody'} is in control of session"
+                    f" {self.name}: place {place} in the queue after {wait_s:g} s."
+                )
+            time.sleep(WAIT_S)
+            state = self.read_state()
+
+    def hand_control_over(self, to: str) -> None:
+        """Give control to one of `waiting`, by name; raises `ParameterError` for another."""
+        ids = {one["name"]: one["id"] for one in self._read_waiting()}
+        if to not in ids:
+            raise ParameterError(Violation("to", to, "", "one of " + (", ".join(ids) or "nobody")))
+        self.call("POST", "/control/handover", {"to": ids[to]})
+
+    @property
+    def waiting(self) -> tuple[str, ...]:
+        """Who waits for control, in a class; who gets it next stands first."""
+        return tuple(one["name"] for one in self._read_waiting())
+
+    def _read_waiting(self) -> list[dict[str, str]]:
+        queue = self.read_state()["queue"]
+        return queue["waiting"] if queue else []
+
+    def give_control_back(self) -> None:
+        """Everybody may command again; in a class who waits first, or this waits no longer."""
+        self.call("DELETE", "/control")

@@ -1,0 +1,1 @@
+"""One control law per file."""

@@ -1,0 +1,131 @@
+"""Observers that a law brings itself: they stand at the front of its memory.
+
+They see what the law is told, x̂ and the torque that really acted, and so do not wind up.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.dynamics import Actuator, InternalTorque, compute_internal_torque
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.control.observers.disturbance import compute_unexplained_mean
+from svsa.numerics.compilation import compiled
+from svsa.numerics.simd.choice import choose
+
+AT_START = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Observed(NamedTuple):
+    """ŵ (N·m), its rate (N·m/s), and x̂ a period ago.
+
+    is_started: 1 where there was a period before; 0 when the law comes.
+    """
+
+    w2: float = 0.0
+    w4: float = 0.0
+    w6: float = 0.0
+    dw2: float = 0.0
+    dw4: float = 0.0
+    dw6: float = 0.0
+    x: State = AT_START
+    is_started: float = 0.0
+
+
+@compiled
+def get_observed(memory: np.record) -> Disturbance:
+    """ŵ as `Disturbance`, N·m."""
+    return Disturbance(memory.w2, memory.w4, memory.w6)
+
+
+@compiled
+def remember_state(memory: np.record, x: State) -> None:
+    """Keep x̂, `State`, for the period to come."""
+    memory.x.q, memory.x.dq = x.q, x.dq
+    memory.x.theta1, memory.x.dtheta1 = x.theta1, x.dtheta1
+    memory.x.theta2, memory.x.dtheta2 = x.theta2, x.dtheta2
+    memory.is_started = 1.0
+
+
+@compiled
+def observe_disturbance(
+    nominal: Actuator,
+    share: float,
+    rate_share: float,
+    memory: np.record,
+    x: State,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
+    """ŵ by an observer that knows its rate: ŵ += T ŵ̇, then ŵ += g r, ŵ̇ += h r/T.
+
+    r = J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ, over the last sample with both of its
+    ends. With θ = e^(−ωT), g = 1 − θ² and h = (1 − θ)² both poles are at ω, and a load that grows
+    steadily is estimated without lag; with g = 1 − e^(−βT) and h = 0 it is the loop's observer.
+
+    nominal: `Actuator`. share: g. rate_share: h. memory: `Observed`, written. x: x̂ now. torque:
+    `Torque` that acted in the last period, N·m. period: T, s. Returns ŵ, `Disturbance`.
+    """
+    F_old = compute_internal_torque(nominal, memory.x)
+    F_new = compute_internal_torque(nominal, x)
+    return observe_unexplained(nominal, share, rate_share, memory, x, F_old, F_new, torque, period)
+
+
+@compiled
+def observe_unexplained(
+    nominal: Actuator,
+    share: float,
+    rate_share: float,
+    memory: np.record,
+    x: State,
+    F_old: InternalTorque,
+    F_new: InternalTorque,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
+    """`observe_disturbance` with F at both ends by a model of one's own, `InternalTorque`, N·m."""
+    r = compute_residual(nominal, memory, x, F_old, F_new, torque, period)
+    return correct_observed(memory, share, rate_share, x, r, period)
+
+
+@compiled
+def compute_residual(
+    nominal: Actuator,
+    memory: np.record,
+    x: State,
+    F_old: InternalTorque,
+    F_new: InternalTorque,
+    torque: Torque,
+    period: float,
+) -> Disturbance:
+    """r of `observe_disturbance`, `Disturbance`, N·m; 0 where there was no period before."""
+    seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
+    is_started = memory.is_started > 0.0
+    return Disturbance(
+        choose(is_started, seen.w2 - (memory.w2 + period * memory.dw2), 0.0),
+        choose(is_started, seen.w4 - (memory.w4 + period * memory.dw4), 0.0),
+        choose(is_started, seen.w6 - (memory.w6 + period * memory.dw6), 0.0),
+    )
+
+
+@compiled
+def correct_observed(
+    memory: np.record,
+    share: float,
+    rate_share: float,
+    x: State,
+    residual: Disturbance,
+    period: float,
+) -> Disturbance:
+    """ŵ += T ŵ̇ + g r and ŵ̇ += h r/T, and x̂ kept; see `observe_disturbance`. residual: r."""
+    r, h = residual, rate_share / period
+    memory.w2 = memory.w2 + period * memory.dw2 + share * r.w2
+    memory.w4 = memory.w4 + period * memory.dw4 + share * r.w4
+    memory.w6 = memory.w6 + period * memory.dw6 + share * r.w6
+    memory.dw2, memory.dw4, memory.dw6 = (
+        memory.dw2 + h * r.w2,
+        memory.dw4 + h * r.w4,
+        memory.dw6 + h * r.w6,
+    )
+    remember_state(memory, x)
+    return get_observed(memory)

@@ -1,0 +1,1 @@
+"""Comparison of control laws: ranking, tuning, studies and falsifier."""

@@ -1,0 +1,23 @@
+"""The falsifier: within bounds, what hurts a law most, and the simplest load that still does it.
+
+found = svsa.falsify.falsify(svsa.falsify.read_adversary("blow"))
+svsa.falsify.write_scenario("worst.toml", found.scenario)
+svsa.falsify.run_scenario(svsa.falsify.read_scenario("worst.toml"), ("ndobc", "esp"))
+"""
+
+from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.file import read_adversary, read_scenario, write_scenario
+from svsa.evaluation.falsifier.find import Falsified, falsify
+from svsa.evaluation.falsifier.measure import run_scenario
+from svsa.evaluation.falsifier.scenario import LoadScenario
+
+__all__ = [
+    "Adversary",
+    "Falsified",
+    "LoadScenario",
+    "falsify",
+    "read_adversary",
+    "read_scenario",
+    "run_scenario",
+    "write_scenario",
+]

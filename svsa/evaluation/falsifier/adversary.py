@@ -1,0 +1,91 @@
+"""An adversary as a value: which loads it may choose, what it may perturb, and what it is after."""
+
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from svsa.control.installed import PAPERS_LAW, InstalledLaw
+from svsa.errors import ParameterError, Violation, settle_number
+from svsa.evaluation.falsifier.scenario import Attack, check_load_count
+from svsa.evaluation.falsifier.terms import DIGITS, Terms, admits, build_load
+from svsa.evaluation.studies.setting import read_setting
+from svsa.evaluation.studies.study import FIGURE, build_base, check_measured, check_variation, scale
+from svsa.evaluation.studies.variation import DRAWN, Variation
+from svsa.inputs.checked import Checked, Number, quantity
+from svsa.runs.configuration import Configuration
+
+Harm = Literal["fault", "peak", "recovery"]
+
+
+class Adversary(Checked):
+    """Bounds on loads and perturbations, under which a law is hurt. Raises `ParameterError`.
+
+    terms: loads that come together. vary: settings that are perturbed, as of a study, but no grids;
+    what a run begins from is their nominal value. harm: a fault; or the greatest position error, or
+    the longest recovery, than each of which a fault is worse.
+    """
+
+    title: str = quantity("", "What the adversary may do", max_length=200)
+    law: InstalledLaw = quantity("", "Law that is to be hurt", default=PAPERS_LAW)
+    harm: Harm = quantity("", "What it is after: fault, peak, recovery", default="fault")
+    base: dict[str, Any] = quantity("", "Settings that all runs begin from", default={FIGURE: "4a"})
+    duration_s: Number = quantity("s", "How long a run is", gt=0, le=60, default=10.0)
+    measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
+    terms: Terms = quantity("", "Loads that it may choose")
+    vary: Annotated[tuple[Variation, ...], Field(max_length=16)] = quantity(
+        "", "Settings that it may perturb", default=()
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check_measured(self.measure_from_s, self.duration_s)
+        for number, term in enumerate(self.terms):
+            if not term.start_s[1] < self.duration_s:
+                bound = f"before the run's end, {self.duration_s:g} s"
+                name = f"terms[{number}].start_s"
+                raise ParameterError(Violation(name, list(term.start_s), "s", bound))
+        base = build_base(self.base, self.law)
+        check_load_count(len(base.loads) + len(self.terms))
+        for number, variation in enumerate(self.vary):
+            if not isinstance(variation, DRAWN):
+                bound = "uniform, log_uniform, normal or choice, for an adversary"
+                raise ParameterError(Violation(f"vary[{number}].kind", variation.kind, "", bound))
+            check_variation(base, variation, f"vary[{number}]")
+        return self
+
+    @property
+    def size(self) -> int:
+        """How many numbers are searched."""
+        return sum(len(term.axes) for term in self.terms) + len(self.vary)
+
+    def build_base(self) -> Configuration:
+        """The run without any of it."""
+        return build_base(self.base, self.law)
+
+    def build_attack(self, base: Configuration, shares: Sequence[float]) -> Attack:
+        """What it does at these shares of its ranges, 0 to 1. base: see `build_base`."""
+        loads, at = [], 0
+        for term in self.terms:
+            axes = term.axes
+            own = shares[at : at + len(axes)]
+            values = [axis.compute_value(share) for axis, share in zip(axes, own, strict=True)]
+            loads.append(build_load(term, values))
+            at += len(axes)
+        settings = {
+            variation.path: _draw(variation, read_setting(base, variation.path), share)
+            for variation, share in zip(self.vary, shares[at:], strict=True)
+        }
+        return Attack(tuple(loads), settings)
+
+    def admits(self, attack: Attack) -> bool:
+        """Whether every load of an attack is one of its terms, or less of one."""
+        return all(any(admits(term, load) for term in self.terms) for load in attack.loads)
+
+
+def _draw(variation: Variation, present: Any, share: float) -> Any:
+    """What a setting becomes at a share of its range."""
+    (drawn,) = variation.draw(np.array([share]))
+    value = scale(variation, present, drawn)
+    return settle_number(value, DIGITS) if isinstance(value, float) else value

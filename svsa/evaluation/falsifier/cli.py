@@ -1,0 +1,262 @@
+"""`svsa falsify`: find the load that hurts a law most, keep it, put other laws through it."""
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskProgressColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
+from rich.table import Table
+
+from svsa.control.installed import BASELINE, PAPERS_LAW, get_title, list_law_names
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.extras import require_extra
+
+if TYPE_CHECKING:
+    from svsa.evaluation.falsifier.adversary import Adversary
+    from svsa.evaluation.falsifier.find import Falsified
+    from svsa.evaluation.falsifier.measure import LawOutcome
+
+falsify = typer.Typer(
+    no_args_is_help=True, help="The load that hurts a law most, and the simplest that still does."
+)
+_messages = Console(stderr=True)
+INTERRUPTED = 130
+_Adversary = Annotated[
+    str, typer.Argument(metavar="ADVERSARY", help="A file (.toml), or one of the package's.")
+]
+_Runs = Annotated[int, typer.Option(min=1, max=1_000_000, help="Runs at most.")]
+_Law = Annotated[str | None, typer.Option(help="Law to hurt, in place of the file's.")]
+_Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+
+
+@falsify.command("search")
+def search_command(
+    source: _Adversary,
+    law: _Law = None,
+    runs: _Runs = 20_000,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the search.")] = 0,
+    output: Annotated[
+        Path | None, typer.Option(help="Scenario file to write; ADVERSARY-LAW.toml if left out.")
+    ] = None,
+    picture: Annotated[Path | None, typer.Option(help="Draw it into this file.")] = None,
+    as_json: _Json = False,
+) -> None:
+    """Search for what hurts most, shrink it, keep it. Ctrl-C keeps the worst so far."""
+    from svsa.evaluation.falsifier.file import read_adversary, write_scenario
+    from svsa.evaluation.falsifier.find import falsify as find
+    from svsa.evaluation.falsifier.measure import run_scenario
+    from svsa.evaluation.falsifier.progress import forget_search, keep_search, read_search
+    from svsa.evaluation.studies.tables import write_json
+
+    if picture is not None:
+        require_extra("plot")
+    adversary = read_adversary(source, **({} if law is None else {"law": law}))
+    path = output or Path(f"{Path(source).stem}-{adversary.law}.toml")
+    _check_writable("output", path)
+    if picture is not None:
+        _check_writable("picture", picture)
+    known = read_search(path, adversary, seed, "cma")
+    with _show_progress(adversary, runs, len(known)) as tell:
+        found = find(adversary, runs=runs, seed=seed, known=known, on_generation=tell)
+    scenario = found.scenario
+    write_scenario(path, scenario)
+    compared = run_scenario(scenario, _list_beside(adversary.law))
+    if as_json:
+        write_json(_describe(found, path) | {"laws": [one._asdict() for one in compared]})
+    else:
+        _tell_found(found)
+        Console().print(_build_table(compared))
+    if picture is not None:
+        from svsa.evaluation.falsifier.picture import save_picture
+
+        save_picture(scenario, _list_beside(adversary.law), picture)
+        _messages.print(f"Picture: {picture}", highlight=False)
+    _messages.print(f"Kept as {path}. Other laws: svsa falsify run {path} --laws all")
+    if not found.is_complete:
+        keep_search(path, found)
+        _messages.print(
+            f"Broken off after {len(found.severities)} of {runs} runs, not made simple."
+            " The same command goes on from there."
+        )
+        raise typer.Exit(INTERRUPTED)
+    forget_search(path)
+
+
+@falsify.command("run")
+def run_command(
+    source: Annotated[
+        str, typer.Argument(metavar="SCENARIO", help="A file (.toml), or one kept by its name.")
+    ],
+    laws: Annotated[
+        str | None, typer.Option(help="Names joined by commas, or all; else that it was found for.")
+    ] = None,
+    picture: Annotated[Path | None, typer.Option(help="Draw it into this file.")] = None,
+    as_json: _Json = False,
+) -> None:
+    """Put laws through a scenario that was kept."""
+    from svsa.evaluation.falsifier.kept import open_scenario
+    from svsa.evaluation.falsifier.measure import run_scenario
+    from svsa.evaluation.studies.tables import write_json
+
+    if picture is not None:
+        require_extra("plot")
+    scenario = open_scenario(source)
+    if laws is None:
+        names = _list_beside(scenario.found.law if scenario.found else PAPERS_LAW)
+    else:
+        names = list_law_names() if laws == "all" else tuple(map(str.strip, laws.split(",")))
+    compared = run_scenario(scenario, names)
+    if as_json:
+        write_json({"scenario": scenario.title, "laws": [one._asdict() for one in compared]})
+    else:
+        Console().print(scenario.title, _build_table(compared), sep="\n")
+    if picture is not None:
+        from svsa.evaluation.falsifier.picture import save_picture
+
+        save_picture(scenario, names, picture)
+        _messages.print(f"Picture: {picture}", highlight=False)
+
+
+@falsify.command("list")
+def list_command() -> None:
+    """The adversaries that come with the package."""
+    from svsa.evaluation.falsifier.file import list_adversaries, read_adversary
+
+    table = Table("adversary", "what it may do", "after", "numbers", title_justify="left")
+    for name, title in list_adversaries().items():
+        one = read_adversary(name)
+        table.add_row(name, title, one.harm, str(one.size))
+    Console().print(table)
+
+
+@falsify.command("compare")
+def compare_command(
+    source: _Adversary,
+    law: _Law = None,
+    runs: _Runs = 20_000,
+    seeds: Annotated[int, typer.Option(min=1, max=1000, help="Seeds 0, 1, …")] = 10,
+    as_json: _Json = False,
+) -> None:
+    """The search against as many random draws: the run of the first fault, a row a seed."""
+    from svsa.evaluation.falsifier.file import read_adversary
+    from svsa.evaluation.falsifier.race import race
+    from svsa.evaluation.falsifier.wording import tell_severity
+    from svsa.evaluation.studies.tables import write_json
+
+    adversary = read_adversary(source, **({} if law is None else {"law": law}))
+    with _show_progress(adversary, 2 * runs * seeds) as tell:
+        raced = race(adversary, runs, range(seeds), tell)
+    if as_json:
+        write_json(raced._asdict() | {"laps": [lap._asdict() for lap in raced.laps]})
+        return
+    table = Table("seed", "CMA-ES", "random", title=adversary.title, title_justify="left")
+    for lap in raced.laps:
+        cells = [
+            f"fault at run {run}" if run else f"none in {runs}: {tell_severity(adversary.harm, x)}"
+            for run, x in ((lap.cma_run, lap.cma_worst), (lap.random_run, lap.random_worst))
+        ]
+        table.add_row(str(lap.seed), *cells)
+    Console().print(table)
+    Console().print(raced.message)
+
+
+def _list_beside(law: str) -> tuple[str, ...]:
+    """A law, and NDOBC beside it; beside NDOBC what the paper compares it with."""
+    return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
+
+
+def _check_writable(name: str, path: Path) -> None:
+    """Raise `ParameterError` where no file can be written, before a long search and not after."""
+    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+        bound = "a file that can be written, in a folder that is there"
+        raise ParameterError(Violation(f"--{name}", path, "", bound))
+
+
+def _describe(found: "Falsified", path: Path) -> dict[str, object]:
+    simple = found.shrunk
+    return {
+        "adversary": found.adversary.title,
+        "law": found.adversary.law,
+        "harm": found.adversary.harm,
+        "seed": found.seed,
+        "runs": len(found.severities),
+        "run": found.run,
+        "complete": found.is_complete,
+        "fault": found.is_fault,
+        "outcome": found.outcome,
+        "shrinking": None if simple is None else {"runs": simple.runs, "steps": simple.steps},
+        "scenario": found.scenario.model_dump(mode="json", exclude_none=True),
+        "file": str(path),
+    }
+
+
+def _tell_found(found: "Falsified") -> None:
+    from svsa.evaluation.falsifier.wording import tell_attack, tell_severity
+
+    console, a = Console(highlight=False), found.adversary
+    nothing = tell_severity(a.harm, found.nothing)
+    console.print(f"{get_title(a.law)} without it: {nothing}")
+    console.print(f"Found at run {found.run} of {len(found.severities)}: {found.outcome}")
+    console.print(f"  {tell_attack(found.attack)}")
+    if found.shrunk is not None:
+        simple = found.shrunk
+        console.print(f"Made simple by {simple.runs} runs: {simple.outcome}")
+        console.print(f"  {tell_attack(simple.attack)}")
+
+
+def _build_table(compared: "list[LawOutcome]") -> Table:
+    """What came of each law; the metrics of a run in a fault are those until then."""
+    from svsa.evaluation.studies.tables import tell_unit, tell_value
+    from svsa.runs.fault_labels import label_fault
+
+    names = {
+        "peak_position_error_rad": "peak",
+        "settled_position_error_rad": "settled",
+        "recovery_time_s": "recovery",
+        "peak_stiffness_error_nm_per_rad": "peak of σ",
+    }
+    table = Table("law", "ends", title="Position error and stiffness error", title_justify="left")
+    for name, told in names.items():
+        heading = escape(f"{told}\n[{tell_unit(name)}]")
+        table.add_column(heading, justify="right", no_wrap=True)
+    for one in compared:
+        end = "whole" if one.fault is None else f"{label_fault(one.fault)}, {one.fault_s:.3f} s"
+        cells = [tell_value(name, one.metrics[name]) for name in names]
+        table.add_row(get_title(one.law), end, *cells)
+    return table
+
+
+@contextmanager
+def _show_progress(
+    adversary: "Adversary", runs: int, known: int = 0
+) -> Iterator[Callable[[int, float], None]]:
+    """A bar with rate and time left. known: runs of before, which do not count in the rate."""
+    from svsa.evaluation.falsifier.wording import tell_worst
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TaskProgressColumn(show_speed=True),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=_messages, transient=True) as bar:
+        task = bar.add_task(f"{get_title(adversary.law)}: compiling …", total=runs, completed=known)
+
+        def tell(done: int, worst: float) -> None:
+            text = f"{get_title(adversary.law)}: {tell_worst(adversary.harm, worst)}"
+            bar.update(task, completed=max(done, known), description=text)
+
+        yield tell

@@ -1,0 +1,226 @@
+"""The falsifier: search an adversary's ranges for what hurts most, then make it simple."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from svsa.errors import SvsaError
+from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.measure import Measured, measure_attacks
+from svsa.evaluation.falsifier.scenario import Attack, Finding, LoadScenario
+from svsa.evaluation.falsifier.search import Method, search
+from svsa.evaluation.falsifier.shrink import Shrunk, shrink
+from svsa.evaluation.falsifier.wording import tell_outcome, tell_worst
+from svsa.inputs.checked import check_number
+from svsa.inputs.release import __version__
+
+RUNS, MAX_RUNS = 20_000, 1_000_000
+
+
+class FalsifierError(SvsaError):
+    """A search that cannot begin."""
+
+
+@dataclass(frozen=True)
+class Falsified:
+    """What a search found.
+
+    severities: of each run how much it hurt, infinite for a fault, see `measure.judge`; with them
+    a search that was broken off goes on. run: number of the worst, from 1 on; the first fault.
+    nothing: how much the law is hurt without any load of the adversary. attack: the worst as it was
+    found; shrunk: made simple, None where the search was
+    broken off or that was not asked for.
+    """
+
+    adversary: Adversary
+    method: Method
+    seed: int
+    runs: int
+    severities: np.ndarray
+    nothing: float
+    run: int
+    attack: Attack
+    outcome: str
+    shrunk: Shrunk | None
+    is_complete: bool
+
+    @property
+    def severity(self) -> float:
+        """How much the worst run hurts."""
+        return float(self.severities[self.run - 1])
+
+    @property
+    def is_fault(self) -> bool:
+        """Whether it is a fault that was found."""
+        return math.isinf(self.severity)
+
+    @property
+    def scenario(self) -> LoadScenario:
+        """The simplest of it as a scenario."""
+        simple = self.shrunk
+        return _describe(
+            self.adversary,
+            simple.attack if simple else self.attack,
+            simple.duration_s if simple else self.adversary.duration_s,
+            (self.outcome, simple.outcome if simple else self.outcome),
+            (self.method, self.seed, self.run, len(self.severities)),
+        )
+
+    @property
+    def as_found(self) -> LoadScenario:
+        """The worst as it was found, before it was made simple."""
+        return replace(self, shrunk=None).scenario
+
+
+def _describe(
+    adversary: Adversary,
+    attack: Attack,
+    duration_s: float,
+    outcomes: tuple[str, str],
+    search: tuple[Method, int, int, int],
+) -> LoadScenario:
+    """outcomes: what came of the law as it was found, and as it is. search: method, seed, number of
+    the run that showed it, runs.
+    """
+    method, seed, run, runs = search
+    return LoadScenario(
+        title=f"{adversary.title}: {outcomes[0]}"[:200],
+        base=adversary.base,
+        duration_s=duration_s,
+        measure_from_s=adversary.measure_from_s,
+        settings=dict(attack.settings),
+        loads=attack.loads,
+        found=Finding(
+            law=adversary.law,
+            harm=adversary.harm,
+            outcome=outcomes[1],
+            adversary=adversary.title,
+            method=method,
+            seed=seed,
+            at_run=run,
+            runs=runs,
+            version=__version__,
+        ),
+    )
+
+
+class _EndedError(Exception):
+    """The search is not to go on."""
+
+
+class _Search:
+    """The runs of a search, counted against its bound; those known from before are not run.
+
+    on_worse: told of each run that hurts more than all before it: its number, and what it did.
+    """
+
+    def __init__(
+        self,
+        adversary: Adversary,
+        runs: int,
+        known: Sequence[float] | np.ndarray,
+        on_worse: Callable[[int, Attack, float], None],
+    ) -> None:
+        self.adversary, self.base = adversary, adversary.build_base()
+        self.severities: list[float] = []
+        self.worst: tuple[int, Attack] | None = None
+        self._runs, self._known = runs, np.asarray(known, dtype=float)
+        self._on_worse = on_worse
+
+    def judge(self, shares: np.ndarray) -> np.ndarray:
+        """How much each of a generation hurts; raises `_EndedError` where that ends the search."""
+        done = len(self.severities)
+        if done >= self._runs:
+            raise _EndedError
+        shares = shares[: self._runs - done]
+        attacks = [self.adversary.build_attack(self.base, row.tolist()) for row in shares]
+        severity = self._known[done : done + len(attacks)]
+        if len(severity) < len(attacks):
+            severity = self.measure(attacks).severity
+        worst = int(np.argmax(severity))
+        if self.worst is None or severity[worst] > self.severities[self.worst[0]]:
+            self.worst = done + worst, attacks[worst]
+            self._on_worse(done + worst + 1, attacks[worst], float(severity[worst]))
+        is_fault = bool(np.isposinf(severity[worst]))
+        self.severities += severity.tolist()[: worst + 1 if is_fault else None]
+        if is_fault or len(self.severities) >= self._runs:
+            raise _EndedError
+        return severity
+
+    def measure(self, attacks: Sequence[Attack]) -> Measured:
+        return measure_attacks(self.adversary, self.base, attacks, self.adversary.duration_s)
+
+
+def falsify(
+    adversary: Adversary,
+    *,
+    runs: int = RUNS,
+    seed: int = 0,
+    method: Method = "cma",
+    known: Sequence[float] | np.ndarray = (),
+    on_generation: Callable[[int, float], None] = lambda done, worst: None,
+    on_worse: Callable[[LoadScenario], None] = lambda scenario: None,
+    is_cancelled: Callable[[], bool] = lambda: False,
+    is_shrunk: bool = True,
+) -> Falsified:
+    """Search for what hurts the adversary's law most, and shrink it to the simplest that does.
+
+    runs: at most, those of shrinking besides. The search ends at the first fault, than which
+    nothing is worse. The same arguments give the same result. method: "random" is there to be
+    compared with. known: `Falsified.severities` of the same search broken off. on_generation: told
+    after each how many runs there were, and the greatest severity. on_worse: told of each attack
+    that is worse than all before it, as a scenario. is_cancelled: asked before each generation;
+    where it says so, and at Ctrl-C, the worst so far is returned as it is. is_shrunk: whether it is
+    made simple.
+
+    Raises `ParameterError` for numbers out of range, `FalsifierError` where the law ends in a fault
+    by itself, `KeyboardInterrupt` before the first generation.
+    """
+    check_number("runs", runs, "", 1, MAX_RUNS)
+    check_number("seed", seed, "", 0, 2**63 - 1)
+
+    def tell_worse(number: int, attack: Attack, severity: float) -> None:
+        told = tell_worst(adversary.harm, severity)
+        search = method, seed, number, number
+        on_worse(_describe(adversary, attack, adversary.duration_s, (told, told), search))
+
+    one = _Search(adversary, runs, known, tell_worse)
+    nothing = one.measure([Attack((), {})])
+    if not np.isfinite(nothing.severity[0]):
+        told = tell_outcome(nothing, 0, adversary.harm)
+        raise FalsifierError(f"{adversary.law} needs no adversary: without any load, {told}.")
+    is_complete = False
+
+    def judge(shares: np.ndarray) -> np.ndarray:
+        if one.worst is not None:
+            on_generation(len(one.severities), one.severities[one.worst[0]])
+            if is_cancelled():
+                raise KeyboardInterrupt
+        return one.judge(shares)
+
+    try:
+        search(method, adversary.size, seed, judge)
+    except _EndedError:
+        is_complete = True
+    except KeyboardInterrupt:
+        if one.worst is None:
+            raise
+    assert one.worst is not None  # noqa: S101  a generation was judged
+    number, attack = one.worst
+    found = one.measure([attack])
+    simple = shrink(adversary, one.base, attack, found) if is_complete and is_shrunk else None
+    return Falsified(
+        adversary=adversary,
+        method=method,
+        seed=seed,
+        runs=runs,
+        severities=np.array(one.severities),
+        nothing=float(nothing.severity[0]),
+        run=number + 1,
+        attack=attack,
+        outcome=tell_outcome(found, 0, adversary.harm),
+        shrunk=simple,
+        is_complete=is_complete,
+    )

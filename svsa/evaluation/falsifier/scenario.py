@@ -1,0 +1,95 @@
+"""A scenario that was kept: loads and settings that any law can be put through."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, NamedTuple, Self
+
+from pydantic import Field, model_validator
+
+from svsa.control.installed import PAPERS_LAW, LawName
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.setting import change_settings
+from svsa.evaluation.studies.study import FIGURE, build_base, check_measured
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.runs.configuration import MAX_LOADS, Configuration
+from svsa.runs.paper import DURATION_S
+from svsa.simulation.plant.loads import Load
+
+
+class Attack(NamedTuple):
+    """Loads, and settings by their paths, in place of those that a run begins from."""
+
+    loads: tuple[Load, ...]
+    settings: Mapping[str, Any]
+
+    def apply(self, base: Configuration) -> Configuration:
+        """The run with them; raises `ParameterError` where they do not go together."""
+        changed = change_settings(base, self.settings) if self.settings else base
+        return changed.model_copy(update={"loads": (*changed.loads, *self.loads)})
+
+
+class Finding(Checked):
+    """How a scenario was found."""
+
+    law: LawName = quantity("", "Law that it hurts")
+    harm: str = quantity("", "What was looked for", max_length=40)
+    outcome: str = quantity("", "What came of the law", max_length=200)
+    adversary: str = quantity("", "Among what was searched", max_length=200)
+    method: str = quantity("", "How", max_length=40)
+    seed: Whole = quantity("", "Seed of the search", ge=0)
+    at_run: Whole = quantity("", "Which run of the search showed it", ge=1)
+    runs: Whole = quantity("", "Runs of the search", ge=1)
+    version: str = quantity("", "Version that found it", max_length=40)
+
+
+class LoadScenario(Checked):
+    """Loads on a run, and settings of it, with a name. Raises `ParameterError`.
+
+    base: the configuration that it begins from, as of a study: `figure`, and settings in its place.
+    settings: by their paths, as actuator.link_inertia_kg_m2. loads: besides those of the base.
+    """
+
+    title: str = quantity("", "The scenario in words", max_length=200)
+    base: dict[str, Any] = quantity("", "What it begins from", default={FIGURE: "4a"})
+    duration_s: Number = quantity("s", "How long it is", gt=0, le=3600, default=DURATION_S)
+    measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
+    settings: dict[str, Any] = quantity("", "Settings by their paths", default={})
+    loads: Annotated[tuple[Load, ...], Field(max_length=MAX_LOADS)] = quantity(
+        "", "Loads", default=()
+    )
+    found: Finding | None = quantity("", "How it was found", default=None)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check_measured(self.measure_from_s, self.duration_s)
+        self.build_configuration(PAPERS_LAW)
+        return self
+
+    @property
+    def attack(self) -> Attack:
+        """What it does to the run that it begins from."""
+        return Attack(self.loads, self.settings)
+
+    def build_configuration(self, law: str) -> Configuration:
+        """The run under a law; raises `ParameterError`."""
+        base = build_base(self.base, law)
+        check_load_count(len(base.loads) + len(self.loads))
+        for path, value in self.settings.items():
+            check_setting(base, path, value)
+        return self.attack.apply(base)
+
+
+def check_setting(base: Configuration, path: str, value: Any) -> None:
+    """Raise `ParameterError` where a path is none, or the value none for it."""
+    try:
+        change_settings(base, {path: value})
+    except ParameterError as error:
+        told = error.violations[0].message.removesuffix(".")
+        violation = Violation(f"settings.{path}", value, "", "", {}, f"with {value!r:.40}, {told}")
+        raise ParameterError(violation) from None
+
+
+def check_load_count(count: int) -> None:
+    """Raise `ParameterError` for more loads than a run takes, those of its base among them."""
+    if count > MAX_LOADS:
+        bound = f"at most {MAX_LOADS}, those of base among them"
+        raise ParameterError(Violation("loads", count, "", bound))

@@ -1,0 +1,70 @@
+"""`svsa arena bench`: laws in the paper's bench figures, on the emulated rig, beside a rival."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import Progress, SpinnerColumn, TimeElapsedColumn
+
+from svsa.control.installed import PAPERS_LAW, check_installed, list_law_names
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.ranking.bench_runs import BenchRuns, read_bench_runs, write_bench_runs
+from svsa.evaluation.ranking.bench_table import build_table, format_bench
+from svsa.evaluation.ranking.measure_bench import measure_on_bench
+from svsa.runs.paper import BENCH_FIGURES
+
+MIN_WIDTH = 132
+"""Columns of characters in which the table's numbers stand whole."""
+
+
+def bench(
+    laws: Annotated[
+        list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
+    ] = None,
+    rival: Annotated[str, typer.Option(help="Name of the law beside them.")] = PAPERS_LAW,
+    figure: Annotated[
+        list[str] | None, typer.Option(help="6a, 6b or 7; all three if left out.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
+    save: Annotated[
+        Path | None, typer.Option(help="Keep the runs in this file, beside the others there.")
+    ] = None,
+    results: Annotated[
+        Path | None, typer.Option(help="Show what was kept there, and measure nothing.")
+    ] = None,
+) -> None:
+    """Run laws through Figures 6A, 6B and 7 on the emulated rig: 12 numbers beside a rival's."""
+    kept = read_bench_runs(save) if save is not None and save.exists() else None
+    figures = tuple(dict.fromkeys(_check_figure(key) for key in figure or BENCH_FIGURES))
+    if results is None:
+        names = [check_installed(name) for name in laws or list_law_names()]
+        found = _measure(tuple(dict.fromkeys([check_installed(rival), *names])), figures)
+    else:
+        shown = read_bench_runs(results)
+        found = shown.choose(tuple(dict.fromkeys([rival, *(laws or shown.laws)])))
+        found = found.changed(runs=tuple(run for run in found.runs if run.figure in figures))
+    if save is not None:
+        write_bench_runs(save, kept.renew(found) if kept else found)
+    if as_json:
+        print(json.dumps(found.to_json(rival), indent=2))
+    elif markdown:
+        print(format_bench(found, rival))
+    else:
+        screen = Console()
+        Console(width=max(screen.width, MIN_WIDTH)).print(build_table(found, rival))
+
+
+def _check_figure(key: str) -> str:
+    if key.lower() not in BENCH_FIGURES:
+        raise ParameterError(Violation("figure", key, "", "one of " + ", ".join(BENCH_FIGURES)))
+    return key.lower()
+
+
+def _measure(laws: tuple[str, ...], figures: tuple[str, ...]) -> BenchRuns:
+    columns = (SpinnerColumn(), *Progress.get_default_columns(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(f"{len(laws) * len(figures)} runs of 20 s through CAN", total=1.0)
+        return measure_on_bench(laws, figures, lambda done: bar.update(task, completed=done))

@@ -1,0 +1,106 @@
+"""The paper's bench figures under any law, on the emulated rig, as a file and beside a rival.
+
+Through CAN, in lockstep: twelve numbers a law, which are the same every time.
+"""
+
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import ValidationError
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.ranking.row import RigErrors
+from svsa.inputs.checked import Checked, quantity
+from svsa.runs.paper import BENCH_FIGURES
+
+PUBLISHED = Path(__file__).parent / "bench_results.json"
+NUMBERS = tuple(RigErrors.model_fields)
+"""Of each figure: error before, peak, steady, and recovery."""
+
+
+class BenchRun(Checked):
+    """What a law shows in one figure; no number where the bench ended it with a fault."""
+
+    law: str = quantity("", "Name of the law")
+    figure: str = quantity("", "Key of the figure: 6a, 6b or 7")
+    version: str = quantity("", "Version of the lab that measured it")
+    fault: str | None = quantity("", "Code of the fault that ended the run")
+    errors: RigErrors = quantity("", "Position errors")
+
+    def is_no_worse(self, rival: "BenchRun", number: str) -> bool:
+        """Whether this number is there, and no greater than the rival's if that is there."""
+        mine, theirs = (getattr(one.errors, number) for one in (self, rival))
+        return mine is not None and (theirs is None or mine <= theirs)
+
+
+class BenchRuns(Checked):
+    """Runs of laws in figures, one after another."""
+
+    runs: tuple[BenchRun, ...] = quantity("", "A run a law and figure")
+
+    @property
+    def laws(self) -> tuple[str, ...]:
+        """Names of the laws, in the order of their runs."""
+        return tuple(dict.fromkeys(run.law for run in self.runs))
+
+    def list_runs(self, law: str) -> tuple[BenchRun, ...]:
+        """The runs of a law in the figures' order; raises `ParameterError` where it has none."""
+        found = {run.figure: run for run in self.runs if run.law == law}
+        if not found:
+            raise ParameterError(Violation("law", law, "", "one of " + ", ".join(self.laws)))
+        return tuple(found[key] for key in BENCH_FIGURES if key in found)
+
+    def choose(self, laws: Sequence[str]) -> Self:
+        """The runs of these laws, in this order."""
+        return self.changed(runs=tuple(run for law in laws for run in self.list_runs(law)))
+
+    def renew(self, newer: Self) -> Self:
+        """With the runs of `newer` in place of those of the same law and figure."""
+        runs = {(run.law, run.figure): run for run in (*self.runs, *newer.runs)}
+        return self.changed(runs=tuple(runs.values()))
+
+    def to_json(self, rival: str) -> dict[str, Any]:
+        """What `svsa arena bench --json` prints."""
+        return {"rival": rival, "laws": [self._tell_law(law, rival) for law in self.laws]}
+
+    def _tell_law(self, law: str, rival: str) -> dict[str, Any]:
+        no_worse, count = self.count_no_worse(law, rival)
+        figures = {
+            run.figure: {**run.errors.model_dump(), "fault": run.fault}
+            for run in self.list_runs(law)
+        }
+        return {"law": law, "figures": figures, "no_worse": no_worse, "numbers": count}
+
+    def count_no_worse(self, law: str, rival: str) -> tuple[int, int]:
+        """In how many numbers a law is no worse than its rival, and of how many."""
+        pairs = self.pair(law, rival)
+        held = [one.is_no_worse(other, number) for one, other in pairs for number in NUMBERS]
+        return sum(held), len(held)
+
+    def pair(self, law: str, rival: str) -> tuple[tuple[BenchRun, BenchRun], ...]:
+        """The runs of a law, each with its rival's, in the figures that both have."""
+        theirs = {run.figure: run for run in self.list_runs(rival)}
+        mine = self.list_runs(law)
+        return tuple((run, theirs[run.figure]) for run in mine if run.figure in theirs)
+
+
+def read_bench_runs(path: Path) -> BenchRuns:
+    """Read what `svsa arena bench --save` wrote; raises `ParameterError` for anything else."""
+    try:
+        return BenchRuns.model_validate_json(path.read_bytes())
+    except (OSError, ValidationError) as error:
+        bound = f"a file that svsa arena bench --save writes ({error})"
+        raise ParameterError(Violation("results", path, "", bound)) from None
+
+
+def write_bench_runs(path: Path, runs: BenchRuns) -> None:
+    """Write runs as JSON."""
+    path.write_text(runs.model_dump_json(indent=1) + "\n", encoding="utf-8")
+
+
+@cache
+def load_published_bench_runs() -> BenchRuns:
+    """The runs that this version was published with: `bench_results.json`."""
+    return read_bench_runs(PUBLISHED)

@@ -1,0 +1,102 @@
+"""The paper's bench figures under each law, as text: on a terminal and on a law's page."""
+
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+from rich.text import Text
+
+from svsa.control.installed import PAPERS_LAW, get_title
+from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
+from svsa.runs.fault_labels import label_fault
+
+SHORT = dict(zip(NUMBERS, ("before", "peak", "settled", "recov."), strict=True))
+LONG = dict(zip(NUMBERS, ("rms 1–5 s", "peak", "rms 8–20 s", "recovery"), strict=True))
+
+
+def tell_number(run: BenchRun, number: str, unit: bool = True) -> str:
+    """A number of a run, ° or s; else "fault", or "never" of an error that does not settle."""
+    value: float | None = getattr(run.errors, number)
+    if value is None:
+        return "fault" if run.fault else "never"
+    return f"{value:.3g}{(' s' if number == 'recovery_s' else '°') if unit else ''}"
+
+
+def build_table(runs: BenchRuns, rival: str) -> Table:
+    """A row a law; bold where it is no worse than the rival."""
+    figures = [run.figure for run in runs.list_runs(rival)]
+    table = Table(
+        box=SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        title="Position errors [°] as the emulated rig measures them, through CAN",
+        title_justify="left",
+        caption=f"Before: rms 1–5 s; peak 5–7 s; settled: rms 8–20 s; recov.: s. No worse: in how"
+        f" many numbers than {get_title(rival)}, in bold. A load of 2 N·m on the link from 5 s on.",
+        caption_justify="left",
+    )
+    table.add_column("law", no_wrap=True)
+    for figure in figures:
+        for heading in SHORT.values():
+            table.add_column(f"{figure.upper()}\n{heading}", justify="right", no_wrap=True)
+    table.add_column("no worse", justify="right", no_wrap=True)
+    for law in runs.laws:
+        cells = {
+            (mine.figure, number): _build_cell(mine, other, number)
+            for mine, other in runs.pair(law, rival)
+            for number in NUMBERS
+        }
+        row = [cells.get((figure, number), "") for figure in figures for number in NUMBERS]
+        no_worse, count = runs.count_no_worse(law, rival)
+        table.add_row(get_title(law), *row, "" if law == rival else f"{no_worse} of {count}")
+    return table
+
+
+def _build_cell(run: BenchRun, rival: BenchRun, number: str) -> Text:
+    is_better = run.law != rival.law and run.is_no_worse(rival, number)
+    return Text(tell_number(run, number, unit=False), style="bold" if is_better else "")
+
+
+def format_bench(runs: BenchRuns, rival: str) -> str:
+    """A row a law as Markdown, a figure a cell: before / peak / settled / recovery."""
+    figures = [run.figure for run in runs.list_runs(rival)]
+    titles = [f"{figure.upper()}: {' / '.join(SHORT.values())} s" for figure in figures]
+    head = ("law", *titles, f"no worse than {get_title(rival)}")
+    lines = [head, ("---",) * len(head)]
+    for law in runs.laws:
+        cells = {
+            run.figure: " / ".join(tell_number(run, number, unit=False) for number in NUMBERS)
+            for run in runs.list_runs(law)
+        }
+        no_worse, count = runs.count_no_worse(law, rival)
+        row = [cells.get(figure, "") for figure in figures]
+        lines.append((get_title(law), *row, "" if law == rival else f"{no_worse} of {count}"))
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+
+
+def build_section(runs: BenchRuns, law: str) -> list[str]:
+    """Lines of a law's page: its numbers beside NDOBC's; none where it was not measured."""
+    if law not in runs.laws:
+        return []
+    lines = [
+        f"| on the emulated rig, through CAN | {get_title(law)} | NDOBC |",
+        "| --- | --- | --- |",
+    ]
+    lines += [
+        f"| Figure {one.figure.upper()}: {name} | {tell_number(one, number)}"
+        f" | {tell_number(other, number)} |"
+        for one, other in runs.pair(law, PAPERS_LAW)
+        for number, name in LONG.items()
+    ]
+    return ["", *lines, "", *_tell_ends(runs.list_runs(law)), *_tell_count(runs, law)]
+
+
+def _tell_ends(runs: tuple[BenchRun, ...]) -> list[str]:
+    ends = [f"Figure {one.figure.upper()}: {label_fault(one.fault)}" for one in runs if one.fault]
+    return [f"Ended early by the bench: {'; '.join(ends).lower()}.", ""] if ends else []
+
+
+def _tell_count(runs: BenchRuns, law: str) -> list[str]:
+    versions = " and ".join(sorted({run.version for run in runs.list_runs(law)}))
+    no_worse, count = runs.count_no_worse(law, PAPERS_LAW)
+    beside = "" if law == PAPERS_LAW else f"No worse than NDOBC in {no_worse} of {count}. "
+    return [
+        f"{beside}By SVSA Lab {versions}, in lockstep; the same again: `svsa arena bench {law}`."
+    ]

@@ -1,0 +1,84 @@
+"""Laws in the paper's bench figures on the emulated rig, several at once."""
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, wait
+from itertools import product
+from queue import Queue
+
+from svsa.errors import FaultError
+from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
+from svsa.evaluation.ranking.measure import Tell, build_rig_errors
+from svsa.evaluation.ranking.row import RigErrors
+from svsa.evaluation.workers import choose_start
+from svsa.inputs.extras import require_extra
+from svsa.inputs.release import __version__
+from svsa.runs.paper import DURATION_S, get_figure
+
+POLL_S = 0.2
+Job = tuple[str, str]
+TellOf = Callable[[int, float], None]
+
+
+def measure_on_bench(
+    laws: Sequence[str], figures: Sequence[str], tell: Tell = lambda done: None
+) -> BenchRuns:
+    """Runs of laws in figures, by as many processes as there are processors.
+
+    tell: is given the share that is done. Raises `MissingExtraError` without the extra `bench`.
+    """
+    require_extra("bench")
+    jobs = list(product(laws, figures))
+    workers = min(len(jobs), os.cpu_count() or 1)
+    shares = [0.0] * len(jobs)
+
+    def note(number: int, share: float) -> None:
+        shares[number] = share
+        tell(sum(shares) / len(jobs))
+
+    if workers > 1:
+        return BenchRuns(runs=_measure_side_by_side(jobs, workers, note))
+    return BenchRuns(runs=tuple(measure_run(n, job, note) for n, job in enumerate(jobs)))
+
+
+def measure_run(number: int, job: Job, tell: TellOf) -> BenchRun:
+    """A law in a figure of 20 s, its load at 5 s. tell: is given `number` and the share done."""
+    from svsa.hardware.emulator.experiment import run_on_rig
+
+    law, figure = job
+    fault, errors = None, RigErrors(**dict.fromkeys(NUMBERS))
+    try:
+        result = run_on_rig(get_figure(figure), law, DURATION_S, lambda done: tell(number, done))
+        errors = build_rig_errors(result)
+    except FaultError as error:
+        fault = error.fault.code
+    tell(number, 1.0)
+    return BenchRun(law=law, figure=figure, version=__version__, fault=fault, errors=errors)
+
+
+def _measure_side_by_side(jobs: Sequence[Job], workers: int, tell: TellOf) -> tuple[BenchRun, ...]:
+    """In processes of their own, which say through a queue how far they are."""
+    context = choose_start()
+    with context.Manager() as manager, ProcessPoolExecutor(workers, context) as pool:
+        told: Queue[tuple[int, float]] = manager.Queue()
+        asked = [pool.submit(_measure_apart, n, job, told) for n, job in enumerate(jobs)]
+        try:
+            while wait(asked, POLL_S).not_done and not any(map(_has_failed, asked)):
+                _pass_on(told, tell)
+            _pass_on(told, tell)
+            return tuple(one.result() for one in asked)
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _has_failed(asked: Future[BenchRun]) -> bool:
+    return asked.done() and asked.exception() is not None
+
+
+def _pass_on(told: Queue[tuple[int, float]], tell: TellOf) -> None:
+    while not told.empty():
+        tell(*told.get())
+
+
+def _measure_apart(number: int, job: Job, told: Queue[tuple[int, float]]) -> BenchRun:
+    return measure_run(number, job, lambda *share: told.put(share))

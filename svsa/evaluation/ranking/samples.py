@@ -1,0 +1,73 @@
+"""Draws: plants, loads and noise that nobody tuned for, a hundred a season."""
+
+import numpy as np
+
+from svsa.evaluation.ranking.scenarios import INERTIAS, Scenario
+from svsa.evaluation.ranking.seeds import PUBLIC_SEED, start_generator
+from svsa.simulation.plant.effects import RIG, Friction, SensorNoise
+from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PulseLoad, SineLoad
+
+DRAWS = 100
+LOAD_S = 3.0
+DURATION_S = 10.0
+MIN_SIGMA, MAX_SIGMA = 16.0, 70.0
+
+
+def build_draw(number: int, seed: int = PUBLIC_SEED) -> Scenario:
+    """The draw of this number, from 0 on, of a season.
+
+    True over nominal M, B1 and B2 each from 0.5 to 1.5; σ_d from 12 to 70 N·m/rad, as many below
+    as above their geometric mean; Coulomb friction up to the double of `Friction`, noise up to the
+    double of `SensorNoise`; one or two samples of delay; and from 3 s on a step, a pulse, a sine or
+    a mass. Ten seconds.
+    """
+    random = start_generator(seed, number)
+    plant = tuple((name, float(random.uniform(0.5, 1.5))) for name in INERTIAS)
+    sigma = MIN_SIGMA * (MAX_SIGMA / MIN_SIGMA) ** float(random.uniform())
+    coulomb_share, noise_share = float(random.uniform(0.0, 2.0)), float(random.uniform(0.0, 2.0))
+    friction, noise = Friction(), SensorNoise()
+    effects = RIG.changed(
+        friction=Friction(
+            coulomb1_nm=coulomb_share * friction.coulomb1_nm,
+            coulomb2_nm=coulomb_share * friction.coulomb2_nm,
+        ),
+        noise=SensorNoise(
+            motor_std_rad=noise_share * noise.motor_std_rad,
+            deflection_std_rad=noise_share * noise.deflection_std_rad,
+        ),
+        delay_samples=int(random.integers(1, 3)),
+    )
+    return Scenario(
+        f"draw_{number}",
+        f"Draw {number + 1}",
+        (_draw_load(random),),
+        effects,
+        sigma,
+        DURATION_S,
+        plant=plant,
+        seed=int(random.integers(0, 2**32)),
+        measured_s=LOAD_S,
+    )
+
+
+def build_draws(seed: int = PUBLIC_SEED) -> tuple[Scenario, ...]:
+    """The draws of a season."""
+    return tuple(build_draw(number, seed) for number in range(DRAWS))
+
+
+def _draw_load(random: np.random.Generator) -> Load:
+    way = 1.0 if random.uniform() < 0.5 else -1.0
+    torque = way * float(random.uniform(0.5, 2.0))
+    match int(random.integers(0, 4)):
+        case 0:
+            return ConstantLoad(torque_nm=(torque, 0.0, 0.0), start_s=LOAD_S)
+        case 1:
+            duration = float(random.uniform(0.5, 4.0))
+            return PulseLoad(torque_nm=(torque, 0.0, 0.0), start_s=LOAD_S, duration_s=duration)
+        case 2:
+            frequency = float(random.uniform(0.2, 1.0))
+            return SineLoad(
+                torque_nm=(0.5 * torque, 0.0, 0.0), frequency_hz=frequency, start_s=LOAD_S
+            )
+        case _:
+            return MassLoad(mass_kg=float(random.uniform(1.0, 3.0)), start_s=LOAD_S)

@@ -1,0 +1,147 @@
+"""`svsa study`: run studies, list them, and say what came of them."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from svsa.evaluation.studies.run_cli import run_command
+from svsa.inputs.extras import require_extra
+
+study = typer.Typer(
+    no_args_is_help=True, help="Many perturbed runs of every law, and what can be said of them."
+)
+study.command("run")(run_command)
+_messages = Console(stderr=True)
+
+
+@study.command("list")
+def list_command() -> None:
+    """The studies that come with the package, and those that were begun here."""
+    from svsa.evaluation.studies.file import list_built_in
+    from svsa.evaluation.studies.store import count_done, list_studies
+
+    table = Table("study", "about", "runs done", title="Studies", title_justify="left")
+    for stored in list_studies():
+        laws = len(stored.study.laws)
+        done = f"{count_done(stored) * laws} of {stored.study.row_count}"
+        table.add_row(stored.name, stored.study.title, done)
+    begun = {stored.name for stored in list_studies()}
+    for name, title in list_built_in().items():
+        if name not in begun:
+            table.add_row(name, title, "built in, not begun")
+    Console().print(table)
+
+
+@study.command("show")
+def show_command(
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    outcome: Annotated[
+        str | None,
+        typer.Option(help="What Sobol indices are of: succeeded, or a metric; else succeeded."),
+    ] = None,
+    pictures: Annotated[
+        Path | None, typer.Option(help="Folder for pictures; none are drawn if left out.")
+    ] = None,
+) -> None:
+    """What came of a study: success, faults and quantiles of each law, and what decided them."""
+    from svsa.evaluation.studies.store import open_study, read_rows
+    from svsa.evaluation.studies.summary import SUCCEEDED, estimate_sensitivity, summarize_laws
+    from svsa.evaluation.studies.tables import (
+        build_sensitivity_table,
+        build_summary_tables,
+        write_json,
+    )
+
+    if pictures is not None:
+        require_extra("plot")
+    stored = open_study(name)
+    rows = read_rows(stored)
+    laws = summarize_laws(stored.study, rows)
+    is_asked = outcome is not None or stored.study.sampling == "sensitivity"
+    indices = [
+        estimate_sensitivity(stored.study, rows, law, outcome or SUCCEEDED)
+        for law in (stored.study.laws if is_asked else ())
+    ]
+    if as_json:
+        write_json({"study": name, "laws": laws, "sensitivity": indices})
+    else:
+        Console().print(*build_summary_tables(stored.study, laws))
+        for one in indices:
+            Console().print(build_sensitivity_table(one))
+    if pictures is not None:
+        from svsa.evaluation.studies.pictures import save_pictures
+
+        paths = save_pictures(stored, rows, indices, pictures)
+        _messages.print("Pictures: " + ", ".join(str(path) for path in paths))
+
+
+@study.command("compare")
+def compare_command(
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    other: Annotated[
+        str | None,
+        typer.Argument(metavar="OTHER", help="Another one that drew the same; else its own laws."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Laws on the same draws: the first less each other, or each less itself in another study."""
+    from svsa.evaluation.studies.store import open_study, read_rows
+    from svsa.evaluation.studies.summary import pair_laws, pair_studies
+    from svsa.evaluation.studies.tables import build_pairing_table, write_json
+
+    stored = open_study(name)
+    if other is not None:
+        pairings = pair_studies(stored, open_study(other))
+    else:
+        rows, (first, *others) = read_rows(stored), stored.study.laws
+        pairings = [pair_laws(rows, first, law) for law in others]
+    if as_json:
+        write_json({"pairings": pairings})
+    elif not pairings:
+        _messages.print(f"Study {name} has one law only: name another study that drew the same.")
+    else:
+        for pairing in pairings:
+            Console().print(build_pairing_table(pairing))
+
+
+@study.command("replay")
+def replay_command(
+    name: Annotated[str, typer.Argument(metavar="STUDY", help="A study that was begun.")],
+    row: Annotated[int, typer.Argument(help="Number of the row in its table, from 0.")],
+    keep: Annotated[bool, typer.Option(help="Put it among the recorded runs.")] = True,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Run one row of a study again, with all its samples, as a recorded run of this machine."""
+    from svsa.evaluation.studies.metrics import METRICS
+    from svsa.evaluation.studies.replay import record_replay, replay_row
+    from svsa.evaluation.studies.store import open_study
+    from svsa.evaluation.studies.tables import tell_metric, write_json
+    from svsa.runs.records.catalogue.runs import Catalogue
+
+    stored = open_study(name)
+    replay = replay_row(stored, row)
+    run_id = record_replay(stored, replay, Catalogue()).id if keep else None
+    if as_json:
+        told = {"row": row, "run_id": run_id, "metrics": replay.metrics}
+        write_json(told | {"identical": not replay.differing, "differing": replay.differing})
+    else:
+        table = Table("metric", "unit", "table", "replay", title_justify="left")
+        table.title = f"Row {row} of study {name}: {replay.kept['law']}"
+        for metric in stored.study.metrics:
+            values = f"{replay.kept[metric]!r}", f"{replay.metrics[metric]!r}"
+            table.add_row(tell_metric(metric), METRICS[metric], *values)
+        Console().print(table)
+        ended = replay.result.fault
+        _messages.print(ended.message if ended else "It went to its end.")
+        if run_id is not None:
+            _messages.print(f"Recorded as run {run_id}, with 3D on the page Runs of the lab.")
+    if replay.differing:
+        _messages.print(
+            f"[bold red]Not to the bit the same: {', '.join(replay.differing)}[/]. The study was"
+            f" run by version {stored.version} of svsa."
+        )
+        raise typer.Exit(1)

@@ -1,0 +1,223 @@
+"""Past one machine: the parts of a study run by the workers of a Dask cluster.
+
+A part is a function of the study and its draws alone, so that one whose worker was lost is run
+again by another. Parts come as the bytes that are kept: whoever asks for them writes, no more.
+"""
+
+import logging
+import socket
+import time
+import uuid
+from collections.abc import Iterator
+from concurrent.futures import CancelledError
+from contextlib import contextmanager
+from typing import Any
+
+from distributed import Client, Future, LocalCluster, WorkerPlugin, as_completed
+from distributed.client import ClosedClientError
+from distributed.comm.addressing import get_address_host_port, parse_address
+from distributed.core import rpc
+from distributed.scheduler import KilledWorker
+from distributed.utils import LoopRunner
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.pool import Part
+from svsa.evaluation.studies.store import Span, StoredStudy, StudyError
+from svsa.evaluation.studies.study import Study
+from svsa.evaluation.studies.work import run_part
+from svsa.evaluation.workers import give_way
+from svsa.inputs.release import __version__
+
+LOCAL = "local"
+"""In place of a scheduler's address: a cluster of this machine, for as long as the study runs."""
+MIN_ROWS_A_PART, MAX_ROWS_A_PART = 1024, 8192
+PARTS_A_THREAD = 8
+"""At least so many where there are rows enough, so that none waits long for the last one."""
+AHEAD = 2
+"""Parts asked for at once, for each thread of the cluster."""
+CONNECT_S = 10.0
+WORKERS_S = 60.0
+"""So long a scheduler's first worker is waited for."""
+COUNTED_S = 2.0
+"""So often the threads of the cluster are counted: workers come and go."""
+LOST = (OSError, ClosedClientError, CancelledError)
+"""What a client raises where its scheduler is gone: a connection that was closed or refused or does
+not answer in time; and, once it has seen that, a part that was cancelled and itself closed."""
+
+
+class Cluster:
+    """The workers of a Dask scheduler, wherever they are."""
+
+    def __init__(self, client: Client, address: str) -> None:
+        self._client, self._address = client, address
+        self._threads, self._counted = 0, 0.0
+        self.count_threads()
+
+    def count_threads(self, again: str = "") -> int:
+        """Threads of all workers, at least 1; raises `StudyError` where the scheduler is lost."""
+        if time.monotonic() - self._counted > COUNTED_S or not self._threads:
+            with self._ask(again):
+                counted: Any = self._client.nthreads()
+            self._threads = max(1, sum(counted.values()))
+            self._counted = time.monotonic()
+        return self._threads
+
+    def choose_rows_a_part(self, rows: int) -> int:
+        """How many rows each part of so many has, within `MIN_ROWS_A_PART` … `MAX_ROWS_A_PART`."""
+        share = rows // (PARTS_A_THREAD * self.count_threads())
+        return min(MAX_ROWS_A_PART, max(MIN_ROWS_A_PART, share))
+
+    def run_parts(self, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
+        """The parts of these spans; after an interruption those that are done.
+
+        Raises `StudyError` where the scheduler is lost, where workers ended over a part again and
+        again, and where a worker has another version of svsa, or none.
+        """
+        again = f"What is done is kept: go on with `svsa study run {stored.name}`."
+        begun: dict[Future, Span] = {}
+        done = as_completed(loop=self._client.loop)
+        try:
+            while True:
+                while len(begun) < AHEAD * self.count_threads(again):
+                    if (span := next(spans, None)) is None:
+                        break
+                    with self._ask(again):
+                        future = self._submit(stored, span)
+                    begun[future] = span
+                    done.add(future)
+                if not begun:
+                    return
+                future = next(done)
+                yield begun.pop(future), self._read(future, again)
+        except KeyboardInterrupt:
+            finished = [one for one in begun if one.status == "finished"]
+            with self._ask(again):
+                self._client.cancel([one for one in begun if one not in finished])
+            for one in finished:
+                yield begun[one], self._read(one, again)
+            raise
+
+    def _submit(self, stored: StoredStudy, span: Span) -> Future:
+        first, stop = span
+        key = f"{stored.name}-{first}-{stop}-{uuid.uuid4().hex}"
+        work = (_run_same_version, __version__, stored.study, first, stop - first)
+        return self._client.submit(*work, key=key, pure=False)
+
+    @contextmanager
+    def _ask(self, again: str, asked: Future | None = None) -> Iterator[None]:
+        """`StudyError` where the scheduler is lost, but not for an error of the work asked for."""
+        try:
+            yield
+        except LOST:
+            if asked is not None and asked.status == "error":
+                raise
+            raise StudyError(
+                f"The scheduler at {self._address} was lost. {again}".strip()
+            ) from None
+
+    def _read(self, future: Future, again: str) -> bytes:
+        try:
+            with self._ask(again, future):
+                return future.result()
+        except KilledWorker:
+            raise StudyError(
+                f"At {self._address} several workers ended over the same runs, for want of memory"
+                f" perhaps. {again}"
+            ) from None
+        except ModuleNotFoundError as error:
+            raise StudyError(
+                f"A worker at {self._address} has no {error.name}: install svsa-lab {__version__}"
+                f" there. {again}"
+            ) from None
+
+
+def _run_same_version(version: str, study: Study, first: int, count: int) -> bytes:
+    """A part, run by a worker; raises `StudyError` where it is of another version."""
+    if version != __version__:
+        raise StudyError(
+            f"A worker on {socket.gethostname()} has svsa {__version__}, and the study is run by"
+            f" {version}: its runs might differ."
+        )
+    return run_part(study, first, count)
+
+
+@contextmanager
+def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
+    """The cluster of the scheduler at an address, such as tcp://10.0.0.1:8786.
+
+    `LOCAL`: one of so many processes of this machine, reached from it alone, that ends with this.
+    Raises `ParameterError` for what is no address, and `StudyError` where no scheduler answers
+    there or it has no worker.
+    """
+    if scheduler == LOCAL:
+        with (
+            LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address="127.0.0.1:0",
+                silence_logs=logging.ERROR,
+            ) as local,
+            Client(local, set_as_default=False) as client,
+        ):
+            client.register_plugin(_GiveWay())
+            yield Cluster(client, LOCAL)
+        return
+    _check_scheduler(scheduler)
+    try:
+        client = Client(scheduler, timeout=CONNECT_S, set_as_default=False)
+    except (OSError, ImportError) as error:
+        raise _refuse(scheduler, error) from None
+    with client:
+        try:
+            client.wait_for_workers(1, WORKERS_S)
+        except TimeoutError:
+            raise StudyError(
+                f"The scheduler at {scheduler} has no worker: begin some with"
+                f" `dask worker {scheduler} --nthreads 1`."
+            ) from None
+        except OSError as error:
+            raise _refuse(scheduler, error) from None
+        yield Cluster(client, scheduler)
+
+
+class _GiveWay(WorkerPlugin):
+    """A worker of this machine is in nobody's way, and leaves Ctrl-C to its parent."""
+
+    def setup(self, worker: Any) -> None:
+        give_way()
+
+
+def _check_scheduler(address: str) -> None:
+    """That a scheduler answers there; its client would try for long and say less."""
+    try:
+        scheme, _ = parse_address(address, strict=True)
+        host, port = get_address_host_port(address, strict=True)
+    except (ValueError, NotImplementedError, OSError) as error:
+        bound = f"{LOCAL}, or an address such as tcp://10.0.0.1:8786 ({error})"
+        raise ParameterError(Violation("scheduler", address, "", bound)) from None
+    try:
+        socket.create_connection((host, port), CONNECT_S).close()
+    except OSError as error:
+        raise _refuse(address, error) from None
+    if scheme == "tcp":
+        runner = LoopRunner()
+        runner.start()
+        try:
+            kind = runner.run_sync(_ask_kind, address, callback_timeout=CONNECT_S)
+        except OSError:
+            raise _refuse(address, "what answers there is no Dask scheduler") from None
+        finally:
+            runner.stop()
+        if kind != "Scheduler":
+            raise _refuse(address, f"what answers there is a {kind} of Dask")
+
+
+async def _ask_kind(address: str) -> str:
+    async with rpc(address) as there:
+        identity: Any = await there.identity()
+        return identity["type"]
+
+
+def _refuse(address: str, why: object) -> StudyError:
+    return StudyError(f"No Dask scheduler can be reached at {address}: {why}.")

@@ -1,0 +1,89 @@
+"""A study as a file, TOML or Python, and those that come with the package."""
+
+import runpy
+import traceback
+from pathlib import Path
+from typing import Any
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.study import Study
+from svsa.inputs.toml_file import parse_toml, read_toml, tell_place
+
+STUDY_FILE = "study file"
+OBJECT = "STUDY"
+_BUILT_IN = Path(__file__).parent / "builtin"
+
+
+def list_built_in() -> dict[str, str]:
+    """The studies that come with the package: name and title."""
+    return {
+        path.stem: str(read_toml(path, STUDY_FILE)["title"])
+        for path in sorted(_BUILT_IN.glob("*.toml"))
+    }
+
+
+def find_study_file(source: str | Path) -> Path | None:
+    """The file that is meant: by its name with .toml or .py, or one of the package's by its own."""
+    path = Path(source)
+    if path.suffix in (".toml", ".py"):
+        return path
+    return next((one for one in _BUILT_IN.glob("*.toml") if one.stem == str(source)), None)
+
+
+def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]:
+    """The name and the study of a file, or of one that comes with the package.
+
+    A Python file makes a `Study` called `STUDY`. runs: in place of the file's. Raises
+    `ParameterError` with the file, and the lines of a TOML file, for what cannot be read and for
+    every wrong value.
+    """
+    path = find_study_file(source)
+    if path is None:
+        known = ", ".join(list_built_in())
+        bound = f"a file that ends in .toml or .py, or one of {known}"
+        raise ParameterError(Violation("study", str(source), "", bound))
+    if path.suffix == ".py":
+        study = _run_python(path)
+        return path.stem, study if runs is None else study.changed(runs=runs)
+    changes: dict[str, Any] = {} if runs is None else {"runs": runs}
+    sections = read_toml(path, STUDY_FILE)
+    return path.stem, _build(sections, path.read_text(encoding="utf-8"), str(path), changes)
+
+
+def parse_study(text: str, place: str = "", **changes: Any) -> Study:
+    """The study in a TOML text, with changes in place of what it says.
+
+    Raises `ParameterError` as `read_study`, with `place` as the file's name.
+    """
+    return _build(parse_toml(text, STUDY_FILE, place), text, place, changes)
+
+
+def _build(sections: dict[str, Any], text: str, place: str, changes: dict[str, Any]) -> Study:
+    try:
+        return Study(**sections | changes)
+    except ParameterError as error:
+        names = [violation.name for violation in error.violations if violation.name not in changes]
+        there = tell_place(place, text, names) if names else ""
+        raise ParameterError(*error.violations, file=there) from None
+
+
+def _run_python(path: Path) -> Study:
+    try:
+        study = runpy.run_path(str(path)).get(OBJECT)
+    except ParameterError as error:
+        raise ParameterError(*error.violations, file=_find_place(path, error)) from None
+    except (Exception, SystemExit) as error:
+        place = _find_place(path, error)
+        bound = f"a Python file that runs ({type(error).__name__}: {error})"
+        raise ParameterError(Violation(STUDY_FILE, path, "", bound), file=place) from None
+    if not isinstance(study, Study):
+        bound = f"a file that makes a svsa.evaluation.studies Study called {OBJECT}"
+        raise ParameterError(Violation(STUDY_FILE, path, "", bound))
+    return study
+
+
+def _find_place(path: Path, error: BaseException) -> str:
+    """The file, and the last line of it that was at work."""
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.lineno for frame in frames if Path(frame.filename) == path]
+    return f"{path}, line {lines[-1]}" if lines else str(path)

@@ -1,0 +1,75 @@
+"""What is measured of a run, from what the batch has summed up of it."""
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import AfterValidator
+
+from svsa.actuators.domain import INSIDE
+from svsa.errors import ParameterError, Violation
+from svsa.simulation.loop.tally import SETTLED_S
+
+METRICS = {
+    "rms_position_error_rad": "rad",
+    "peak_position_error_rad": "rad",
+    "last_position_error_rad": "rad",
+    "settled_position_error_rad": "rad",
+    "recovery_time_s": "s",
+    "integral_position_error_rad_s": "rad·s",
+    "rms_stiffness_error_nm_per_rad": "N·m/rad",
+    "peak_stiffness_error_nm_per_rad": "N·m/rad",
+    "peak_torque1_nm": "N·m",
+    "peak_torque2_nm": "N·m",
+    "effort_n2m2_s": "N²·m²·s",
+    "limit_share": "1",
+}
+"""Each metric with its unit; from `measure_from_s` to the end, or to the fault.
+
+Those of `svsa.runs.metrics.Metrics` by its names; recovery and settled error are NaN where it has
+none. last_position_error_rad: |q_d − q| of the last sample. limit_share: of the ticks in which a
+motor made its limit, to 0.1 %.
+"""
+
+RECOVERY = "recovery_time_s"
+
+
+def check_metric(name: str) -> str:
+    """The name; raises `ParameterError` where nothing of that name is measured."""
+    if name not in METRICS:
+        raise ParameterError(Violation("", name, "", f"one of {', '.join(METRICS)}"))
+    return name
+
+
+Metric = Annotated[str, AfterValidator(check_metric)]
+
+
+def compute_metrics(
+    summaries: np.ndarray, periods: np.ndarray, begin_s: float
+) -> dict[str, np.ndarray]:
+    """The metrics of runs of which a batch gave `SUMMARY`; NaN where a run ended before `begin_s`.
+
+    periods: of each run, s.
+    """
+    counts = summaries["ticks"] - np.round(begin_s / periods)
+    counts = np.where(counts > 0, counts, np.nan)
+    measured = counts / counts
+    squares = summaries["torque1_squares"] + summaries["torque2_squares"]
+    settled = np.ceil(SETTLED_S / periods - 1e-9)
+    is_settled = (summaries["code"] == INSIDE) & (counts >= 2 * settled)
+    recovered = np.where(summaries["recovered"] < 0.0, np.nan, summaries["recovered"])
+    return {
+        "rms_position_error_rad": np.sqrt(summaries["position_squares"] / counts),
+        "peak_position_error_rad": summaries["position_peak"] * measured,
+        "last_position_error_rad": np.abs(summaries["position_last"]) * measured,
+        "settled_position_error_rad": np.sqrt(
+            np.where(is_settled, summaries["settled_squares"] / settled, np.nan)
+        ),
+        "recovery_time_s": recovered * periods,
+        "integral_position_error_rad_s": summaries["position_absolute"] * periods * measured,
+        "rms_stiffness_error_nm_per_rad": np.sqrt(summaries["stiffness_squares"] / counts),
+        "peak_stiffness_error_nm_per_rad": summaries["stiffness_peak"] * measured,
+        "peak_torque1_nm": summaries["torque1_peak"] * measured,
+        "peak_torque2_nm": summaries["torque2_peak"] * measured,
+        "effort_n2m2_s": squares * periods * measured,
+        "limit_share": summaries["limited"] / counts,
+    }

@@ -1,0 +1,131 @@
+"""A row of a study as the run that it was: every sample, and the same metrics to the bit."""
+
+import struct
+from datetime import UTC, datetime
+from typing import Any, NamedTuple
+
+import numpy as np
+import pyarrow.compute as pc
+
+from svsa.actuators.domain import FAULT_CODES, INSIDE
+from svsa.actuators.signals import CHANNELS
+from svsa.evaluation.studies.metrics import METRICS
+from svsa.evaluation.studies.outcome import build_outcome
+from svsa.evaluation.studies.samples import build_configurations, draw
+from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
+from svsa.evaluation.studies.success import Success
+from svsa.evaluation.studies.work import ROW
+from svsa.inputs.checked import check_number
+from svsa.inputs.release import __version__
+from svsa.runs.blocks import build_blocks, compute_start_ratio
+from svsa.runs.configuration import Configuration
+from svsa.runs.records.catalogue.entry import RunEntry
+from svsa.runs.records.catalogue.runs import Catalogue, build_run_id
+from svsa.runs.records.fault import write_fault
+from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.writer import write_record
+from svsa.runs.result.result import Result
+from svsa.runs.result.simulate import simulate
+from svsa.simulation.loop.tally import SUMMARY, sum_up
+
+_CODES = {name: code for code, name in FAULT_CODES.items()} | {None: INSIDE}
+
+
+class Replay(NamedTuple):
+    """A row and its run. kept: as it stands in the table. metrics: of the run's samples, all."""
+
+    row: int
+    kept: dict[str, Any]
+    configuration: Configuration
+    result: Result
+    metrics: dict[str, float]
+
+    @property
+    def differing(self) -> list[str]:
+        """The metrics that are not to the bit those of the table, and the fault where it is."""
+        kept = [name for name in METRICS if name in self.kept]
+        names = [name for name in kept if not _is_same(self.kept[name], self.metrics[name])]
+        fault = self.result.fault
+        ended = (fault.code, fault.tick) if fault else (None, None)
+        if ended != (self.kept["fault"], self.kept["fault_tick"]):
+            names.append("fault")
+        return names
+
+
+def replay_row(stored: StoredStudy, row: int) -> Replay:
+    """Run a row again, alone and with all its samples.
+
+    Raises `ParameterError` for a row that the study has not, `StudyError` for one that is not
+    done yet, or whose settings were refused.
+    """
+    study = stored.study
+    check_number("row", row, "", 0, study.row_count - 1)
+    found = read_rows(stored).filter(pc.field(ROW) == row).to_pylist()
+    if not found:
+        raise StudyError(f"Row {row} of study {stored.name} is not done yet.")
+    index, law = divmod(row, len(study.laws))
+    (configuration,) = build_configurations(study, study.laws[law], draw(study, index, 1))
+    if configuration is None:
+        raise StudyError(
+            f"Row {row} of study {stored.name} was not run: its settings do not go together."
+        )
+    result = simulate(configuration, duration_s=study.duration_s)
+    metrics = measure_samples(result, study.measure_from_s, study.duration_s)
+    return Replay(row, found[0], configuration, result, metrics)
+
+
+def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, float]:
+    """The metrics of a run's samples between two times, to the bits that a batch comes to.
+
+    end_s: when it was to end; a run in a fault has ended before.
+    """
+    configuration = result.configuration
+    period = configuration.sampling.period_s
+    mu0 = compute_start_ratio(configuration)
+    blocks = build_blocks(configuration, configuration.lanes[0], mu0)
+    tally = sum_up(result.samples, blocks, round(begin_s / period), round(end_s / period))
+    summary = np.zeros(1, dtype=SUMMARY)
+    summary["code"] = _CODES[result.fault.code if result.fault else None]
+    summary["ticks"] = len(result.samples)
+    for name, value in zip(tally._fields, tally, strict=True):
+        summary[name] = value
+    outcome = build_outcome(summary, np.array([period]), begin_s, Success())
+    return {name: float(outcome[name][0]) for name in METRICS}
+
+
+def record_replay(
+    stored: StoredStudy, replay: Replay, catalogue: Catalogue, owner: str = ""
+) -> RunEntry:
+    """Put the run into the catalogue, where the lab shows it as any recorded one.
+
+    owner: id of who asked for it, in a class.
+    """
+    varied = {one.column: replay.kept[one.column] for one in stored.study.vary}
+    told = [
+        f"{name}: {value:g}" if isinstance(value, float) else f"{name}: {value}"
+        for name, value in varied.items()
+    ]
+    header = RecordHeader(
+        version=__version__,
+        run_id=build_run_id(),
+        created=datetime.now(UTC).isoformat(timespec="milliseconds"),
+        session=f"study {stored.name}",
+        name=f"Study {stored.name}, row {replay.row}",
+        tags=("study", stored.name[:50]),
+        notes="\n".join((stored.study.title, *told)),
+        lanes=("lane1",),
+        configuration=replay.configuration.model_dump(mode="json"),
+        seed=replay.configuration.seed,
+        period_s=replay.configuration.sampling.period_s,
+        channels=CHANNELS,
+        owner=owner,
+    )
+    folder = catalogue.folder / "runs" / header.run_id
+    write_record(folder, header, [], 0, replay.result.samples[:, None])
+    write_fault(folder, replay.result.fault)
+    catalogue.register(header)
+    return catalogue.finish(header.run_id)
+
+
+def _is_same(a: float, b: float) -> bool:
+    return struct.pack("<d", a) == struct.pack("<d", b) or (a != a and b != b)

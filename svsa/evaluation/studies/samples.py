@@ -1,0 +1,100 @@
+"""What is drawn for each run: a function of the study's seed and the run's number alone.
+
+So neither how runs are put together, nor their order, nor the machine or a new start changes them.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from svsa.errors import ParameterError
+from svsa.evaluation.studies.setting import change_settings, read_setting
+from svsa.evaluation.studies.study import Study, scale
+from svsa.runs.configuration import Configuration
+
+_WORDS = 4
+"""Of 64 bits, that Philox makes of one count."""
+
+
+class Draws(NamedTuple):
+    """The draws first, first + 1, …
+
+    seeds: of each, for the sensor noise. values: of each variation those that were drawn.
+    """
+
+    first: int
+    seeds: list[int]
+    values: list[list[Any]]
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return len(self.seeds)
+
+
+def draw(study: Study, first: int, count: int) -> Draws:
+    """The draws `first` to `first + count − 1` of a study.
+
+    Draws of one grid, and of one set for sensitivity, have the same chance: what differs between
+    them is what varies.
+    """
+    numbers = np.arange(first, first + count)
+    samples, cells = numbers // study.cells, numbers % study.cells
+    begin, end = int(samples[0]), int(samples[-1]) + 1
+    words = _make_words(study, begin, end)
+    shares = _make_shares(study, words, begin, end)[:, samples - begin]
+    values: list[list[Any]] = []
+    stride = 1
+    for number, variation in enumerate(study.vary):
+        if levels := variation.levels:
+            values.append([levels[index] for index in cells // stride % len(levels)])
+            stride *= len(levels)
+        else:
+            is_second = (study.sampling == "sensitivity") & ((cells == 1) | (cells == number + 2))
+            values.append(variation.draw(np.where(is_second, *shares[::-1, :, number])))
+    return Draws(first, (words[samples - begin, 0] >> np.uint64(1)).tolist(), values)
+
+
+def _make_words(study: Study, begin: int, end: int) -> np.ndarray:
+    """(samples, words) of 64 bits: of each sample a seed and one for each variation.
+
+    Philox, a function of key and counter: a sample's words do not depend on those before it.
+    """
+    blocks = -(-(1 + len(study.vary)) // _WORDS)
+    philox = np.random.Philox(key=study.seed, counter=begin * blocks)
+    return philox.random_raw((end - begin) * blocks * _WORDS).reshape(end - begin, -1)
+
+
+def _make_shares(study: Study, words: np.ndarray, begin: int, end: int) -> np.ndarray:
+    """(2, samples, variations) from 0 to 1: of a sample, and of the other one of its pair.
+
+    The second is another one for sensitivity only.
+    """
+    count = len(study.vary)
+    if study.sampling == "random" or not count:
+        shares = (words[:, 1 : 1 + count] >> np.uint64(11)) * 2.0**-53
+        return np.stack([shares, shares])
+    pairs = 2 if study.sampling == "sensitivity" else 1
+    from scipy.stats import qmc  # late: it takes a while
+
+    sequence = qmc.Sobol(pairs * count, rng=np.random.default_rng(study.seed))
+    point = sequence.random(1) if begin == 0 else sequence.fast_forward(begin).random(1)
+    shares = np.concatenate([point, sequence.random(end - begin - 1)])
+    return np.stack([shares[:, :count], shares[:, -count:]])
+
+
+def build_configurations(study: Study, law: str, draws: Draws) -> list[Configuration | None]:
+    """The runs of these draws under a law; None where the settings do not go together."""
+    base = study.build_base(law)
+    present = [read_setting(base, variation.path) for variation in study.vary]
+    built: list[Configuration | None] = []
+    for row, seed in enumerate(draws.seeds):
+        changes: dict[str, Any] = {
+            variation.path: scale(variation, at, values[row])
+            for variation, at, values in zip(study.vary, present, draws.values, strict=True)
+        }
+        try:
+            built.append(change_settings(base, changes).model_copy(update={"seed": seed}))
+        except ParameterError:
+            built.append(None)
+    return built

@@ -1,0 +1,58 @@
+"""What a setting is called in words, and in what unit it is: as its field declares them."""
+
+from typing import NamedTuple
+
+from svsa.control.installed import get_title
+from svsa.evaluation.studies.setting import Step, parse_path, walk_to_setting
+from svsa.evaluation.studies.variation import Variation
+from svsa.inputs.checked import Checked, read_quantity
+from svsa.runs.configuration import Configuration
+
+_SCALED = {
+    "position_bandwidth_rad_per_s": "Bandwidth of the position error",
+    "stiffness_bandwidth_rad_per_s": "Bandwidth of the stiffness error",
+}
+_ANGULAR = "rad/s"
+
+
+class SettingName(NamedTuple):
+    """words: as "Output link inertia M". unit: empty of what has none, and of a factor."""
+
+    words: str
+    unit: str
+
+
+def name_variation(base: Configuration, variation: Variation) -> SettingName:
+    """What varies from this base; of a factor with ×."""
+    name = name_setting(base, variation.path)
+    return SettingName(f"{name.words} ×", "") if variation.relative else name
+
+
+def name_setting(configuration: Configuration, path: str) -> SettingName:
+    """The setting at a path; raises `ParameterError` where there is none.
+
+    What the controllers believe is told apart from the plant, a law's parameter by its law, and a
+    load by its number where there are several.
+    """
+    words, unit, parts = path, "", []
+    for owner, step, _ in walk_to_setting(configuration, path):
+        if step in _SCALED:
+            words, unit = _SCALED[step], _ANGULAR
+        elif isinstance(owner, Checked):
+            field = read_quantity(type(owner), str(step))
+            words, unit, parts = field.symbol or field.meaning, field.unit, field.parts
+        elif isinstance(step, int) and step < len(parts):
+            words = parts[step]
+    whose = _tell_whose(configuration, parse_path(path))
+    return SettingName(whose + words, "" if unit == "1" else unit)
+
+
+def _tell_whose(configuration: Configuration, steps: tuple[Step, ...]) -> str:
+    first, *rest = steps
+    if first == "nominal" and rest:
+        return "Nominal: "
+    if first == "parameters" and rest:
+        return f"{get_title(str(rest[0]))}: "
+    if first == "loads" and rest and len(configuration.loads) > 1:
+        return f"{int(rest[0]) + 1}: "
+    return ""

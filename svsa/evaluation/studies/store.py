@@ -1,0 +1,266 @@
+"""Where a study is kept: its text, the parts that are done, and the one table of all of them.
+
+A part is a file that is there as a whole or not at all. What is done is what is there: so a study
+goes on where it was left, however it was left, with parts of any size.
+"""
+
+import json
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, NamedTuple
+from uuid import uuid4
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.evaluation.studies.study import Study
+from svsa.evaluation.studies.work import build_schema, list_repeating
+from svsa.inputs.file_lock import try_lock
+from svsa.inputs.release import __version__
+from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.runs.records.header import replace_file
+
+STUDY_FILE, TABLE_FILE, PARTS, LOCK_FILE = "study.json", "rows.parquet", "parts", "lock"
+ROWS_A_GROUP = 65_536
+_PART = re.compile(r"(\d+)-(\d+)\.parquet")
+_NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z_.-]{0,63}", re.ASCII)
+
+Span = tuple[int, int]
+"""The draws from the first to before the second number."""
+
+
+class StudyError(SvsaError):
+    """A study that cannot be kept, read or gone on with; what is done stays."""
+
+
+class StoredStudy(NamedTuple):
+    """A study and its folder. owner: id of who began it, in a class; empty elsewhere."""
+
+    name: str
+    study: Study
+    folder: Path
+    created: str
+    version: str
+    owner: str = ""
+
+
+def check_name(name: str) -> None:
+    """Raise `ParameterError` for a name by which nothing can be kept."""
+    if not _NAME.fullmatch(name):
+        bound = "1 to 64 letters, digits, -, _ or ., the first no sign"
+        raise ParameterError(Violation("name", name, "", bound))
+
+
+def find_studies_folder() -> Path:
+    """Where studies are kept: beside the runs."""
+    return find_data_folder() / "studies"
+
+
+def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "") -> StoredStudy:
+    """The study of this name, begun, or gone on with; more runs may be asked for than before.
+
+    owner: of one that is begun; one that is gone on with keeps its own.
+
+    Raises `ParameterError` for a name that is none, `StudyError` where another study has it.
+    """
+    check_name(name)
+    folder = (root or find_studies_folder()) / name
+    created, version = datetime.now(UTC).isoformat(timespec="seconds"), __version__
+    if is_kept(name, root):
+        kept = open_study(name, root)
+        if kept.study.changed(runs=study.runs) != study:
+            raise StudyError(
+                f"Study {name} is another one: it was begun with other settings. Give yours"
+                f" another name (--name), or delete {folder}."
+            )
+        if study.runs <= kept.study.runs:
+            study = kept.study
+        if kept.version != __version__ and find_missing(kept._replace(study=study)):
+            raise StudyError(
+                f"Study {name} was begun by version {kept.version} of svsa, and this is"
+                f" {__version__}: its runs might differ. Give this one another name (--name)."
+            )
+        created, version, owner = kept.created, kept.version, kept.owner
+    text = {"name": name, "created": created, "version": version, "owner": owner}
+    content = json.dumps(text | {"study": study.model_dump(mode="json")}, indent=1)
+    try:
+        (folder / PARTS).mkdir(parents=True, exist_ok=True)
+        replace_file(folder / STUDY_FILE, content.encode())
+    except OSError as error:
+        raise StudyError(f"Study {name} cannot be kept in {folder}: {error}.") from None
+    return StoredStudy(name, study, folder, created, version, owner)
+
+
+def is_kept(name: str, root: Path | None = None) -> bool:
+    """Whether there is a study of this name."""
+    is_name = _NAME.fullmatch(name) is not None
+    return is_name and ((root or find_studies_folder()) / name / STUDY_FILE).exists()
+
+
+def open_study(name: str, root: Path | None = None) -> StoredStudy:
+    """The study of this name; raises `StudyError` where there is none, or it cannot be read."""
+    root = root or find_studies_folder()
+    folder = root / name
+    try:
+        written = json.loads((folder / STUDY_FILE).read_text(encoding="utf-8"))
+        study = Study(**written["study"])
+        told = written["created"], written["version"], written.get("owner", "")
+        return StoredStudy(name, study, folder, *told)
+    except FileNotFoundError:
+        known = ", ".join(one.name for one in list_studies(root)) or "none"
+        raise StudyError(f"There is no study {name} in {root}; there: {known}.") from None
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise StudyError(f"Study {name} cannot be read: {error}") from None
+
+
+def read_owner(name: str, root: Path | None = None) -> str | None:
+    """Return the id of the person who began a study, without building the study.
+
+    Args:
+        name: Of the study.
+        root: Folder of the studies; `find_studies_folder` if left out.
+
+    Returns:
+        The id, empty outside a class; None if there is no such study, or it cannot be read.
+    """
+    if not _NAME.fullmatch(name):
+        return None
+    try:
+        written = json.loads(((root or find_studies_folder()) / name / STUDY_FILE).read_bytes())
+    except (OSError, ValueError):
+        return None
+    owner = written.get("owner", "") if isinstance(written, dict) else None
+    return owner if isinstance(owner, str) else None
+
+
+def list_studies(root: Path | None = None) -> list[StoredStudy]:
+    """Every study that was begun and can be read, by name."""
+    root = root or find_studies_folder()
+    found = []
+    for path in sorted(root.glob(f"*/{STUDY_FILE}")):
+        try:
+            found.append(open_study(path.parent.name, root))
+        except StudyError:
+            continue
+    return found
+
+
+def measure_bytes(owner: str, root: Path | None = None) -> int:
+    """What the studies of one owner take on the disk."""
+    folders = [one.folder for one in list_studies(root) if one.owner == owner]
+    files = (path for folder in folders for path in folder.rglob("*"))
+    return sum(path.stat().st_size for path in files if path.is_file())
+
+
+@contextmanager
+def claim_study(stored: StoredStudy) -> Iterator[None]:
+    """Be the only one who works at a study; raises `StudyError` where somebody does."""
+    with (stored.folder / LOCK_FILE).open("wb") as file:
+        if not try_lock(file.fileno()):
+            raise StudyError(f"Study {stored.name} is being worked at by another process.")
+        yield
+
+
+def delete_study(stored: StoredStudy) -> None:
+    """Delete a study with all its rows; raises `StudyError` where somebody works at it."""
+    gone = stored.folder.with_name(f".{uuid4().hex}")
+    try:
+        with claim_study(stored):
+            stored.folder.rename(gone)
+        (gone / STUDY_FILE).unlink()
+        shutil.rmtree(gone)
+    except OSError as error:
+        raise StudyError(f"Study {stored.name} cannot be deleted: {error}.") from None
+
+
+def write_part(stored: StoredStudy, span: Span, content: bytes) -> None:
+    """Keep the rows of these draws, a Parquet file."""
+    replace_file(stored.folder / PARTS / f"{span[0]:010d}-{span[1]:010d}.parquet", content)
+
+
+def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
+    """The files that hold rows, each with its draws, in order; what another holds is left out."""
+    parts: list[tuple[Span, Path]] = []
+    table = stored.folder / TABLE_FILE
+    if table.exists():
+        rows = pq.read_metadata(table).num_rows
+        parts.append(((0, rows // len(stored.study.laws)), table))
+    for path in sorted((stored.folder / PARTS).glob("*.parquet")):
+        if found := _PART.fullmatch(path.name):
+            span = int(found[1]), int(found[2])
+            if not parts or span[0] >= parts[-1][0][1]:
+                parts.append((span, path))
+    return parts
+
+
+def find_missing(stored: StoredStudy) -> list[Span]:
+    """The stretches of draws that are not done."""
+    missing: list[Span] = []
+    reached = 0
+    for (first, stop), _ in list_parts(stored):
+        if first > reached:
+            missing.append((reached, first))
+        reached = stop
+    if reached < stored.study.draw_count:
+        missing.append((reached, stored.study.draw_count))
+    return missing
+
+
+def count_done(stored: StoredStudy) -> int:
+    """How many draws are done."""
+    return sum(stop - first for (first, stop), _ in list_parts(stored))
+
+
+def join_parts(stored: StoredStudy) -> Path | None:
+    """Put what is done from the first draw on into one table; its path, None where nothing is.
+
+    In the order of the rows, and in groups of one size: neither the order in which parts came nor
+    their sizes show.
+    """
+    whole = []
+    reached = 0
+    for (first, stop), path in list_parts(stored):
+        if first == reached:
+            whole.append(path)
+            reached = stop
+    table = stored.folder / TABLE_FILE
+    if not whole or whole == [table]:
+        return table if whole else None
+    draft = table.with_suffix(".tmp")
+    schema = build_schema(stored.study)
+    with pq.ParquetWriter(draft, schema, use_dictionary=list_repeating(schema)) as writer:
+        for group in _regroup(whole):
+            writer.write_table(group, row_group_size=ROWS_A_GROUP)
+    draft.replace(table)
+    for path in whole:
+        if path != table:
+            path.unlink(missing_ok=True)
+    return table
+
+
+def _regroup(paths: list[Path]) -> Iterator[pa.Table]:
+    """The rows of these files in tables of `ROWS_A_GROUP`, the last one shorter."""
+    waiting: list[pa.Table] = []
+    for path in paths:
+        with pq.ParquetFile(path) as file:
+            for number in range(file.num_row_groups):
+                waiting.append(file.read_row_group(number))
+                while sum(map(len, waiting)) >= ROWS_A_GROUP:
+                    joined = pa.concat_tables(waiting)
+                    yield joined.slice(0, ROWS_A_GROUP)
+                    waiting = [joined.slice(ROWS_A_GROUP)]
+    if sum(map(len, waiting)):
+        yield pa.concat_tables(waiting)
+
+
+def read_rows(stored: StoredStudy, columns: list[str] | None = None) -> pa.Table:
+    """All rows that are done, of some columns or of all; raises `StudyError` where none is."""
+    tables: list[Any] = [pq.read_table(path, columns=columns) for _, path in list_parts(stored)]
+    if not tables:
+        raise StudyError(f"Of study {stored.name} nothing is done: `svsa study run` it first.")
+    return pa.concat_tables(tables)

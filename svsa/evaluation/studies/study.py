@@ -1,0 +1,160 @@
+"""A study as a value: what varies, how many runs, under which laws, and what counts as success."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Literal, Self
+
+from pydantic import model_validator
+
+from svsa.control.installed import PAPERS_LAW, InstalledLaw
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.metrics import METRICS, Metric
+from svsa.evaluation.studies.setting import change_settings, read_setting
+from svsa.evaluation.studies.success import Success
+from svsa.evaluation.studies.variation import DRAWN, Variation, Variations
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.runs.configuration import Configuration
+from svsa.runs.paper import DURATION_S, get_figure
+
+MAX_RUNS = 10**9
+MAX_LAWS = 20
+FIGURE = "figure"
+Sampling = Literal["random", "sobol", "sensitivity"]
+
+
+class Study(Checked):
+    """Runs of one actuator with varied settings, the same draws under each law.
+
+    base: the configuration that all begin from: `figure` of the paper, and settings in its place.
+    runs: how many draws; where there are grids, of the whole grid; for `sensitivity` how many base
+    samples, a power of two. sampling: independent draws, Sobol's sequence, or the pairs of it of
+    which Sobol indices are made. metrics: columns of the table in this order; success may ask for
+    others. Raises `ParameterError` for every wrong value, those of the base and of what varies
+    among them.
+    """
+
+    title: str = quantity("", "What the study is about", max_length=200)
+    base: dict[str, Any] = quantity("", "Settings that all runs begin from", default={FIGURE: "4a"})
+    laws: tuple[InstalledLaw, ...] = quantity(
+        "", "Laws, each on the same draws", min_length=1, max_length=MAX_LAWS, default=(PAPERS_LAW,)
+    )
+    vary: Variations = quantity("", "What varies", default=())
+    runs: Whole = quantity("", "How many draws", ge=1, le=MAX_RUNS)
+    seed: Whole = quantity("", "Seed of all draws", ge=0, le=2**63 - 1, default=0)
+    sampling: Sampling = quantity("", "How is drawn", default="random")
+    duration_s: Number = quantity("s", "How long a run is", gt=0, le=3600, default=DURATION_S)
+    measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
+    metrics: tuple[Metric, ...] = quantity(
+        "", "What its table keeps of each run", min_length=1, default=tuple(METRICS)
+    )
+    success: Success = quantity("", "What counts as success, besides no fault", default=Success())
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check_measured(self.measure_from_s, self.duration_s)
+        self._check_once("laws", self.laws)
+        self._check_once("metrics", self.metrics)
+        self._check_paths()
+        if self.sampling == "sensitivity":
+            self._check_sensitivity()
+        for law in self.laws:
+            base = self.build_base(law)
+            for number, variation in enumerate(self.vary):
+                check_variation(base, variation, f"vary[{number}]")
+        if self.draw_count > MAX_RUNS:
+            bound = f"so few that there are at most {MAX_RUNS} draws, not {self.draw_count}"
+            raise ParameterError(Violation("runs", self.runs, "", bound))
+        return self
+
+    def _check_once(self, name: str, listed: tuple[str, ...]) -> None:
+        if len(set(listed)) < len(listed):
+            raise ParameterError(Violation(name, list(listed), "", "names, each once"))
+
+    def _check_paths(self) -> None:
+        paths = [variation.path for variation in self.vary]
+        for number, path in enumerate(paths):
+            if path in paths[:number]:
+                raise ParameterError(Violation(f"vary[{number}].path", path, "", "varied once"))
+            if any(path.startswith((f"{other}.", f"{other}[")) for other in paths):
+                bound = "apart from the others: one that varies too holds it"
+                raise ParameterError(Violation(f"vary[{number}].path", path, "", bound))
+
+    def _check_sensitivity(self) -> None:
+        if self.runs & (self.runs - 1) or not self.vary:
+            bound = "a power of two, of at least one setting that varies, for sensitivity"
+            raise ParameterError(Violation("runs", self.runs, "", bound))
+        for number, variation in enumerate(self.vary):
+            if not isinstance(variation, DRAWN):
+                bound = "uniform, log_uniform, normal or choice, for sensitivity"
+                raise ParameterError(Violation(f"vary[{number}].kind", variation.kind, "", bound))
+
+    @property
+    def cells(self) -> int:
+        """How many draws belong to one sample: those of the grid, or of the base sample's set."""
+        if self.sampling == "sensitivity":
+            return len(self.vary) + 2
+        return math.prod(len(variation.levels) or 1 for variation in self.vary)
+
+    @property
+    def draw_count(self) -> int:
+        """How many draws there are, each of which every law runs."""
+        return self.runs * self.cells
+
+    @property
+    def row_count(self) -> int:
+        """How many runs there are."""
+        return self.draw_count * len(self.laws)
+
+    def build_base(self, law: str) -> Configuration:
+        """What the runs of a law begin from; raises `ParameterError`."""
+        return build_base(self.base, law)
+
+
+def check_measured(measure_from_s: float, duration_s: float) -> None:
+    """Raise `ParameterError` where a run ends before it is measured."""
+    if not measure_from_s < duration_s:
+        bound = f"less than duration_s, {duration_s:g} s"
+        raise ParameterError(Violation("measure_from_s", measure_from_s, "s", bound))
+
+
+def build_base(base: Mapping[str, Any], law: str) -> Configuration:
+    """A figure and settings in its place, under a law; raises `ParameterError`."""
+    changes = {name: value for name, value in base.items() if name != FIGURE}
+    try:
+        figure = get_figure(base.get(FIGURE, "4a"))
+        return change_settings(figure.build_configuration(law), changes)
+    except ParameterError as error:
+        raise error.within("base") from None
+
+
+def check_variation(base: Configuration, variation: Variation, name: str) -> None:
+    """Raise `ParameterError` where a value at an end is none for its setting."""
+    try:
+        present = read_setting(base, variation.path)
+    except ParameterError as error:
+        inner = error.violations[0]
+        bound = f"a setting: in place of {inner.value!r} it must be {inner.bound}"
+        raise ParameterError(Violation(f"{name}.path", variation.path, "", bound)) from None
+    if variation.relative and not _is_numeric(present):
+        bound = "false: what is there is no number to be a factor of"
+        raise ParameterError(Violation(f"{name}.relative", True, "", bound))
+    for field, value in variation.list_tried().items():
+        if variation.relative and not _is_numeric(value):
+            raise ParameterError(Violation(f"{name}.{field}", value, "", "a number, as a factor"))
+        try:
+            change_settings(base, {variation.path: scale(variation, present, value)})
+        except ParameterError as error:
+            told = f"with {value!r:.40} there, {error.violations[0].message.removesuffix('.')}"
+            raise ParameterError(Violation(f"{name}.{field}", value, "", "", {}, told)) from None
+
+
+def scale(variation: Variation, present: Any, value: Any) -> Any:
+    """What a setting becomes whose value in the base is `present`."""
+    if not variation.relative:
+        return value
+    return tuple(one * value for one in present) if isinstance(present, tuple) else present * value
+
+
+def _is_numeric(value: Any) -> bool:
+    numbers = value if isinstance(value, tuple) and value else (value,)
+    return all(isinstance(one, int | float) and not isinstance(one, bool) for one in numbers)

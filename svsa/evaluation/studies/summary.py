@@ -1,0 +1,204 @@
+"""What came of a study: of each law, of laws against each other, and of what varied.
+
+A run that ended in a fault has no error that could be set beside that of a whole run: among the
+quantiles it stands beyond every value, and in paired differences both runs must be whole.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.metrics import METRICS, RECOVERY
+from svsa.evaluation.studies.outcome import REFUSED
+from svsa.evaluation.studies.statistics import (
+    Interval,
+    compute_quantiles,
+    estimate_difference,
+    estimate_share,
+)
+from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
+from svsa.evaluation.studies.study import Study
+from svsa.evaluation.studies.work import DRAW, LAW
+
+SHARES = (0.05, 0.5, 0.95)
+SUCCEEDED = "succeeded"
+
+
+class LawSummary(NamedTuple):
+    """How a law did. runs: without those that were refused. quantiles: 5, 50, 95 % of each metric,
+    infinite where so many ended in a fault. faults: how many, by code.
+    """
+
+    law: str
+    runs: int
+    refused: int
+    success: Interval
+    faults: dict[str, int]
+    quantiles: dict[str, list[float]]
+
+
+class Pairing(NamedTuple):
+    """One law less another on the same draws.
+
+    success: difference of the shares, of all pairs. differences: of each metric that both keep the
+    mean difference over the `whole` pairs of which neither ended in a fault, and of which both have
+    it (some never recover). only_one, only_other: how many draws only one of them succeeded on.
+    """
+
+    one: str
+    other: str
+    pairs: int
+    whole: int
+    success: Interval
+    only_one: int
+    only_other: int
+    differences: dict[str, Interval]
+
+
+class Sensitivity(NamedTuple):
+    """Sobol indices of one outcome: of each variation its own share of the variance, and with all
+    its interactions; of a base of `samples`.
+    """
+
+    law: str
+    outcome: str
+    samples: int
+    first_order: dict[str, Interval]
+    total_order: dict[str, Interval]
+
+
+def summarize_laws(study: Study, rows: pa.Table) -> list[LawSummary]:
+    """Of each law in the study's order."""
+    return [
+        _summarize_law(law, study.metrics, rows.filter(pc.field(LAW) == law)) for law in study.laws
+    ]
+
+
+def _summarize_law(law: str, metrics: Sequence[str], rows: pa.Table) -> LawSummary:
+    faults = rows["fault"].to_pylist()
+    counts = {code: faults.count(code) for code in sorted({*faults} - {None})}
+    refused = counts.pop(REFUSED, 0)
+    runs = len(rows) - refused
+    is_run = np.array([fault != REFUSED for fault in faults], dtype=bool)
+    ended = np.array([fault is not None for fault in faults], dtype=bool)
+    quantiles = {
+        name: compute_quantiles(_rank(name, rows, ended)[is_run], SHARES) for name in metrics
+    }
+    successes = int(np.sum(rows[SUCCEEDED].to_numpy()))
+    return LawSummary(law, runs, refused, estimate_share(successes, runs), counts, quantiles)
+
+
+def _rank(metric: str, rows: pa.Table, ended: np.ndarray) -> np.ndarray:
+    """The metric of each run, infinite where it ended in a fault, or never recovered."""
+    values = rows[metric].to_numpy()
+    never = np.isnan(values) if metric == RECOVERY else np.zeros(len(values), dtype=bool)
+    return np.where(ended | never, np.inf, values)
+
+
+def pair_laws(rows: pa.Table, one: str, other: str) -> Pairing:
+    """One law less another, draw by draw."""
+    sides = [rows.filter(pc.field(LAW) == law) for law in (one, other)]
+    return pair_rows(sides[0], sides[1], one, other)
+
+
+def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
+    """Each law that both have, in the first less in the second, on the same draws.
+
+    Raises `StudyError` where the two did not draw the same.
+    """
+    drawn = ("vary", "seed", "sampling")
+    for name in drawn:
+        if getattr(first.study, name) != getattr(second.study, name):
+            raise StudyError(
+                f"Studies {first.name} and {second.name} did not draw the same ({name}): their runs"
+                " are no pairs."
+            )
+    tables = read_rows(first), read_rows(second)
+    laws = [law for law in first.study.laws if law in second.study.laws]
+    pairings = []
+    for law in laws:
+        sides = [table.filter(pc.field(LAW) == law) for table in tables]
+        count = min(map(len, sides))
+        names = f"{law} in {first.name}", f"{law} in {second.name}"
+        pairings.append(pair_rows(sides[0][:count], sides[1][:count], *names))
+    return pairings
+
+
+def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pairing:
+    """Rows of the same draws, in the same order, one less the other."""
+    if one[DRAW].to_pylist() != other[DRAW].to_pylist():
+        raise StudyError(f"{name} and {other_name} have not run the same draws yet.")
+    refused = np.zeros(len(one), dtype=bool)
+    ended = np.zeros(len(one), dtype=bool)
+    for side in (one, other):
+        faults = side["fault"].to_pylist()
+        refused |= np.array([fault == REFUSED for fault in faults], dtype=bool)
+        ended |= np.array([fault is not None for fault in faults], dtype=bool)
+    a, b = (side[SUCCEEDED].to_numpy()[~refused].astype(float) for side in (one, other))
+    return Pairing(
+        one=name,
+        other=other_name,
+        pairs=len(a),
+        whole=int(np.sum(~ended)),
+        success=estimate_difference(a - b),
+        only_one=int(np.sum(a > b)),
+        only_other=int(np.sum(b > a)),
+        differences={
+            metric: estimate_difference(_subtract(one, other, metric)[~ended])
+            for metric in one.column_names
+            if metric in METRICS and metric in other.column_names
+        },
+    )
+
+
+def _subtract(one: pa.Table, other: pa.Table, metric: str) -> np.ndarray:
+    return one[metric].to_numpy() - other[metric].to_numpy()
+
+
+def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -> Sensitivity:
+    """Sobol indices of an outcome, a metric or `succeeded`, under a law, with bootstrap intervals.
+
+    Saltelli et al. 2010 on the sets that were done. Raises `StudyError` for a study that was not
+    drawn for it, of a metric where a run has none or ended in a fault, and where nothing varies.
+    """
+    if study.sampling != "sensitivity":
+        raise StudyError("Sobol indices need a study whose sampling is sensitivity.")
+    known = (SUCCEEDED, *study.metrics)
+    if outcome not in known:
+        bound = "one of " + ", ".join(known)
+        raise ParameterError(Violation("outcome", outcome, "", bound))
+    own = rows.filter(pc.field(LAW) == law)
+    samples = 1 << max(len(own) // study.cells, 1).bit_length() - 1
+    if samples * study.cells > len(own):
+        raise StudyError("There is no whole set of draws yet.")
+    own = own[: samples * study.cells]
+    ended = own.num_rows - own["fault"].null_count
+    if outcome != SUCCEEDED and ended:
+        raise StudyError(
+            f"{ended} of {own.num_rows} runs of {law} ended in a fault and have no {outcome} to"
+            f" compare: ask for {SUCCEEDED}."
+        )
+    values = own[outcome].to_numpy().astype(float).reshape(samples, study.cells).T
+    if np.ptp(values) == 0.0:
+        raise StudyError(f"{outcome} is the same in every run of {law}: nothing decides it.")
+    sets = {"f_A": values[:1], "f_B": values[1:2], "f_AB": values[2:, None, :]}
+    from scipy.stats import sobol_indices  # late: it takes a while
+
+    found: Any = sobol_indices(func=sets, n=samples, rng=np.random.default_rng(0))
+    spread = found.bootstrap(n_resamples=1000)
+    names = [variation.column for variation in study.vary]
+    orders = []
+    for order in ("first_order", "total_order"):
+        ends = getattr(spread, order).confidence_interval
+        columns = (np.atleast_1d(x) for x in (getattr(found, order), ends.low, ends.high))
+        orders.append(
+            {
+                name: Interval(*map(float, row))
+                for name, row in zip(names, zip(*columns, strict=True), strict=True)
+            }
+        )
+    return Sensitivity(law, outcome, samples, orders[0], orders[1])

@@ -1,0 +1,132 @@
+"""What came of a study as tables to read and as JSON."""
+
+import json
+import math
+import re
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from rich.table import Table
+
+from svsa.control.installed import get_title
+from svsa.evaluation.studies.metrics import METRICS, RECOVERY
+from svsa.evaluation.studies.statistics import Interval
+from svsa.evaluation.studies.study import Study
+from svsa.evaluation.studies.summary import LawSummary, Pairing, Sensitivity
+
+_UNIT = re.compile(r"(_rad_s|_nm_per_rad|_n2m2_s|_rad|_nm|_s)$")
+_DECIMALS, _MAX_DECIMALS = 2, 12
+_DEGREES = {"rad": "°", "rad·s": "°·s"}
+
+
+def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table]:
+    """Success and faults in one table, the quantiles of every metric that is kept in the other."""
+    asked = " and ".join(
+        f"{tell_metric(name)} ≤ {tell_value(name, value)} {tell_unit(name)}"
+        for name, value in study.success.list_bounds().items()
+    )
+    success = Table("law", "runs", "success (95 %)", "faults", title_justify="left")
+    success.title = f"{study.title}. Success: no fault{f' and {asked}' if asked else ''}"
+    for law in laws:
+        faults = ", ".join(f"{count} {code}" for code, count in law.faults.items()) or "none"
+        refused = f", and {law.refused} draws refused" if law.refused else ""
+        share = tell_share(law.success)
+        success.add_row(get_title(law.law), str(law.runs), share, faults + refused)
+    quantiles = Table("metric", "unit", title_justify="left")
+    span = f"{study.measure_from_s:g}–{study.duration_s:g} s"
+    quantiles.title = f"5 %, 50 %, 95 % of all runs, {span}; fault: so many ended in one"
+    for law in laws:
+        quantiles.add_column(get_title(law.law), justify="right")
+    for name in study.metrics:
+        cells = [" / ".join(tell_value(name, x) for x in law.quantiles[name]) for law in laws]
+        quantiles.add_row(tell_metric(name), tell_unit(name), *cells)
+    return [success, quantiles]
+
+
+def build_pairing_table(pairing: Pairing) -> Table:
+    """One law less another, with the intervals of the mean difference."""
+    table = Table("metric", "unit", "mean difference", "95 %", title_justify="left")
+    table.title = (
+        f"{pairing.one} less {pairing.other}, {pairing.pairs} draws. Success:"
+        f" {100 * pairing.success.value:+.2f} points ({100 * pairing.success.low:+.2f} to"
+        f" {100 * pairing.success.high:+.2f}); only the first on {pairing.only_one}, only the"
+        f" second on {pairing.only_other}. Below: the {pairing.whole} draws on which both are whole"
+    )
+    for name, one in pairing.differences.items():
+        ends = f"{tell_value(name, one.low)} to {tell_value(name, one.high)}"
+        table.add_row(tell_metric(name), tell_unit(name), tell_value(name, one.value), ends)
+    return table
+
+
+def build_sensitivity_table(one: Sensitivity) -> Table:
+    """Sobol indices, the greatest share first."""
+    table = Table("what varies", "its own share", "with interactions", title_justify="left")
+    table.title = f"Sobol indices of {one.outcome} under {one.law}, {one.samples} base samples"
+    order = sorted(one.total_order, key=lambda name: -one.total_order[name].value)
+    for name in order:
+        cells = [
+            f"{x.value:.3f} ({x.low:.3f} to {x.high:.3f})"
+            for x in (one.first_order[name], one.total_order[name])
+        ]
+        table.add_row(name, *cells)
+    return table
+
+
+def tell_metric(name: str) -> str:
+    """A metric in words, without its unit."""
+    return _UNIT.sub("", name).replace("_", " ")
+
+
+def tell_value(metric: str, value: float) -> str:
+    """A metric's value in the unit that people read, to three digits."""
+    if math.isinf(value):
+        return "never" if metric == RECOVERY else "fault"
+    if math.isnan(value):
+        return "–"
+    return f"{convert_shown(metric, value):.3g}"
+
+
+def convert_shown(metric: str, values: Any) -> Any:
+    """A metric's value, or an array of them, in the unit of `tell_unit`."""
+    return np.degrees(values) if METRICS[metric] in _DEGREES else values
+
+
+def tell_unit(metric: str) -> str:
+    """The unit of `tell_value`."""
+    return _DEGREES.get(METRICS[metric], METRICS[metric])
+
+
+def tell_share(share: Interval) -> str:
+    """A share in percent with its interval, to so many digits that what differs reads so.
+
+    Of a million runs that all succeeded the lower end is no 100 %.
+    """
+    if math.isnan(share.value):
+        return "–"
+    ends = {0.0, 1.0, *(round(one, _MAX_DECIMALS) for one in share)}
+    told = (
+        [f"{100 * one:.{decimals}f}" for one in share]
+        for decimals in range(_DECIMALS, _MAX_DECIMALS)
+        if len({f"{100 * one:.{decimals}f}" for one in ends}) == len(ends)
+    )
+    value, low, high = next(told)
+    return f"{value} % ({low} to {high})"
+
+
+def write_json(value: Any) -> None:
+    """Print as JSON; of a number that is not finite null, as JSON knows no such number."""
+    print(json.dumps(make_plain(value), indent=2))
+
+
+def make_plain(value: Any) -> Any:
+    """What JSON can say: of tuples with names objects, of a number that is not finite null."""
+    if isinstance(value, tuple) and hasattr(value, "_asdict"):
+        return make_plain(value._asdict())  # pyright: ignore[reportAttributeAccessIssue]
+    if isinstance(value, dict):
+        return {key: make_plain(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [make_plain(inner) for inner in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

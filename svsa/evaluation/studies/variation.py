@@ -1,0 +1,208 @@
+"""How one setting varies from run to run: a share from 0 to 1 becomes a value."""
+
+import math
+from typing import Annotated, Any, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from svsa.errors import ParameterError, Violation, settle_number
+from svsa.inputs.checked import BY_KIND, Checked, Flag, Number, Whole, quantity
+
+MAX_LEVELS = 10_000
+_DIGITS = 12
+_BETWEEN = 0.37
+
+
+class _Variation(Checked):
+    """A setting by its path in the configuration, see `svsa.evaluation.studies.setting`."""
+
+    path: str = quantity("", "Setting that varies, as actuator.link_inertia_kg_m2")
+    relative: Flag = quantity(
+        "", "Whether values are factors of what the study begins from", default=False
+    )
+
+    @property
+    def column(self) -> str:
+        """What its values are called: the path, of factors with `.factor`."""
+        return f"{self.path}.factor" if self.relative else self.path
+
+    @property
+    def levels(self) -> tuple[Any, ...]:
+        """The values that are gone through one by one; of what is drawn none."""
+        return ()
+
+    def draw(self, shares: np.ndarray) -> list[Any]:
+        """The values of these shares, 0 to 1; of a grid its levels, each as often."""
+        return _pick(self.levels, shares)
+
+    @property
+    def is_numeric(self) -> bool:
+        """Whether numbers stand for its values in a table; else names."""
+        return True
+
+    def label(self, drawn: list[Any]) -> list[Any]:
+        """What stands for drawn values in a table."""
+        return drawn
+
+
+class _Range(_Variation):
+    low: Number = quantity("", "Least")
+    high: Number = quantity("", "Greatest")
+
+    @model_validator(mode="after")
+    def _check_order(self) -> Self:
+        if not self.low < self.high:
+            raise ParameterError(Violation("low", self.low, "", f"less than high, {self.high:g}"))
+        return self
+
+    def list_tried(self) -> dict[str, Any]:
+        """Values that its setting must take, by the field that is wrong where it does not."""
+        return {"low": self.low, "high": self.high, "kind": self._find_between()}
+
+    def _find_between(self) -> Any:
+        return self.low + _BETWEEN * (self.high - self.low)
+
+
+class Uniform(_Range):
+    """Every value from low to high alike."""
+
+    kind: Literal["uniform"] = "uniform"
+
+    def draw(self, shares: np.ndarray) -> list[Any]:
+        """The values of these shares, 0 to 1."""
+        return (self.low + shares * (self.high - self.low)).tolist()
+
+
+class LogUniform(_Range):
+    """The logarithm uniform."""
+
+    kind: Literal["log_uniform"] = "log_uniform"
+    low: Number = quantity("", "Least", gt=0)
+
+    def draw(self, shares: np.ndarray) -> list[Any]:
+        """The values of these shares, 0 to 1."""
+        logs = math.log(self.low) + shares * (math.log(self.high) - math.log(self.low))
+        return _settle(np.clip(np.exp(logs), self.low, self.high))
+
+
+class Normal(_Range):
+    """Normal with this mean and standard deviation, nothing of it outside low to high."""
+
+    kind: Literal["normal"] = "normal"
+    mean: Number = quantity("", "Mean, before it is cut")
+    std: Number = quantity("", "Standard deviation, before it is cut", gt=0)
+
+    @model_validator(mode="after")
+    def _check_share(self) -> Self:
+        if self._cut()[1] <= 0.0:
+            bound = f"a range that has a share of N({self.mean:g}, {self.std:g}²)"
+            raise ParameterError(Violation("low", self.low, "", bound))
+        return self
+
+    def draw(self, shares: np.ndarray) -> list[Any]:
+        """The values of these shares, 0 to 1, by the inverse of the distribution."""
+        from scipy.special import ndtri  # late: it takes a while
+
+        begin, width = self._cut()
+        values = self.mean + self.std * ndtri(begin + shares * width)
+        return _settle(np.clip(values, self.low, self.high))
+
+    def _cut(self) -> tuple[float, float]:
+        """Where its range begins in the whole distribution, and how much of it that is."""
+        from scipy.special import ndtr  # late: it takes a while
+
+        begin, end = ndtr([(end - self.mean) / self.std for end in (self.low, self.high)])
+        return float(begin), float(end - begin)
+
+
+class _Listed(_Variation):
+    values: tuple[Any, ...] = quantity("", "Values", min_length=1, max_length=MAX_LEVELS)
+    names: tuple[str, ...] = quantity(
+        "", "What the values are called; left out, as they are written", default=()
+    )
+
+    @model_validator(mode="after")
+    def _check_names(self) -> Self:
+        if self.names and len(self.names) != len(self.values):
+            bound = f"as many as values, {len(self.values)}"
+            raise ParameterError(Violation("names", len(self.names), "", bound))
+        return self
+
+    def list_tried(self) -> dict[str, Any]:
+        """Values that its setting must take, by the field that is wrong where it does not."""
+        return {f"values[{index}]": value for index, value in enumerate(self.values)}
+
+    @property
+    def is_numeric(self) -> bool:
+        """Whether numbers stand for its values in a table; else names."""
+        return not self.names and all(_is_number(value) for value in self.values)
+
+    def label(self, drawn: list[Any]) -> list[Any]:
+        """What stands for drawn values in a table: names, numbers, or how they are written."""
+        labels = self.names or (self.values if self.is_numeric else tuple(map(str, self.values)))
+        named = {id(value): label for value, label in zip(self.values, labels, strict=True)}
+        return [named[id(value)] for value in drawn]
+
+
+class Choice(_Listed):
+    """One of these, each as often."""
+
+    kind: Literal["choice"] = "choice"
+
+    def draw(self, shares: np.ndarray) -> list[Any]:
+        """The values of these shares, 0 to 1."""
+        return _pick(self.values, shares)
+
+
+class Grid(_Listed):
+    """Each of these with every value of every other grid."""
+
+    kind: Literal["grid"] = "grid"
+
+    @property
+    def levels(self) -> tuple[Any, ...]:
+        """The values that are gone through one by one."""
+        return self.values
+
+
+class Steps(_Range):
+    """A grid from low to high, evenly or by equal ratios."""
+
+    kind: Literal["steps"] = "steps"
+    count: Whole = quantity("", "How many", ge=2, le=MAX_LEVELS)
+    spacing: Literal["linear", "log"] = quantity("", "Even, or by equal ratios", default="linear")
+
+    @model_validator(mode="after")
+    def _check_positive(self) -> Self:
+        if self.spacing == "log" and not self.low > 0.0:
+            raise ParameterError(Violation("low", self.low, "", "greater than 0 by equal ratios"))
+        return self
+
+    def _find_between(self) -> Any:
+        return self.levels[len(self.levels) // 2]
+
+    @property
+    def levels(self) -> tuple[Any, ...]:
+        """The values that are gone through one by one."""
+        space = np.linspace if self.spacing == "linear" else np.geomspace
+        return tuple(_settle(space(self.low, self.high, self.count)))
+
+
+Variation = Annotated[Uniform | LogUniform | Normal | Choice | Grid | Steps, BY_KIND]
+Variations = Annotated[tuple[Variation, ...], Field(max_length=64)]
+DRAWN = (Uniform, LogUniform, Normal, Choice)
+
+
+def _pick(values: tuple[Any, ...], shares: np.ndarray) -> list[Any]:
+    count = len(values)
+    return [values[index] for index in np.minimum((shares * count).astype(int), count - 1)]
+
+
+def _settle(values: np.ndarray) -> list[float]:
+    """To twelve digits, in which no machine's logarithm differs from another's."""
+    return [settle_number(value, _DIGITS) for value in values]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

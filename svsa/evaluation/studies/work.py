@@ -1,0 +1,116 @@
+"""A stretch of a study's draws, run under every law: the rows of its table."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from svsa.evaluation.studies.outcome import build_outcome, build_refused
+from svsa.evaluation.studies.samples import Draws, build_configurations, draw
+from svsa.evaluation.studies.study import Study
+from svsa.evaluation.studies.success import Success
+from svsa.runs.batch import run_configurations
+from svsa.runs.configuration import Configuration
+
+ROW, DRAW, LAW, SEED = "row", "draw", "law", "seed"
+
+
+def build_schema(study: Study) -> pa.Schema:
+    """The columns of a study's table: one row a run.
+
+    row: the run's number, by draw and then by law. fault_tick: null without a fault.
+    """
+    varied = [
+        (variation.column, pa.float64() if variation.is_numeric else pa.string())
+        for variation in study.vary
+    ]
+    outcome = [("succeeded", pa.bool_()), ("fault", pa.string()), ("fault_tick", pa.int64())]
+    return pa.schema(
+        [
+            (ROW, pa.int64()),
+            (DRAW, pa.int64()),
+            (LAW, pa.string()),
+            (SEED, pa.int64()),
+            *varied,
+            *outcome,
+            *((name, pa.float64()) for name in study.metrics),
+        ]
+    )
+
+
+def list_repeating(schema: pa.Schema) -> Any:  # pyarrow declares a bool and takes names
+    """The columns of which Parquet keeps each value once: names, and no numbers, drawn or measured.
+
+    To look whether a number is there already is most of what writing it would cost.
+    """
+    return [field.name for field in schema if pa.types.is_string(field.type)]
+
+
+def run_part(study: Study, first: int, count: int) -> bytes:
+    """The rows of the draws `first` to `first + count − 1` as a Parquet file."""
+    sink = pa.BufferOutputStream()
+    rows = run_draws(study, first, count)
+    pq.write_table(rows, sink, use_dictionary=list_repeating(rows.schema))
+    return sink.getvalue().to_pybytes()
+
+
+def run_draws(study: Study, first: int, count: int) -> pa.Table:
+    """The rows of the draws `first` to `first + count − 1`."""
+    draws, schema = draw(study, first, count), build_schema(study)
+    tables = [_run_law(study, draws, number, schema) for number in range(len(study.laws))]
+    return pa.concat_tables(tables).sort_by(ROW).combine_chunks()
+
+
+def _run_law(study: Study, draws: Draws, number: int, schema: pa.Schema) -> pa.Table:
+    """The rows of one of the study's laws."""
+    law = study.laws[number]
+    outcome = measure_runs(
+        build_configurations(study, law, draws),
+        study.duration_s,
+        study.measure_from_s,
+        study.success,
+    )
+    numbers = np.arange(draws.first, draws.first + draws.size)
+    values = {
+        variation.column: variation.label(drawn)
+        for variation, drawn in zip(study.vary, draws.values, strict=True)
+    }
+    columns: dict[str, Any] = {
+        ROW: numbers * len(study.laws) + number,
+        DRAW: numbers,
+        LAW: [law] * draws.size,
+        SEED: draws.seeds,
+        **values,
+        **outcome,
+    }
+    arrays = [pa.array(columns[field.name], field.type) for field in schema]
+    return pa.table(arrays, schema=schema)
+
+
+def measure_runs(
+    configurations: Sequence[Configuration | None],
+    duration_s: float,
+    measure_from_s: float,
+    success: Success,
+) -> dict[str, Any]:
+    """What came of each run, see `build_outcome`; None is one that was refused."""
+    run = [index for index, built in enumerate(configurations) if built is not None]
+    built = [one for one in configurations if one is not None]
+    outcome = build_refused(len(configurations))
+    if not built:
+        return outcome
+    periods = np.array([one.sampling.period_s for one in built])
+    summaries = run_configurations(built, duration_s, measure_from_s)
+    found = build_outcome(summaries, periods, measure_from_s, success)
+    return found if len(built) == len(configurations) else _fill_in(outcome, run, found)
+
+
+def _fill_in(outcome: dict[str, Any], rows: list[int], found: dict[str, Any]) -> dict[str, Any]:
+    """The outcome with what was found of some rows in their places."""
+    filled: dict[str, Any] = {}
+    for name, values in outcome.items():
+        filled[name] = np.array(values, dtype=object) if isinstance(values, list) else values
+        filled[name][rows] = found[name]
+    return filled

@@ -1,0 +1,77 @@
+"""How many runs a second a batch does: with each effect of a bench, and on two cores."""
+
+import time
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+
+import numpy as np
+
+from svsa.evaluation.timing.turns import measure_in_turns
+from svsa.runs.batch import build_run_batch
+from svsa.runs.configuration import Configuration
+from svsa.simulation.loop.batch import Batch, run_batch
+from svsa.simulation.plant.effects import (
+    EVERY,
+    IDEAL,
+    RIG,
+    CurrentLag,
+    Effects,
+    Encoders,
+    Friction,
+    LinkGravity,
+    SensorNoise,
+    StateEstimation,
+)
+
+EFFECTS: Mapping[str, Effects] = {
+    "ideal": IDEAL,
+    "encoders": Effects(encoders=Encoders()),
+    "estimation": Effects(encoders=Encoders(), estimation=StateEstimation()),
+    "delay": Effects(delay_samples=1),
+    "friction": Effects(friction=Friction()),
+    "current_lag": Effects(current_lag=CurrentLag()),
+    "noise": Effects(noise=SensorNoise()),
+    "gravity": Effects(gravity=LinkGravity()),
+    "rig": RIG,
+    "every": EVERY,
+}
+"""By name what is switched on. The estimation is that of encoders."""
+
+
+def measure_effects(
+    configuration: Configuration, lanes: int, duration_s: float, repeats: int
+) -> dict[str, float]:
+    """Runs a second and core, by CPU time, under each of `EFFECTS`.
+
+    Counted are ticks: a run that ends in a fault counts as the part that was run.
+    """
+    ticks = round(duration_s / configuration.sampling.period_s)
+    batches = {
+        name: build_run_batch([configuration.changed(effects=effects)] * lanes)
+        for name, effects in EFFECTS.items()
+    }
+    runs = {name: run_batch(batch, ticks)["ticks"].sum() / ticks for name, batch in batches.items()}
+    works = {name: partial(run_batch, batch, ticks) for name, batch in batches.items()}
+    cost = measure_in_turns(works, repeats)
+    return {name: float(runs[name] / cost[name]) for name in batches}
+
+
+def measure_two_cores(batch: Batch, ticks: int, repeats: int) -> float:
+    """How many times the runs of one thread two threads do in the same time, at best.
+
+    By the wall clock, in turns with one alone: it speaks only where two cores have nothing else to
+    do.
+    """
+    alone = together = np.inf
+    with ThreadPoolExecutor(2) as pool:
+        for _ in range(repeats + 1):
+            begin = time.perf_counter()
+            pool.submit(run_batch, batch, ticks).result()
+            alone = min(alone, time.perf_counter() - begin)
+            begin = time.perf_counter()
+            both = [pool.submit(run_batch, batch, ticks) for _ in range(2)]
+            for one in both:
+                one.result()
+            together = min(together, time.perf_counter() - begin)
+    return float(2.0 * alone / together)

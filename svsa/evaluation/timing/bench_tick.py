@@ -1,0 +1,108 @@
+"""What a tick of a bench's loop costs as it is called from Python, without its I/O."""
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNELS, MEASURED, TORQUES
+from svsa.control.call import build_call
+from svsa.control.installed import PAPERS_LAW, list_law_names
+from svsa.evaluation.timing.turns import measure_in_turns
+from svsa.numerics.packed import pack
+from svsa.runs.paper import get_figure
+from svsa.runs.result.simulate import simulate
+from svsa.runs.run import Run
+from svsa.simulation.loop.measured import (
+    Actuation,
+    BenchConstants,
+    Carried,
+    follow_and_decide,
+    publish_and_predict,
+)
+
+FIGURE = "4a"
+TICKS = 1000
+RUN_S = 6.0
+"""Up to 1 s after the load."""
+
+
+class TickCost(NamedTuple):
+    """Time of a tick under a law, µs.
+
+    loop_us: the mean in the compiled loop, plant and all. median_us, worst_us: of a bench's
+    ticks, each called from Python, which is most of it.
+    """
+
+    loop_us: float
+    median_us: float
+    worst_us: float
+
+
+class BenchTicks:
+    """The loop of a bench under the law of a run, given what was measured in that run.
+
+    samples: (ticks, channels). asked: what the law asks for at the last tick, N·m, (2,).
+    """
+
+    def __init__(self, run: Run, samples: np.ndarray) -> None:
+        self._run = run  # whose memory the call points to
+        call = build_call(run.laws[0], run.lanes[0].memory)
+        self._constants = pack(BenchConstants(run.blocks[0], Actuation(0.0, 0.0), call))
+        self._inputs, self._carried = run.inputs, pack(Carried())
+        self._measured = self._carried["measured"].view(float).reshape(-1)
+        self.asked = self._carried["asked"].view(float).reshape(-1)
+        self._y, self._u = samples[:, MEASURED].copy(), samples[:, TORQUES].tolist()
+        self._row = np.empty(len(CHANNELS))
+
+    def run_tick(self, tick: int) -> float:
+        """One tick; how long it took, s."""
+        self._measured[:] = self._y[tick]
+        u1, u2 = self._u[tick]
+        begin = time.perf_counter_ns()
+        follow_and_decide(self._constants, self._inputs, self._carried, tick)
+        publish_and_predict(self._constants, self._carried, u1, u2, tick, self._row)
+        return 1e-9 * (time.perf_counter_ns() - begin)
+
+
+def measure_law_tick(law: str = PAPERS_LAW, repeats: int = 5) -> TickCost:
+    """What a tick costs under a law over Figure 4A and its load.
+
+    Each tick counts with its least cost of so many repetitions: it does the same work each time,
+    and what is more is the machine's.
+    """
+    configuration = get_figure(FIGURE).build_configuration(law)
+    samples = simulate(FIGURE, law, duration_s=RUN_S).samples
+    again = np.empty_like(samples)
+    loop_s, least_s = np.inf, np.full(len(samples), np.inf)
+    for _ in range(repeats):
+        run = Run(configuration)
+        begin = time.perf_counter()
+        run.advance(again[None])
+        loop_s = min(loop_s, time.perf_counter() - begin)
+        ticks = BenchTicks(Run(configuration), samples)
+        least_s = np.minimum(least_s, [ticks.run_tick(tick) for tick in range(len(samples))])
+    return TickCost(
+        loop_us=1e6 * loop_s / len(samples),
+        median_us=1e6 * float(np.median(least_s)),
+        worst_us=1e6 * float(np.max(least_s)),
+    )
+
+
+def measure_laws(repeats: int = 5) -> dict[str, TickCost]:
+    """What a tick costs under each law that is installed, by its name."""
+    return {law: measure_law_tick(law, repeats) for law in list_law_names()}
+
+
+def measure_bench_tick(run: Run, repeats: int) -> float:
+    """CPU time of a bench's tick, the mean of a thousand, s."""
+    call = build_call(run.laws[0], run.lanes[0].memory)
+    constants = pack(BenchConstants(run.blocks[0], Actuation(0.0005, 0.0), call))
+    carried, row = pack(Carried()), np.empty(len(CHANNELS))
+
+    def work() -> None:
+        for tick in range(TICKS):
+            follow_and_decide(constants, run.inputs, carried, tick)
+            publish_and_predict(constants, carried, 0.0, 0.0, tick, row)
+
+    return measure_in_turns({"tick": work}, repeats)["tick"] / TICKS

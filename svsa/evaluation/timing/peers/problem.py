@@ -1,0 +1,88 @@
+"""What is solved: the plant of a run under the torques of that run, each held for a period.
+
+The loop is open, so that a solver's own speed is compared and no law: the torques are those that
+the paper's law asked for over Figure 4A, from before the load to well after it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.dynamics import Actuator
+from svsa.actuators.signals import CHANNEL_INDEX, TORQUES, State, Torque
+from svsa.analysis.design.linear_model import STATES
+from svsa.numerics.borrowed import borrow
+from svsa.numerics.compilation import compiled
+from svsa.runs.paper import LOAD_TIME_S, get_figure
+from svsa.runs.result.simulate import simulate
+from svsa.runs.run import Run
+from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.integration import integrate_period
+from svsa.simulation.plant.loads import LoadTable, compute_load
+
+FIGURE, LAW = "4a", "ndobc"
+COLUMNS = [CHANNEL_INDEX[name] for name in STATES]
+ANGLES = [0, 2, 4]
+"""q, θ1, θ2 in a state."""
+
+
+class Problem(NamedTuple):
+    """The plant from one state on, period after period.
+
+    actuator, bench, loads: the plant's, as the loop has them. first: tick of the state x, (6,).
+    period: s. torques: (periods, 2), of the motors. forces: (periods, 3), those and the loads, on
+    link, motor 1 and motor 2; both N·m and held for a period.
+    """
+
+    actuator: Actuator
+    bench: Bench
+    loads: LoadTable
+    first: int
+    period: float
+    x: np.ndarray
+    torques: np.ndarray
+    forces: np.ndarray
+
+
+def build_problem(duration_s: float) -> Problem:
+    """The problem over so many seconds, the load in their middle."""
+    run = Run(get_figure(FIGURE).build_configuration(LAW))
+    first = round((LOAD_TIME_S - 0.5 * duration_s) / run.period_s)
+    samples = simulate(FIGURE, LAW, duration_s=LOAD_TIME_S + 0.5 * duration_s).samples[first:]
+    torques = samples[:, TORQUES].copy()
+    loads = [
+        compute_load(run.inputs.loads, tick, run.period_s, tick * run.period_s)
+        for tick in range(first, first + len(samples))
+    ]
+    forces = np.array([(load.w2, load.w4, load.w6) for load in loads])
+    forces[:, 1:] += torques
+    blocks = run.blocks[0]
+    return Problem(
+        blocks.plant,
+        blocks.bench,
+        run.inputs.loads,
+        first,
+        run.period_s,
+        samples[0, COLUMNS],
+        torques,
+        forces,
+    )
+
+
+@compiled
+def integrate(problem: Problem, steps: int, states: np.ndarray) -> None:
+    """The plant by so many Runge–Kutta steps a period, into states (periods, 6)."""
+    p, rows, torques = problem, borrow(states), borrow(problem.torques)
+    loads = LoadTable(borrow(p.loads.rows), borrow(p.loads.points), p.loads.changing)
+    x = State(p.x[0], p.x[1], p.x[2], p.x[3], p.x[4], p.x[5])
+    for i in range(len(rows)):
+        u = Torque(torques[i, 0], torques[i, 1])
+        x = integrate_period(p.actuator, p.bench, x, u, u, loads, p.first + i, p.period, steps)
+        rows[i] = x
+
+
+def solve(problem: Problem, steps: int = 1) -> np.ndarray:
+    """The states at the end of each period, (periods, 6): as in every run by one step a period."""
+    states = np.empty((len(problem.torques), len(STATES)))
+    integrate(problem, steps, states)
+    return states

@@ -1,0 +1,155 @@
+"""What is searched of a law's parameters, out of what the law declares of them."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from svsa.control.gains import Gains
+from svsa.control.installed import get_law, has_own_parameters
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.errors import ParameterError, Violation
+from svsa.runs.configuration import Design
+
+POLE_RAD_PER_S = (20.0, 80.0)
+OBSERVER_RAD_PER_S = (20.0, 150.0)
+SPREAD = 5.0
+POSITION_POLE, STIFFNESS_POLE = "position_pole_rad_per_s", "stiffness_pole_rad_per_s"
+OBSERVER = "observer_rad_per_s"
+
+
+class Axis(NamedTuple):
+    """A number to be searched. place: of which entry of a tuple, or None. low, high: in `unit`."""
+
+    name: str
+    place: int | None
+    symbol: str
+    unit: str
+    low: float
+    high: float
+
+    @property
+    def label(self) -> str:
+        """As it is called where one is written to a line: "k[0]" of a tuple."""
+        return self.name if self.place is None else f"{self.name}[{self.place}]"
+
+    def compute_value(self, share: float) -> float:
+        """The value at a share of the range, in equal ratios where the range has a ratio."""
+        share = min(max(share, 0.0), 1.0)
+        if self.low > 0.0:
+            value = self.low * math.exp(share * math.log(self.high / self.low))
+            return min(max(value, self.low), self.high)
+        return self.low + share * (self.high - self.low)
+
+    def compute_share(self, value: float) -> float:
+        """At which share of the range a value lies; 0 or 1 beyond its ends."""
+        value = min(max(value, self.low), self.high)
+        if self.low > 0.0:
+            return math.log(value / self.low) / math.log(self.high / self.low)
+        return (value - self.low) / (self.high - self.low)
+
+
+class Space(NamedTuple):
+    """The numbers of a law that are searched, and those that are held at another value."""
+
+    law: str
+    axes: tuple[Axis, ...]
+    held: dict[str, Any]
+
+    def set_design(self, design: Design, values: Sequence[float]) -> Design:
+        """The design with these values for this law."""
+        given: dict[str, Any] = {}
+        for axis, value in zip(self.axes, values, strict=True):
+            if axis.place is None:
+                given[axis.name] = value
+            else:
+                given[axis.name] = (*given.get(axis.name, ()), value)
+        if has_own_parameters(self.law):
+            parameters = get_law(self.law).parameters(**(self.held | given))
+            return design.changed(parameters={**design.parameters, self.law: parameters})
+        a, p = given[POSITION_POLE], given[STIFFNESS_POLE]
+        changes: dict[str, Any] = {"gains": Gains.from_poles([-a] * 4, [-p] * 2)}
+        if OBSERVER in given:
+            beta = given[OBSERVER]
+            changes["observer"] = ObserverBandwidth(bandwidth_rad_per_s=(beta, beta, beta))
+        return design.changed(**changes)
+
+    def read_values(self, design: Design) -> tuple[float, ...]:
+        """The values that the law has in a design, in the order of the axes."""
+        if has_own_parameters(self.law):
+            model = get_law(self.law).parameters
+            set_to = design.parameters.get(self.law) or model(**self.held)
+            return tuple(
+                float(getattr(set_to, axis.name) if axis.place is None
+                      else getattr(set_to, axis.name)[axis.place])
+                for axis in self.axes
+            )  # fmt: skip
+        gains = design.gains
+        found = {
+            POSITION_POLE: gains.position_coefficients[0] ** 0.25,
+            STIFFNESS_POLE: gains.stiffness_coefficients[0] ** 0.5,
+            OBSERVER: design.observer.bandwidth_rad_per_s[0],
+        }
+        return tuple(found[axis.name] for axis in self.axes)
+
+
+def build_space(law: str, held: Mapping[str, Any] | None = None) -> Space:
+    """The space of a law: every number that it declares, but for those held.
+
+    All laws are searched alike: a pole (…_pole_rad_per_s) from 20 to 80 rad/s, the observer of the
+    load (observer_rad_per_s) from 20 to 150, else a fifth to five times the default; never beyond
+    what the law declares. Of a law that takes the run's gains all four position poles are one
+    number, both stiffness poles another, and β a third where it acts on the observer.
+
+    held: values by name that are not searched; of these the law's own say what may be left out.
+    Raises `ParameterError` for a name that the law has not, a wrong value, and where nothing is
+    left to search.
+    """
+    held = dict(held or {})
+    if has_own_parameters(law):
+        model = get_law(law).parameters
+        present = model(**held)
+        fields = model.model_json_schema()["properties"]
+        axes = [
+            axis
+            for name, declared in fields.items()
+            if name not in held and declared.get("searched", True)
+            for axis in _list_axes(name, declared, getattr(present, name))
+        ]
+    else:
+        if held:
+            bound = f"left out: {law} takes the run's gains, whose poles are all searched"
+            raise ParameterError(Violation(next(iter(held)), next(iter(held.values())), "", bound))
+        axes = [
+            Axis(POSITION_POLE, None, "a", "rad/s", *POLE_RAD_PER_S),
+            Axis(STIFFNESS_POLE, None, "p", "rad/s", *POLE_RAD_PER_S),
+        ]
+        if get_law(law).estimate == "observer":
+            axes.append(Axis(OBSERVER, None, "β", "rad/s", *OBSERVER_RAD_PER_S))
+    if not axes:
+        raise ParameterError(Violation("law", law, "", "one with parameters to tune"))
+    return Space(law, tuple(axes), held)
+
+
+def _list_axes(name: str, declared: dict[str, Any], default: Any) -> list[Axis]:
+    symbol, unit = declared.get("symbol", name), declared.get("unit", "")
+    if declared.get("type") == "array":
+        return [
+            Axis(name, place, f"{symbol}{place + 1}", unit, *_find_range(name, entry, value))
+            for place, (entry, value) in enumerate(
+                zip(declared["prefixItems"], default, strict=True)
+            )
+        ]
+    return [Axis(name, None, symbol, unit, *_find_range(name, declared, default))]
+
+
+def _find_range(name: str, declared: dict[str, Any], default: float) -> tuple[float, float]:
+    least, most = declared.get("minimum", -math.inf), declared.get("maximum", math.inf)
+    if name.endswith("_pole_rad_per_s"):
+        low, high = POLE_RAD_PER_S
+    elif name == OBSERVER:
+        low, high = OBSERVER_RAD_PER_S
+    elif default > 0.0:
+        low, high = default / SPREAD, default * SPREAD
+    else:
+        low, high = least, most
+    return max(low, least), min(high, most)

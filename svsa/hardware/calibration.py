@@ -1,0 +1,92 @@
+"""The calibration record: what was found out about a bench, when and by whom.
+
+It lies beside the bench file, as NAME.calibration.toml, and holds for that bench file only:
+a fingerprint of the motors, the deflection encoder and the home marks ties the two together.
+Without it, or with that of another bench, nothing is armed.
+"""
+
+import hashlib
+import json
+from datetime import datetime
+from pathlib import Path
+
+import tomli_w
+
+from svsa.errors import ParameterError, Violation
+from svsa.hardware.file import BenchFile
+from svsa.inputs.checked import Checked, Flag, Whole, quantity
+from svsa.inputs.toml_file import read_toml
+
+SUFFIX = ".calibration.toml"
+
+
+class Calibration(Checked):
+    """Date, name and findings. The zero counts hold at the zero marks."""
+
+    date: str = quantity("", "When, ISO 8601 with its zone")
+    by: str = quantity("", "Who made it", min_length=1, max_length=100)
+    fingerprint: str = quantity("", "Of the bench file that it was made for")
+    deflection_zero_counts: Whole = quantity("counts", "Of the deflection encoder at φ = 0")
+    signs_confirmed: Flag = quantity("", "Every sign was seen to be right")
+
+
+def compute_fingerprint(bench: BenchFile) -> str:
+    """Of what a calibration depends on: motors, deflection encoder and home marks."""
+    parts = bench.model_dump(mode="json", include={"motor1", "motor2", "deflection", "home"})
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def get_calibration_path(bench: BenchFile) -> Path:
+    """Where the record of this bench lies."""
+    path = Path(bench.path)
+    return path.with_name(path.stem + SUFFIX)
+
+
+def find_calibration(bench: BenchFile) -> Calibration | None:
+    """The record beside the bench file, or None; raises `ParameterError` for a damaged one."""
+    path = get_calibration_path(bench)
+    if not path.exists():
+        return None
+    calibration = Calibration(**read_toml(path, "calibration record"))
+    try:
+        zoned = datetime.fromisoformat(calibration.date).tzinfo is not None
+    except ValueError:
+        zoned = False
+    if not zoned:
+        bound = "a time of ISO 8601 with its zone, as 2026-01-02T03:04:05+00:00"
+        raise ParameterError(Violation("date", calibration.date, "", bound))
+    return calibration
+
+
+def write_calibration(bench: BenchFile, calibration: Calibration) -> Path:
+    """Write the record beside the bench file, and say where; an older one is replaced."""
+    path = get_calibration_path(bench)
+    draft = path.with_suffix(".tmp")
+    draft.write_text(tomli_w.dumps(calibration.model_dump(mode="json")), encoding="utf-8")
+    draft.replace(path)
+    return path
+
+
+def note_signs(bench: BenchFile, right: bool) -> None:
+    """Write into the record of this bench whether its signs were seen to be right.
+
+    Does nothing without a record, or with one that was made for other settings.
+    """
+    calibration = find_calibration(bench)
+    if calibration is not None and calibration.fingerprint == compute_fingerprint(bench):
+        write_calibration(bench, calibration.changed(signs_confirmed=right))
+
+
+def list_problems(bench: BenchFile, calibration: Calibration | None) -> list[str]:
+    """Why this bench does not arm, in words; empty if it may."""
+    problems = [f"uncalibrated: {missing}" for missing in bench.find_missing()]
+    if calibration is None:
+        problems.append("uncalibrated: there is no calibration record; run `svsa bench-home`")
+    elif calibration.fingerprint != compute_fingerprint(bench):
+        problems.append(
+            "uncalibrated: motors, encoder or home marks in the bench file were changed after"
+            f" the calibration of {calibration.date[:10]}; run `svsa bench-home` again"
+        )
+    elif not calibration.signs_confirmed:
+        problems.append("uncalibrated: the signs were not confirmed; run `svsa bench-check --move`")
+    return problems

@@ -1,0 +1,291 @@
+"""The bench as a plant: read and written once a tick, over any bus that python-can knows."""
+
+import contextlib
+import math
+
+import can
+
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.errors import Fault, StateError, SvsaError
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.calibration import Calibration, list_problems
+from svsa.hardware.clock import BenchClock
+from svsa.hardware.drives.bus import BUS_TROUBLE, DELIVERY_S, open_bus
+from svsa.hardware.drives.conversion import build_motor_scale, compute_current_ma
+from svsa.hardware.drives.drive import Drive, build_broadcast_resets
+from svsa.hardware.drives.phase import Phase
+from svsa.hardware.file import BenchFile
+from svsa.hardware.homing import Axis
+from svsa.hardware.reading import Reading
+from svsa.hardware.safety.faults import Alarm
+from svsa.hardware.safety.guard import Guard, MotorGuard
+from svsa.hardware.safety.heartbeat import Heartbeats, Slot
+from svsa.hardware.safety.machine import NO_TORQUE, BenchStatus, Conditions, Machine
+from svsa.hardware.sensing import Sensing
+
+HOME_TOLERANCE_RAD = 0.05
+PAUSE_S = 0.0011
+_ORDER = (Phase.SILENT, Phase.OFF, Phase.RESET, Phase.CONFIG, Phase.MODE, Phase.READY)
+
+
+class CanPlant:
+    """Two drives, a deflection encoder and the bench's states, on one bus.
+
+    Each tick calls `read`, then `write`. skipped_commands: currents not sent because a tick
+    came too soon after the one before.
+    """
+
+    def __init__(
+        self,
+        bench: BenchFile,
+        calibration: Calibration | None,
+        clock: BenchClock,
+        guard: Guard,
+        beats: Heartbeats | None = None,
+    ) -> None:
+        self._bench, self._clock, self._beats, self._guard = bench, clock, beats, guard
+        motors, period = (bench.motor1, bench.motor2), bench.timing.period_s
+        self._scales = (build_motor_scale(bench.motor1), build_motor_scale(bench.motor2))
+        one, two = (
+            Drive(motor, period, motor.speed_max_rad_per_s / abs(scale.angle_per_count))
+            for motor, scale in zip(motors, self._scales, strict=True)
+        )
+        self._drives = (one, two)
+        zero = calibration.deflection_zero_counts if calibration else 0
+        self._sensing = Sensing(bench, self._drives, self._scales, zero, clock)
+        self._machine = Machine(bench, guard, list_problems(bench, calibration))
+        self._bus: can.BusABC | None = None
+        self._resets = build_broadcast_resets(bench)
+        self._reset_sent = self._zero_sent = False
+        self._stops_known, self._late_s = 0, 0.0
+        self.skipped_commands = 0
+
+    @property
+    def status(self) -> BenchStatus:
+        """The bench's state."""
+        return self._machine.status
+
+    @property
+    def fault(self) -> Fault | None:
+        """The latched fault."""
+        return self._machine.fault
+
+    @property
+    def problems(self) -> list[str]:
+        """Why it does not arm, in words."""
+        return self._machine.problems
+
+    @property
+    def homing_step(self) -> Axis | None:
+        """The axis whose mark is confirmed next, or None when all are."""
+        return self._machine.homing.next_step
+
+    @property
+    def emulated(self) -> bool:
+        """Whether the bus said that there is no machine behind it."""
+        return self._sensing.emulated
+
+    @property
+    def motors(self) -> tuple[MotorGuard, MotorGuard]:
+        """Heat and limits of both motors."""
+        return self._guard.motors
+
+    def open(self) -> None:
+        """Open bus and encoder, and reset the drives, which may hold an old current for ever.
+
+        Raises `SvsaError` with what to do, and holds neither then.
+        """
+        bus = open_bus(self._bench.bus)
+        try:
+            self._clock.bind(bus)
+            self._sensing.source.open()
+        except SvsaError:
+            bus.shutdown()
+            raise
+        self._bus = bus
+        self._send_resets(bus)
+
+    def arm(self, now: float) -> None:
+        """Reset both drives and bring them to READY; raises `StateError` or `BusError`.
+
+        A bus that was lost is opened again.
+        """
+        bus = self._get_bus()
+        self._machine.check_arming()
+        if self._sensing.lost:
+            with contextlib.suppress(*BUS_TROUBLE):
+                bus.shutdown()
+            self._bus = open_bus(self._bench.bus)
+            self._clock.bind(self._bus)
+            self._sensing.lost = False
+        self._machine.arm()
+        self._sensing.forget_alarm()
+        self._stops_known, self._late_s = self._count_stops(), 0.0
+        self._reset_sent = self._zero_sent = False
+        for drive in self._drives:
+            drive.begin()
+
+    def confirm_home(self, step: str, by: str) -> None:
+        """An axis stands at its zero mark, says `by`; raises `StateError`.
+
+        A drive's zero is where it was reset: what has moved since is not at its mark.
+        """
+        angle = self._sensing.find_angle(step)
+        if self.status is BenchStatus.READY and abs(angle) > HOME_TOLERANCE_RAD:
+            name = AXIS_WORDS[step]
+            raise StateError(
+                f"{name.capitalize()} is {angle:.3f} rad from zero: set the mechanism to its marks,"
+                " let go of it, and arm again."
+            )
+        self._machine.confirm_home(step, by)
+
+    def start(self, now: float) -> None:
+        """RUN from the next tick on; raises `StateError`."""
+        self._machine.start(self._find_age("operator"))
+
+    def stop(self, now: float, reason: str) -> None:
+        """Ramp to zero torque."""
+        self._machine.stop()
+
+    def quick_stop(self, now: float, reason: str) -> None:
+        """Zero current from the next tick on, latched."""
+        self.fail("quick_stop", f"Zero current at once: {reason}.", {})
+
+    def clear(self, now: float) -> None:
+        """FAULT → OFF; raises `StateError`."""
+        self._machine.clear()
+        self._reset_sent = self._zero_sent = False
+        for drive in self._drives:
+            drive.phase = Phase.OFF
+
+    def fail(self, code: str, message: str, values: dict[str, float]) -> None:
+        """Latch a fault that was found elsewhere."""
+        self._machine.fail(Alarm(code, message, values))
+
+    def catch_up(self) -> None:
+        """Take what has come since `open`: thousands of frames where the loop took long to load."""
+        self._sensing.catch_up(self._get_bus(), self._clock.now())
+
+    def listen(self) -> None:
+        """Fetch the frames that have come before a tick is due: less is left to do in it."""
+        self._sensing.listen(self._get_bus())
+
+    def read(self, now: float, known: State) -> Reading:
+        """What has come since the last tick. known: x̂ now, whose velocities bridge the ages."""
+        return self._sensing.read(self._get_bus(), now, known)
+
+    def write(
+        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+    ) -> Torque:
+        """Send what may be sent of `asked`; returns the torque that was really sent, N·m.
+
+        known: x̂. estimate: ŵ, N·m. missed: ticks lost before this one.
+        """
+        if missed:
+            held_s = self._bench.safety.loop_s if self._is_stopped else math.inf
+            self._guard.pass_ticks(missed, held_s, self._sensing.current_a)
+        self._guard.counts = self._sensing.find_new_counts()
+        torque = self._machine.update(self._find_conditions(missed), asked, known, estimate)
+        status, sent = self._machine.status, NO_TORQUE
+        try:
+            if status is BenchStatus.FAULT:
+                self._silence(now)
+            elif status is not BenchStatus.OFF:
+                sent = Torque(self._send(0, torque.u1, now), self._send(1, torque.u2, now))
+        except BUS_TROUBLE as error:
+            self._sensing.lost = True
+            self.fail("bus_error", f"The bus failed: {error}.", {})
+        self._guard.note(sent, self._sensing.current_a)
+        return sent
+
+    def _send(self, number: int, torque: float, now: float) -> float:
+        """To one drive what is due; the torque that it holds from now on, N·m."""
+        drive, scale = self._drives[number], self._scales[number]
+        if drive.phase is not Phase.READY:
+            drive.advance(self._get_bus(), now)
+            return 0.0
+        current = compute_current_ma(torque, scale)
+        if drive.send_current(self._get_bus(), current, now):
+            return current * scale.torque_per_ma
+        self.skipped_commands += 1
+        return self._guard.motors[number].last
+
+    def _silence(self, now: float) -> None:
+        """Zero current in every tick, and after the first of them the reset of every drive."""
+        bus = self._get_bus()
+        if self._zero_sent and not self._reset_sent and self._is_open(now):
+            self._send_resets(bus)
+            self._reset_sent = True
+            for drive in self._drives:
+                drive.sent_s = now
+            return
+        reached = [self._try_zero(bus, drive, now) for drive in self._drives]
+        self._zero_sent = self._zero_sent or all(reached)
+
+    def _try_zero(self, bus: can.BusABC, drive: Drive, now: float) -> bool:
+        """Whether the drive was told zero; one that cannot be told does not keep the other."""
+        try:
+            return drive.send_current(bus, 0, now)
+        except BUS_TROUBLE:
+            self._sensing.lost = True
+            return False
+
+    def _send_resets(self, bus: can.BusABC) -> None:
+        for frame in self._resets:
+            with contextlib.suppress(*BUS_TROUBLE):
+                bus.send(frame)
+
+    def _is_open(self, now: float) -> bool:
+        return all(drive.is_open(now) for drive in self._drives)
+
+    def _find_conditions(self, missed: int) -> Conditions:
+        if missed:
+            self._late_s = missed * self._bench.timing.period_s
+        return Conditions(
+            min((drive.phase for drive in self._drives), key=_ORDER.index),
+            self._sensing.ages_s,
+            self._sensing.find_alarm(),
+            missed,
+            self._find_age("supervisor"),
+            self._find_age("operator"),
+            self._late_s if self._is_stopped else None,
+        )
+
+    @property
+    def _is_stopped(self) -> bool:
+        """Whether the supervisor has stopped the drives since they were armed."""
+        return self._count_stops() > self._stops_known
+
+    def _count_stops(self) -> int:
+        """How often the supervisor has stopped the drives."""
+        return self._beats.stops if self._beats is not None else 0
+
+    def _find_age(self, slot: Slot) -> float:
+        """Since this heartbeat, s. Without heartbeats, only an emulated rig goes unsupervised."""
+        if self._beats is not None:
+            return self._beats.age_s(slot)
+        return 0.0 if slot == "supervisor" and self.emulated else math.inf
+
+    def close(self) -> None:
+        """Zero current, reset the drives, and let go of bus and encoder."""
+        self._sensing.source.close()
+        if self._bus is None:
+            return
+        bus, self._bus = self._bus, None
+        with contextlib.suppress(SvsaError, *BUS_TROUBLE):
+            self._pause()
+            for drive in self._drives:
+                self._try_zero(bus, drive, math.inf)
+            self._pause()
+            self._send_resets(bus)
+            self._pause(DELIVERY_S)
+        bus.shutdown()
+
+    def _pause(self, seconds: float = PAUSE_S) -> None:
+        """As long as a drive needs between two commands, or longer."""
+        self._clock.wait_until(self._clock.now() + seconds)
+
+    def _get_bus(self) -> can.BusABC:
+        if self._bus is None:
+            raise StateError("The bus of the bench is not open.")
+        return self._bus

@@ -1,0 +1,119 @@
+"""`svsa bench-check` and `svsa bench-home`: a bench tried out, and its zero written down."""
+
+import contextlib
+import getpass
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from types import FrameType
+from typing import Annotated, NoReturn
+
+import typer
+from rich.console import Console
+from rich.padding import Padding
+from rich.text import Text
+
+from svsa.inputs.extras import require_extra
+
+_COLOURS = {"ok": "green", "warn": "yellow", "fail": "bold red"}
+_INTERRUPTED = 130
+_MOVE_WARNING = (
+    "--move turns first the principal motor, then the stiffness motor, by short pulses of current"
+    " (a degree or two, forth and back). Hand on the emergency stop, everybody clear of the link,"
+    " nothing hung on it, both motors away from their ends. Watch which way each turns FIRST."
+)
+
+BenchPath = Annotated[Path, typer.Argument(help="Bench file (TOML).")]
+
+
+def bench_check(
+    file: BenchPath,
+    move: Annotated[
+        bool, typer.Option("--move", help="Also turn both motors a little: signs and latency.")
+    ] = False,
+    yes: Annotated[
+        bool,
+        typer.Option("--yes", help="Move without asking; nobody is then asked which way it went."),
+    ] = False,
+) -> None:
+    """Test a bench step by step: bus, drives, encoders, and with --move signs and latency."""
+    require_extra("bench")
+    from svsa.hardware.commissioning import check_bench
+    from svsa.hardware.commissioning.step import Result
+
+    console = Console(highlight=False)
+    if move and not yes:
+        console.print(_MOVE_WARNING, style="bold")
+        typer.confirm("May the motors move?", abort=True)
+    watch = None if yes else typer.confirm
+    failed = False
+    try:
+        with (
+            _interrupted_once(),
+            contextlib.closing(check_bench(file, move, watch)) as steps,
+        ):
+            for step in steps:
+                failed = failed or step.result is Result.FAIL
+                colour = _COLOURS[step.result]
+                console.print(f"[{colour}]{step.result:>4}[/]  [bold]{step.name}[/]")
+                console.print(Padding(Text(step.measured), (0, 0, 0, 6)))
+                if step.advice:
+                    advice = Text(f"→ {step.advice}", colour)
+                    console.print(Padding(advice, (0, 0, 0, 6)))
+    except (KeyboardInterrupt, typer.Abort):
+        console.print("Interrupted: the drives that were used are at zero current and reset.")
+        raise typer.Exit(_INTERRUPTED) from None
+    if failed:
+        raise typer.Exit(1)
+
+
+def bench_home(
+    file: BenchPath,
+    by: Annotated[
+        str | None, typer.Option(help="Who looks at the marks; asked for if left out.")
+    ] = None,
+) -> None:
+    """Write the calibration record of a bench: who saw it at its zero marks, and its zero."""
+    require_extra("bench")
+    from svsa.hardware.calibration import list_problems
+    from svsa.hardware.file import read_bench
+    from svsa.hardware.homing import STEPS, Homing
+    from svsa.hardware.zero import calibrate
+
+    console = Console(highlight=False)
+    bench = read_bench(file)
+    name = by or typer.prompt("Your name", default=getpass.getuser())
+    homing = Homing()
+    console.print(f"{bench.name}: drives off or without current, the mechanism by hand.")
+    for step in STEPS:
+        typer.confirm(f"{step.instruction} Is it there?", abort=True)
+        homing.confirm(step.name, name)
+    path, calibration = calibrate(bench, homing)
+    console.print(
+        f"{path}: deflection zero at {calibration.deflection_zero_counts} counts, confirmed by"
+        f" {calibration.by}.",
+        markup=False,
+    )
+    for problem in list_problems(bench, calibration):
+        console.print(f"Still missing: {problem}.", markup=False)
+
+
+@contextlib.contextmanager
+def _interrupted_once() -> Iterator[None]:
+    """A terminated check leaves the bench as one ended by Ctrl-C does.
+
+    Whoever asks again while the currents are taken off does not stop that.
+    """
+
+    def interrupt(number: int, frame: FrameType | None) -> NoReturn:
+        for each in numbers:
+            signal.signal(each, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(number, interrupt) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)

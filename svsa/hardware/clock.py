@@ -1,0 +1,176 @@
+"""The time of a bench: the clock on the wall, or an emulated rig's own in lockstep."""
+
+import ctypes
+import sys
+import time
+from typing import Protocol
+
+import can
+
+from svsa.errors import SvsaError
+from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
+
+_CLOCK_MONOTONIC = 1
+_TIMER_ABSTIME = 1
+_ECHO_S = 10.0
+SAME_DAY_S = 5.0
+RESTART_S = 0.1
+DRIFT = 2e-4
+SPIN_S = 0.00015
+"""A sleep this short would end late: waking up takes some 0.03 to 0.1 ms."""
+
+
+class ClockError(SvsaError):
+    """A clock that does not go on."""
+
+
+class BenchClock(Protocol):
+    """What the loop waits on. Times are s from any fixed origin."""
+
+    def bind(self, bus: can.BusABC) -> None:
+        """The bus whose frames' times are to be told in this clock's."""
+        ...
+
+    def now(self) -> float:
+        """The time, s."""
+        ...
+
+    def wait_until(self, deadline: float) -> None:
+        """Return at this time, or at once if it is past."""
+        ...
+
+    def take_frames(self) -> list[can.Message]:
+        """Frames of the bus that came while waiting."""
+        ...
+
+    def convert(self, timestamp: float, arrival: float) -> float:
+        """The time of a frame in this clock's, from its timestamp; arrival: when it was read."""
+        ...
+
+    def find_lateness(self, deadline: float) -> float:
+        """How long ago, by the clock on the wall, this deadline was due, s."""
+        ...
+
+
+class _Timespec(ctypes.Structure):
+    _fields_ = (("seconds", ctypes.c_long), ("nanoseconds", ctypes.c_long))
+
+
+class WallClock:
+    """CLOCK_MONOTONIC, with waits on absolute deadlines where the system has them."""
+
+    def __init__(self) -> None:
+        self._of_day: bool | None = None
+        self._offset = self._arrival = 0.0
+        self._sleep = None
+        if sys.platform == "linux":
+            self._sleep = ctypes.CDLL(None, use_errno=True).clock_nanosleep
+
+    def bind(self, bus: can.BusABC) -> None:
+        """Its first frame shows whether this bus stamps with the time of day or its own."""
+        self._of_day = None
+
+    def now(self) -> float:
+        """The time, s."""
+        return time.monotonic()
+
+    def wait_until(self, deadline: float) -> None:
+        """Return at this time, or at once if it is past; where it is near, without sleeping."""
+        if deadline - time.monotonic() < SPIN_S:
+            while time.monotonic() < deadline:
+                pass
+            return
+        if self._sleep is None:
+            time.sleep(max(0.0, deadline - time.monotonic()))
+            return
+        seconds = int(deadline)
+        wanted = _Timespec(seconds, int((deadline - seconds) * 1e9))
+        while self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, ctypes.byref(wanted), None):
+            if time.monotonic() >= deadline:
+                return
+
+    def find_lateness(self, deadline: float) -> float:
+        """How long ago this deadline was due, s."""
+        return time.monotonic() - deadline
+
+    def take_frames(self) -> list[can.Message]:
+        """None: they wait at the bus."""
+        return []
+
+    def convert(self, timestamp: float, arrival: float) -> float:
+        """From the time of day, or from an adapter's own clock of unknown origin.
+
+        No frame comes before it was sent: the least distance between arrival and timestamp is
+        that between the two clocks, up to a drift of 2e-4. A distance 0.1 s greater
+        means that the adapter's clock began anew; the silence before it has been a fault.
+        """
+        if self._of_day is None:
+            self._of_day = abs(time.time() - timestamp) < SAME_DAY_S
+            self._offset, self._arrival = arrival - timestamp, arrival
+        if self._of_day:
+            return timestamp + (time.monotonic() - time.time())
+        distance = arrival - timestamp
+        self._offset += DRIFT * (arrival - self._arrival)
+        self._arrival = arrival
+        if distance < self._offset or distance > self._offset + RESTART_S:
+            self._offset = distance
+        return timestamp + self._offset
+
+
+class LockstepClock:
+    """An emulated rig's time, which goes on when it is waited for and not otherwise."""
+
+    def __init__(self) -> None:
+        self._bus: can.BusABC | None = None
+        self._now_us = 0
+        self._frames: list[can.Message] = []
+
+    def bind(self, bus: can.BusABC) -> None:
+        """Ask the rig for its time; raises `ClockError` where it does not answer."""
+        self._bus = bus
+        self._now_us = self._advance(0)
+
+    def now(self) -> float:
+        """The rig's time, s."""
+        return self._now_us * 1e-6
+
+    def wait_until(self, deadline: float) -> None:
+        """Let the rig go on to this time; its frames are kept for `take_frames`."""
+        wanted = round(deadline * 1e6)
+        if wanted > self._now_us:
+            self._now_us = self._advance(wanted)
+
+    def _advance(self, time_us: int) -> int:
+        """Returns the rig's time, µs, which the echo tells."""
+        if self._bus is None:
+            raise ClockError("The clock of a rig in lockstep has no bus to go on with.")
+        ask = can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(time_us))
+        self._bus.send(ask)
+        while (message := self._bus.recv(_ECHO_S)) is not None:
+            if message.is_extended_id and message.arbitration_id == ADVANCE_ID:
+                return self._check(decode_time(message.data), time_us)
+            self._frames.append(message)
+        raise ClockError(f"The rig did not go on within {_ECHO_S:g} s: is it in lockstep?")
+
+    @staticmethod
+    def _check(told_us: int, asked_us: int) -> int:
+        """A rig whose time goes on by itself has not come as far as it is asked to."""
+        if told_us < asked_us:
+            raise ClockError(
+                f"The rig is at {told_us * 1e-6:g} s and was asked to go on to"
+                f" {asked_us * 1e-6:g} s: start it with --lockstep."
+            )
+        return told_us
+
+    def take_frames(self) -> list[can.Message]:
+        """Frames of the bus that came while waiting."""
+        frames, self._frames = self._frames, []
+        return frames
+
+    def convert(self, timestamp: float, arrival: float) -> float:
+        """The rig stamps its frames with its own time."""
+        return timestamp
+
+    def find_lateness(self, deadline: float) -> float:
+        """Nothing is late where time waits."""
+        return 0.0

@@ -1,0 +1,151 @@
+"""Short pulses of current, and what a motor and the deflection did of each.
+
+The pulses grow from 1 % to 15 % of the motor's nominal current and get shorter as they grow, so
+that a motor whose encoder is dead gets no more impulse than one that works.
+"""
+
+import math
+from itertools import pairwise
+from typing import NamedTuple
+
+from svsa.hardware.commissioning.probe import Probe, Traffic
+from svsa.hardware.drives.conversion import build_deflection_scale, build_motor_scale
+from svsa.hardware.drives.robomodule import Address
+from svsa.hardware.file import MotorSettings
+
+LEVELS = (0.01, 0.02, 0.03, 0.05, 0.08, 0.11, 0.15)
+LONGEST_PULSE_S = 0.15
+IMPULSE_S = 0.003
+MAX_TRAVEL_RAD = 0.03
+MIN_COUNTS = 8
+MIN_DEFLECTION_COUNTS = 4
+COAST_S = 0.02
+"""A motor's counts are followed for so long after a pulse: both lag behind the current."""
+SETTLE_S = 0.2
+MAX_UNHEARD = 0.25
+"""A pulse tells only where no longer share of it went by without feedback of its drive."""
+MAX_REPEATS = 5
+"""Of pulses that told nothing, per motor: the motor gets no more impulse than that."""
+_SEND_S = 0.002
+
+
+class Pulse(NamedTuple):
+    """What a pulse did. current_ma, duration_s: asked for.
+
+    moved, deflected: largest change of counts, either way. measured_ma: largest feedback of
+    the current, with its sign. errors: D frames. unheard_s: longest time of the pulse without
+    feedback.
+    """
+
+    current_ma: int
+    duration_s: float
+    moved: int = 0
+    deflected: int = 0
+    measured_ma: int = 0
+    errors: int = 0
+    unheard_s: float = math.inf
+
+
+class Turn(NamedTuple):
+    """A pulse, and the same one the other way."""
+
+    forth: Pulse
+    back: Pulse
+
+    @property
+    def errors(self) -> int:
+        """The D frames of both."""
+        return self.forth.errors + self.back.errors
+
+    @property
+    def unheard_s(self) -> float:
+        """The longest time of either without feedback."""
+        return max(self.forth.unheard_s, self.back.unheard_s)
+
+    @property
+    def was_followed(self) -> bool:
+        """Whether enough of it was heard for what it did to tell something of the motor."""
+        return self.unheard_s <= MAX_UNHEARD * self.forth.duration_s
+
+
+def turn_a_little(probe: Probe, name: str) -> Turn:
+    """Turns of a motor, each stronger, until one has told enough; returns the last.
+
+    One that was not followed, by a computer or a bus that stood still, is given again.
+    """
+    levels = list(reversed(LEVELS))
+    repeats = MAX_REPEATS
+    while True:
+        turn = _turn(probe, name, levels[-1])
+        if turn.was_followed:
+            levels.pop()
+        else:
+            repeats -= 1
+        if turn.errors or not levels or repeats < 0:
+            return turn
+        if turn.was_followed and _is_clear(name, turn.forth):
+            return turn
+
+
+def _turn(probe: Probe, name: str, level: float) -> Turn:
+    """level: share of the nominal current."""
+    motor: MotorSettings = getattr(probe.bench, name)
+    current_ma = (motor.sign or 1) * round(1e3 * level * motor.nominal_current_a)
+    duration_s = min(LONGEST_PULSE_S, IMPULSE_S / level)
+    forth = _pulse(probe, name, current_ma, duration_s)
+    return Turn(forth, _pulse(probe, name, -current_ma, duration_s))
+
+
+def _is_clear(name: str, pulse: Pulse) -> bool:
+    """Whether the motor has moved, and with motor 1 the deflection as well."""
+    deflected = name != "motor1" or abs(pulse.deflected) >= MIN_DEFLECTION_COUNTS
+    return abs(pulse.moved) >= MIN_COUNTS and deflected
+
+
+def _get_most_counts(motor: MotorSettings) -> float:
+    """Counts at which a pulse ends: 0.03 rad, or a tenth of a motor turn where unknown."""
+    if motor.counts_per_rev and motor.gear_ratio:
+        return MAX_TRAVEL_RAD / abs(build_motor_scale(motor).angle_per_count)
+    return 0.1 * (motor.counts_per_rev or 1000)
+
+
+def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse:
+    """A current for this long, or until the motor or the spring has gone far enough."""
+    address = probe.motors[name]
+    before = probe.listen(0.02)
+    if not (before.feedback.get(address) and before.deflection):
+        return Pulse(current_ma, duration_s)
+    start = before.feedback[address][-1].feedback.position_counts
+    spring = before.deflection[-1].counts
+    most = _get_most_counts(getattr(probe.bench, name))
+    most_spring = MAX_TRAVEL_RAD / abs(build_deflection_scale(probe.bench.deflection))
+    traffic, begin = Traffic(), probe.now()
+    end = begin + duration_s
+    try:
+        while probe.now() < end and not traffic.drive_errors.get(address):
+            probe.send_current(name, current_ma)
+            for _ in probe.follow(_SEND_S, traffic):
+                pass
+            moved, deflected = _find_travel(traffic, address, start, spring)
+            if abs(moved) >= most or abs(deflected) >= max(most_spring, MIN_COUNTS):
+                break
+    finally:
+        probe.send_current(name, 0)
+    heard = traffic.feedback.get(address, [])
+    times = [begin, *(frame.time_s for frame in heard), probe.now()]
+    unheard = max(later - earlier for earlier, later in pairwise(times))
+    measured = max((frame.feedback.current_ma for frame in heard), key=abs, default=0)
+    _, deflected = _find_travel(traffic, address, start, spring)
+    for _ in probe.follow(COAST_S, traffic):
+        pass
+    moved, _ = _find_travel(traffic, address, start, spring)
+    after = probe.listen(SETTLE_S - COAST_S)
+    errors = traffic.drive_errors.get(address, 0) + after.drive_errors.get(address, 0)
+    return Pulse(current_ma, duration_s, moved, deflected, measured, errors, unheard)
+
+
+def _find_travel(traffic: Traffic, address: Address, start: int, spring: int) -> tuple[int, int]:
+    """The largest change so far of the motor's counts and of the deflection's."""
+    heard = [frame.feedback.position_counts for frame in traffic.feedback.get(address, [])]
+    moved = max((counts - start for counts in heard), key=abs, default=0)
+    return moved, max((counts - spring for counts, _ in traffic.deflection), key=abs, default=0)

@@ -1,0 +1,115 @@
+"""The CAN bus of a bench, opened through python-can in a bounded time."""
+
+import contextlib
+import importlib
+import logging
+import socket
+from collections.abc import Iterator
+from typing import Any
+
+import can
+
+from svsa.errors import SvsaError
+from svsa.hardware.file import BusSettings
+
+_ANSWER_S = 5.0
+DELIVERY_S = 0.05
+"""How long a bus stays open after the last frame: closing a socket may take back what was sent."""
+
+
+_ACKNOWLEDGEMENTS = 8
+_SLCAN = "slcan"
+
+
+_DRIVERS = {
+    "gs_usb": "`pip install 'python-can[gs-usb]'` and the system's libusb (libusb-1.0-0)",
+    "kvaser": "Kvaser's driver with CANlib (linuxcan on Linux, from kvaser.com)",
+    "pcan": "PEAK's PCAN-Basic library (libpcanbasic, from peak-system.com)",
+    "neovi": "`pip install 'python-can[neovi]'`",
+    "canalystii": "`pip install 'python-can[canalystii]'`",
+    "cantact": "`pip install 'python-can[cantact]'`",
+    "ixxat": "HMS' VCI driver; it is there for Windows only",
+    "vector": "Vector's XL driver library; it is there for Windows only",
+}
+"""What to install where python-can brings an interface without its driver."""
+BUS_TROUBLE = (can.CanError, OSError, ValueError)
+"""What an open bus raises when it is lost."""
+
+
+class BusError(SvsaError):
+    """A bus that cannot be opened or used; the message says what to look at."""
+
+
+def open_bus(settings: BusSettings) -> can.BusABC:
+    """The bus that a bench file names; raises `BusError` with the reason.
+
+    Adapters behind a socket get a timeout: one that accepts the call and then says nothing
+    would be waited for without end.
+    """
+    logging.getLogger("can").setLevel(logging.ERROR)
+    before = socket.getdefaulttimeout()
+    socket.setdefaulttimeout(_ANSWER_S)
+    try:
+        _ask_for_server(settings)
+        return can.Bus(
+            interface=settings.interface,
+            channel=settings.channel,
+            bitrate=settings.bitrate,
+            **_choose_options(settings),
+        )
+    except Exception as error:  # a driver that is missing shows as any kind, even NameError
+        raise BusError(_describe_failure(settings, error)) from None
+    finally:
+        socket.setdefaulttimeout(before)
+
+
+def _describe_failure(settings: BusSettings, error: Exception) -> str:
+    name, driver = settings.interface, _DRIVERS.get(settings.interface)
+    if name not in can.VALID_INTERFACES:
+        there = ", ".join(sorted(can.VALID_INTERFACES))
+        return f"The CAN bus cannot be opened: bus.interface is {name!r}, python-can has {there}."
+    is_missing = isinstance(error, NameError | ImportError | can.CanInterfaceNotImplementedError)
+    reason = "its driver is not installed" if driver and is_missing else str(error).rstrip(".")
+    needed = f" It needs {driver}." if driver else ""
+    return (
+        f"The CAN bus {name} {settings.channel} cannot be opened: {reason}.{needed}"
+        " Check that the adapter is plugged in, its driver is there, the channel's name, and that"
+        " no other program holds it."
+    )
+
+
+def prepare_bus(settings: BusSettings) -> None:
+    """Import what opening this bus takes, so that it is quick once it is urgent."""
+    if settings.interface in can.interfaces.BACKENDS:
+        with contextlib.suppress(ImportError, OSError):
+            importlib.import_module(can.interfaces.BACKENDS[settings.interface][0])
+
+
+def _ask_for_server(settings: BusSettings) -> None:
+    """Raise `OSError` where nothing listens: python-can's socketcand would go on trying."""
+    host, port = settings.options.get("host"), settings.options.get("port")
+    if settings.interface == "socketcand" and host and port:
+        socket.create_connection((host, port)).close()
+
+
+def _choose_options(settings: BusSettings) -> dict[str, Any]:
+    """As written; an slcan adapter is not waited for: 1 ms of its own would be a whole tick."""
+    return (
+        {"timeout": 0.0, **settings.options} if settings.interface == _SLCAN else settings.options
+    )
+
+
+def take_waiting(bus: can.BusABC, settings: BusSettings, most: int) -> Iterator[can.Message]:
+    """The messages that have come, at most so many, without waiting for one.
+
+    An slcan adapter acknowledges every command, and python-can tells that as nothing: there,
+    several nothings in a row are the end.
+    """
+    patience = nothings = _ACKNOWLEDGEMENTS if settings.interface == _SLCAN else 1
+    for _ in range(most):
+        message = bus.recv(0)
+        if message is not None:
+            nothings = patience
+            yield message
+        elif (nothings := nothings - 1) == 0:
+            return

@@ -1,0 +1,81 @@
+"""`svsa rig`: the emulated rig as a command."""
+
+import math
+import signal
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def rig(
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port of socketcand.")] = 29536,
+    control_port: Annotated[
+        int, typer.Option(min=0, max=65535, help="Port for loads and faults.")
+    ] = 29537,
+    lockstep: Annotated[
+        bool, typer.Option("--lockstep", help="Time goes on only when a client asks for it.")
+    ] = False,
+    real_time: Annotated[
+        bool | None,
+        typer.Option(
+            "--real-time/--ordinary-time",
+            help="Ask for real-time priority; left out, not in lockstep.",
+        ),
+    ] = None,
+    file: Annotated[
+        Path | None, typer.Option(help="What the rig is made of (TOML); else the prototype.")
+    ] = None,
+    idle_s: Annotated[
+        float, typer.Option(min=0, help="End after so long without a client; 0: never.")
+    ] = 0.0,
+    alone_s: Annotated[
+        float,
+        typer.Option(
+            min=0,
+            help="In lockstep: time goes on by itself where nobody asks any more for so long, as"
+            " on a machine whose loop is gone; 0: never.",
+        ),
+    ] = 0.0,
+) -> None:
+    """Emulate the bench on the wire: two drives, an encoder and the actuator, on CAN.
+
+    Clients connect as to a socketcand server (python-can's interface `socketcand`), or to the
+    printed terminal as to a slcan adapter. Reachable from this machine only.
+    """
+    from svsa.hardware.emulator.control import ControlServer
+    from svsa.hardware.emulator.emulator import Rig
+    from svsa.hardware.emulator.parameters import RigParameters, read_rig
+    from svsa.hardware.emulator.process import RigProcess
+    from svsa.hardware.emulator.slcan import SlcanServer
+    from svsa.hardware.emulator.socketcand import SocketcandServer
+    from svsa.hardware.schedule import RIG_PRIORITY, request_real_time
+
+    machine = Rig(read_rig(file) if file else RigParameters())
+    host = "127.0.0.1"
+    serial, network = SlcanServer(), SocketcandServer(host, port)
+    control = ControlServer(machine, host, control_port)
+    process = RigProcess(machine, [network, serial], control, lockstep, idle_s, alone_s or math.inf)
+
+    def stop(*_: object) -> None:
+        process.stopped = True
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
+    mode = "EMULATED, lockstep" if lockstep else "EMULATED"
+    print(
+        f"SVSA rig: socketcand {host}:{network.port}, slcan {serial.path},"
+        f" control {host}:{control.port} ({mode})",
+        flush=True,
+    )
+    if real_time if real_time is not None else not lockstep:
+        request_real_time(RIG_PRIORITY)  # hardware does not wait for other programs
+    try:
+        process.run()
+    finally:
+        for server in (serial, network, control):
+            server.close()
+
+
+if __name__ == "__main__":
+    typer.run(rig)

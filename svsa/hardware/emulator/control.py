@@ -1,0 +1,206 @@
+"""What happens to the rig, told from outside: JSON lines over TCP on this machine.
+
+    {"do": "load", "load": {"kind": "mass"}, "at_s": 5.0}    {"do": "set_loads", "loads": [...]}
+    {"do": "fault", "fault": {"kind": "freeze", "node": "deflection"}}
+    {"do": "clear_faults"}    {"do": "home"}                  {"do": "state"}
+
+Each line is answered by one: {"ok": true, ...} or {"ok": false, "message": "..."}.
+"""
+
+import contextlib
+import json
+import socket
+from collections.abc import Callable
+from typing import Any, Self
+
+from pydantic import TypeAdapter, ValidationError
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.faults import RigFault
+from svsa.inputs.explanation import explain
+from svsa.simulation.plant.loads import Load
+
+MAX_LINE_BYTES = 1 << 20
+_LOAD = TypeAdapter(Load)
+_FAULT = TypeAdapter(RigFault)
+
+
+class RigError(SvsaError):
+    """The rig refused, or is not there."""
+
+
+class ControlServer:
+    """Serves the control port for a rig; never waits."""
+
+    def __init__(self, rig: Rig, host: str, port: int) -> None:
+        self._rig = rig
+        self._listener = socket.create_server((host, port))
+        self._listener.setblocking(False)
+        self._clients: dict[socket.socket, bytearray] = {}
+        self.port = int(self._listener.getsockname()[1])
+
+    def sources(self) -> list[socket.socket]:
+        """What to select on."""
+        return [self._listener, *self._clients]
+
+    def poll(self) -> None:
+        """Do what clients ask for."""
+        with contextlib.suppress(BlockingIOError):
+            client, _ = self._listener.accept()
+            client.setblocking(False)
+            self._clients[client] = bytearray()
+        for client, unread in list(self._clients.items()):
+            try:
+                self._serve(client, unread)
+            except BlockingIOError:
+                continue
+            except OSError:
+                client.close()
+                del self._clients[client]
+
+    def _serve(self, client: socket.socket, unread: bytearray) -> None:
+        chunk = client.recv(65536)
+        if not chunk or len(unread) > MAX_LINE_BYTES:
+            raise ConnectionError
+        unread += chunk
+        while (end := unread.find(b"\n")) >= 0:
+            line = bytes(unread[:end])
+            del unread[: end + 1]
+            client.sendall(json.dumps(answer(self._rig, line)).encode() + b"\n")
+
+    def close(self) -> None:
+        """Close every connection."""
+        for each in self.sources():
+            each.close()
+        self._clients.clear()
+
+
+def answer(rig: Rig, line: bytes) -> dict[str, Any]:
+    """Do what one line says, and what to answer; nothing it says breaks the rig."""
+    try:
+        wanted = json.loads(line)
+        if not isinstance(wanted, dict):
+            raise ParameterError(Violation("command", wanted, "", "an object with named fields"))
+        return {"ok": True, **_do(rig, wanted)}
+    except ValidationError as error:
+        return {"ok": False, "message": str(ParameterError(*explain(error)))}
+    except (SvsaError, ValueError, RecursionError) as error:
+        return {"ok": False, "message": str(error)}
+
+
+def _do(rig: Rig, wanted: dict[str, Any]) -> dict[str, Any]:
+    at_s = wanted.get("at_s")
+    if at_s is not None and (not isinstance(at_s, int | float) or not 0 <= at_s <= 1e6):
+        raise ParameterError(Violation("at_s", at_s, "s", "a time of the rig from 0 to 1e6 s"))
+    at_us = rig.now_us if at_s is None else round(at_s * 1e6)
+    happen: Callable[[], None]
+    match wanted.get("do"):
+        case "state":
+            return describe(rig)
+        case "load":
+            load = _LOAD.validate_python(wanted.get("load"))
+            happen = lambda: rig.add_load(load)  # noqa: E731
+        case "set_loads":
+            loads = [_LOAD.validate_python(load) for load in wanted.get("loads", [])]
+            happen = lambda: rig.set_loads(loads)  # noqa: E731
+        case "fault":
+            fault = _FAULT.validate_python(wanted.get("fault"))
+            happen = lambda: rig.inject(fault)  # noqa: E731
+        case "clear_faults":
+            happen = rig.clear_faults
+        case "home":
+            happen = rig.home
+        case other:
+            bound = "one of state, load, set_loads, fault, clear_faults, home"
+            raise ParameterError(Violation("do", other, "", bound))
+    if at_us <= rig.now_us:
+        happen()
+    else:
+        rig.schedule(at_us, happen)
+    return {"time_s": rig.now_us * 1e-6}
+
+
+def describe(rig: Rig) -> dict[str, Any]:
+    """The truth of this moment: time, state, torques, drives."""
+    made, x = rig.mechanics.torque, rig.mechanics.read(rig.now_us)
+    return {
+        "time_s": rig.now_us * 1e-6,
+        "time_us": rig.now_us,
+        "frames": rig.frames,
+        "x": x._asdict(),
+        "torque_nm": [made.u1, made.u2],
+        "loads": rig.mechanics.load_count,
+        "drives": {
+            name: {
+                "mode": drive.mode,
+                "commanded_ma": drive.current_ma,
+                "commanded_since_s": drive.since_us * 1e-6,
+                "target_nm": drive.target_nm,
+                "actual_ma": drive.compute_current_ma(torque),
+                "errors": drive.errors,
+                "powered": drive.powered,
+                "stalled": drive.stalled,
+            }
+            for (name, drive), torque in zip(rig.drives.items(), made, strict=True)
+        },
+    }
+
+
+class RigControl:
+    """A client of a rig's control port. Raises `RigError` where it refuses or is gone."""
+
+    def __init__(self, port: int, timeout_s: float = 5.0) -> None:
+        try:
+            self._socket = socket.create_connection(("127.0.0.1", port), timeout_s)
+        except OSError as error:
+            raise RigError(f"There is no emulated rig at control port {port}: {error}.") from None
+        self._file = self._socket.makefile("rwb")
+
+    def ask(self, do: str, **fields: Any) -> dict[str, Any]:
+        """One command and its answer."""
+        try:
+            self._file.write(json.dumps({"do": do, **fields}).encode() + b"\n")
+            self._file.flush()
+            line = self._file.readline()
+            told = json.loads(line)
+        except (OSError, ValueError) as error:
+            raise RigError(f"The emulated rig does not answer: {error}.") from None
+        if not told.pop("ok"):
+            raise RigError(told["message"])
+        return told
+
+    def set_loads(self, loads: tuple[Load, ...]) -> None:
+        """These loads, and no others, are on from now on."""
+        self.ask("set_loads", loads=[_LOAD.dump_python(load, mode="json") for load in loads])
+
+    def load(self, load: Load, at_s: float | None = None) -> None:
+        """Put a load on, now or at a time of the rig."""
+        self.ask("load", load=_LOAD.dump_python(load, mode="json"), at_s=at_s)
+
+    def fault(self, fault: RigFault, at_s: float | None = None) -> None:
+        """Make something go wrong, now or at a time of the rig."""
+        self.ask("fault", fault=fault.model_dump(mode="json"), at_s=at_s)
+
+    def clear_faults(self) -> None:
+        """Everything works again."""
+        self.ask("clear_faults")
+
+    def home(self) -> None:
+        """Set the mechanism to its marks by hand."""
+        self.ask("home")
+
+    def read_state(self) -> dict[str, Any]:
+        """See `describe`."""
+        return self.ask("state")
+
+    def close(self) -> None:
+        """Leave."""
+        self._file.close()
+        self._socket.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,235 @@
+"""The rig: drives, encoder node and mechanics on one bus, in the order of their events.
+
+Time is whole microseconds since the start. A frame takes 0.13 ms (1 Mbit/s); where several
+wait, the lowest identifier goes first. The same frames in at the same times, and the same
+seed, give the same frames out.
+"""
+
+import heapq
+import random
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from svsa.actuators.dynamics import compute_deflection
+from svsa.actuators.signals import Torque
+from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID, EMULATED_PERIOD_S
+from svsa.hardware.emulator.drive import ERROR_PERIOD_US, EmulatedDrive
+from svsa.hardware.emulator.encoder import EncoderNode
+from svsa.hardware.emulator.faults import (
+    BrownOut,
+    BusErrors,
+    CurrentOffset,
+    DropFrames,
+    FrozenEncoder,
+    LateFrames,
+    ReversedEncoder,
+    ReversedMotor,
+    RigFault,
+    Silence,
+    Stall,
+    Unplugged,
+    ZeroedCounter,
+)
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.mechanics import Mechanics
+from svsa.hardware.emulator.parameters import RigClock, RigParameters
+from svsa.simulation.plant.loads import Load
+
+FRAME_US = 130
+MAX_WAITING = 1000
+_EMULATED_US = round(EMULATED_PERIOD_S * 1e6)
+_ERROR_FRAME_US = 1000
+
+Said = tuple[int, Frame, Any]
+
+
+class Rig:
+    """The bench on the wire. `advance_to` returns what was said meanwhile.
+
+    now_us: µs. frames: how many have been on the bus.
+    """
+
+    def __init__(self, parameters: RigParameters | None = None) -> None:
+        self.parameters = parameters or RigParameters()
+        p = self.parameters
+        self.mechanics = Mechanics(p)
+        self.drives = {"motor1": EmulatedDrive(p.motor1), "motor2": EmulatedDrive(p.motor2)}
+        self.encoder = EncoderNode(p.deflection)
+        self.now_us, self.frames = 0, 0
+        self._random = random.Random(p.seed)  # noqa: S311
+        self._events: list[tuple[int, int, Callable[[], None]]] = []
+        self._waiting: list[tuple[int, int, Frame, Any]] = []
+        self._busy = False
+        self._order = 0
+        self._said: list[Said] = []
+        self._drops: dict[str, float] = {}
+        self._delays: dict[str, int] = {}
+        for name, drive in self.drives.items():
+            self._beat_at(drive.motor, 0, lambda k, n=name, d=drive: self._feed(n, d, k))
+            self._at(ERROR_PERIOD_US, lambda d=drive: self._complain(d))
+        self._beat_at(p.deflection, 0, lambda _: self._count_deflection())
+        self._at(_EMULATED_US, self._beat)
+
+    @property
+    def next_event_us(self) -> int:
+        """When something happens next by itself."""
+        return self._events[0][0]
+
+    def advance_to(self, time_us: int) -> list[Said]:
+        """Go on to this time; the frames said until then, (µs, frame, who sent it or None)."""
+        while self._events[0][0] <= time_us:
+            self.now_us, _, happen = heapq.heappop(self._events)
+            happen()
+        self.now_us = max(self.now_us, time_us)
+        said, self._said = self._said, []
+        return said
+
+    def receive(self, frame: Frame, sender: Any) -> None:
+        """A client's frame, now; the others hear it when it has been on the bus."""
+        if not frame.extended:
+            self._request(frame, sender)
+
+    def schedule(self, at_us: int, happen: Callable[[], None]) -> None:
+        """Do something at that time, or now where it is past."""
+        self._at(max(at_us, self.now_us), happen)
+
+    def add_load(self, load: Load) -> None:
+        """Put a load on, now."""
+        self.mechanics.add_load(self.now_us, load.changed(start_s=None))
+
+    def set_loads(self, loads: Sequence[Load]) -> None:
+        """These loads and no others are on, from now on."""
+        self.mechanics.clear_loads(self.now_us)
+        for load in loads:
+            self.add_load(load)
+
+    def home(self) -> None:
+        """Somebody sets the mechanism to its marks by hand, and lets go of it."""
+        self.mechanics.home(self.now_us)
+
+    def inject(self, fault: RigFault) -> None:
+        """Make something go wrong, from now on."""
+        match fault:
+            case DropFrames():
+                self._drops[fault.node] = fault.probability
+            case LateFrames():
+                self._delays[fault.node] = round(fault.delay_s * 1e6)
+            case BusErrors():
+                for number in range(fault.count):
+                    self._at(self.now_us + number * _ERROR_FRAME_US, self._say_error)
+            case FrozenEncoder() | ReversedEncoder() if fault.node == "deflection":
+                self.encoder.fail(frozen=fault.kind == "freeze")
+            case FrozenEncoder():
+                self.drives[fault.node].frozen = True
+            case ReversedEncoder():
+                self.drives[fault.node].encoder_sign *= -1
+            case ReversedMotor():
+                self.drives[fault.node].motor_sign *= -1
+            case BrownOut():
+                self.drives[fault.node].reset(self.now_us)
+            case Stall():
+                self.drives[fault.node].stalled = True
+            case Silence():
+                self.drives[fault.node].powered = False
+            case Unplugged():
+                self.drives[fault.node].plugged = False
+            case ZeroedCounter():
+                self.drives[fault.node].zero_counter()
+            case CurrentOffset():
+                self.drives[fault.node].offset_ma = 1000.0 * fault.offset_a
+        self._drive()
+
+    def clear_faults(self) -> None:
+        """Everything works again; a drive that was off begins as after a reset."""
+        self._drops.clear()
+        self._delays.clear()
+        self.encoder.repair()
+        for drive in self.drives.values():
+            if not drive.powered or drive.stalled:
+                drive.reset(self.now_us)
+            drive.plugged = True
+            drive.encoder_sign, drive.motor_sign = drive.motor.sign, 1
+            drive.powered, drive.stalled, drive.frozen, drive.offset_ma = True, False, False, 0.0
+        self._drive()
+
+    def _at(self, time_us: int, happen: Callable[[], None]) -> None:
+        self._order += 1
+        heapq.heappush(self._events, (time_us, self._order, happen))
+
+    def _drive(self) -> None:
+        """Ask the motors for what their drives were told."""
+        one, two = self.drives.values()
+        self.mechanics.set_target(self.now_us, Torque(one.target_nm, two.target_nm))
+
+    def _beat_at(self, clock: RigClock, number: int, happen: Callable[[int], None]) -> None:
+        """Have it happen at every ms of this clock, from beat `number` on."""
+
+        def beat() -> None:
+            self._beat_at(clock, number + 1, happen)
+            happen(number)
+
+        elapsed = clock.phase_s * 1e6 + number * 1000.0 * (1.0 + clock.drift)
+        self._at(round(elapsed), beat)
+
+    def _feed(self, name: str, drive: EmulatedDrive, beat: int) -> None:
+        """Frames B and C of a drive, where they are due at this ms of its clock."""
+        x, first = self.mechanics.read(self.now_us), name == "motor1"
+        drive.look(x.theta1 if first else x.theta2)
+        if drive.feeding and drive.feedback_ms and beat % drive.feedback_ms == 0:
+            torque = self.mechanics.torque.u1 if first else self.mechanics.torque.u2
+            velocity = x.dtheta1 if first else x.dtheta2
+            self._send(name, drive.build_feedback(velocity, torque))
+        if drive.feeding and drive.inputs_ms and beat % drive.inputs_ms == 0:
+            self._send(name, drive.build_inputs())
+
+    def _complain(self, drive: EmulatedDrive) -> None:
+        self._at(self.now_us + ERROR_PERIOD_US, lambda: self._complain(drive))
+        if drive.heard and drive.stalled:
+            self._request(drive.build_error(), None)
+
+    def _count_deflection(self) -> None:
+        x = self.mechanics.read(self.now_us)
+        self._send("deflection", self.encoder.build_frame(compute_deflection(x)))
+
+    def _beat(self) -> None:
+        self._at(self.now_us + _EMULATED_US, self._beat)
+        self._said.append((self.now_us, Frame(EMULATED_ID, EMULATED_DATA, extended=True), None))
+
+    def _say_error(self) -> None:
+        self._said.append((self.now_us, Frame(0, b"", error=True), None))
+
+    def _send(self, node: str, frame: Frame) -> None:
+        """A sensor's frame, unless a fault drops or delays it."""
+        probability = self._drops.get(node, 0.0)
+        if probability and self._random.random() < probability:
+            return
+        if delay := self._delays.get(node, 0):
+            self._at(self.now_us + delay, lambda: self._request(frame, None))
+        else:
+            self._request(frame, None)
+
+    def _request(self, frame: Frame, sender: Any) -> None:
+        """Have a frame sent when the bus is free; one that is asked for too much loses frames."""
+        if len(self._waiting) >= MAX_WAITING:
+            return
+        self._order += 1
+        heapq.heappush(self._waiting, (frame.can_id, self._order, frame, sender))
+        if not self._busy:
+            self._busy = True
+            self._at(self.now_us, self._transmit)
+
+    def _transmit(self) -> None:
+        self._busy = bool(self._waiting)
+        if self._busy:
+            _, _, frame, sender = heapq.heappop(self._waiting)
+            self._at(self.now_us + FRAME_US, lambda: self._deliver(frame, sender))
+
+    def _deliver(self, frame: Frame, sender: Any) -> None:
+        self.frames += 1
+        self._said.append((self.now_us, frame, sender))
+        if sender is not None:
+            for drive in self.drives.values():
+                for answer in drive.receive(frame, self.now_us):
+                    self._request(answer, None)
+            self._drive()
+        self._transmit()

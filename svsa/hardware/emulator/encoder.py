@@ -1,0 +1,37 @@
+"""The emulated deflection encoder: a node that sends its counts by itself."""
+
+import math
+
+from svsa.hardware.drives.robomodule import FILLER
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.parameters import RigDeflection
+
+
+class EncoderNode:
+    """Counts of φ as int32, big-endian, in the first four bytes."""
+
+    def __init__(self, parameters: RigDeflection) -> None:
+        self._id = parameters.can_id
+        self._sign = parameters.sign
+        self._counts_a_rad = parameters.counts_per_rev / (2.0 * math.pi)
+        self._offset = parameters.offset_counts
+        self._counts = self._offset
+        self.repair()
+
+    def fail(self, frozen: bool) -> None:
+        """Stay where the counts are, or go the wrong way."""
+        if frozen:
+            self._frozen = True
+        else:
+            self._turned = -self._turned
+
+    def repair(self) -> None:
+        """Work as it should."""
+        self._frozen, self._turned = False, 1
+
+    def build_frame(self, angle: float) -> Frame:
+        """The frame at this deflection, rad."""
+        if not self._frozen:
+            sign = self._sign * self._turned
+            self._counts = self._offset + sign * math.floor(angle * self._counts_a_rad + 0.5)
+        return Frame(self._id, self._counts.to_bytes(4, "big", signed=True) + bytes([FILLER] * 4))

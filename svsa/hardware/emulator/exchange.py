@@ -1,0 +1,64 @@
+"""Between a rig and its clients: frames in, time on where it is asked for, frames out."""
+
+from typing import Any
+
+from svsa.hardware.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, decode_time, encode_time
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.frame import Frame, FrameServer
+
+LONGEST_STEP_US = 10_000_000
+
+
+class Exchange:
+    """Carries frames between a rig and the clients of its servers.
+
+    lockstep: time goes on only when a client asks for it with `ADVANCE_ID`. origin_s: what the
+    stamps of frames count from, s, in the rig's time. `asked`: how often time was asked for.
+    """
+
+    def __init__(
+        self, rig: Rig, servers: list[FrameServer], lockstep: bool, origin_s: float = 0.0
+    ) -> None:
+        self._rig, self._servers = rig, servers
+        self._lockstep, self._origin_s = lockstep, origin_s
+        self.asked = 0
+
+    def serve(self, server: FrameServer) -> None:
+        """Do what has come; who is new is greeted before the first frame of theirs acts."""
+        heard = server.poll()
+        for client in server.take_arrivals():
+            greeting = Frame(EMULATED_ID, EMULATED_DATA, extended=True)
+            server.send(greeting, self._stamp(self._rig.now_us), to=client)
+        for client, frame in heard:
+            self._take(server, client, frame)
+        self._flush()
+
+    def advance_to(self, time_us: int) -> None:
+        """Let the rig go on to this time, and say what it says meanwhile."""
+        self._advance_to(time_us)
+        self._flush()
+
+    def _advance_to(self, time_us: int) -> None:
+        for said_us, frame, sender in self._rig.advance_to(time_us):
+            for server in self._servers:
+                server.send(frame, self._stamp(said_us), but=sender)
+
+    def _flush(self) -> None:
+        """All that a client is said for one reason goes in one write: it wakes up once."""
+        for server in self._servers:
+            server.flush()
+
+    def _stamp(self, time_us: int) -> float:
+        return self._origin_s + time_us * 1e-6
+
+    def _take(self, server: FrameServer, client: Any, frame: Frame) -> None:
+        """A client's frame: a command to a drive, or the request to let time go on."""
+        if not (frame.extended and frame.can_id == ADVANCE_ID):
+            self._rig.receive(frame, client)
+            return
+        self.asked += 1
+        if self._lockstep:
+            self._advance_to(min(decode_time(frame.data), self._rig.now_us + LONGEST_STEP_US))
+        now_us = self._rig.now_us
+        echo = Frame(ADVANCE_ID, encode_time(now_us), extended=True)
+        server.send(echo, self._stamp(now_us), to=client)

@@ -1,0 +1,131 @@
+"""A figure of the paper on the emulated rig: through CAN, in lockstep, faster than real time.
+
+The same loop, plant and limits as on a bench; time goes on when the loop asks for it, so that
+a run gives the same samples every time.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from svsa.errors import FaultError, StateError
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.can_plant import CanPlant
+from svsa.hardware.clock import LockstepClock
+from svsa.hardware.emulator.launch import RunningRig, start_rig
+from svsa.hardware.file import BenchFile, read_bench
+from svsa.hardware.realtime.configuration import (
+    build_bench_configuration,
+    build_guard,
+    read_actuation,
+)
+from svsa.hardware.realtime.loop import BenchLoop
+from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.safety.heartbeat import Heartbeats
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.runs.configuration import Configuration
+from svsa.runs.paper import LOAD_TIME_S, Figure
+from svsa.runs.result.result import Result
+
+RIG_BENCH = Path(__file__).parent / "bench.toml"
+ARMING_S = 5.0
+SETTLING_S = 0.2
+
+
+class LockstepBench:
+    """The emulated rig behind the bench's own loop, a tick at a time.
+
+    wanted: law, references and loads of the run. ticks: how many samples are kept. bench:
+    the bench file, else that of the emulated rig. beats: heartbeats, where they are watched.
+    """
+
+    def __init__(
+        self,
+        rig: RunningRig,
+        wanted: Configuration,
+        ticks: int,
+        bench: BenchFile | None = None,
+        beats: Heartbeats | None = None,
+    ) -> None:
+        self.rig = rig
+        self.bench = bench or connect_bench(rig)
+        self.sink = SampleArray(ticks)
+        self._clock = LockstepClock()
+        calibration, guard = find_calibration(self.bench), build_guard(self.bench)
+        self.plant = CanPlant(self.bench, calibration, self._clock, guard, beats)
+        self.plant.open()
+        self.configuration = build_bench_configuration(self.bench, wanted)
+        actuation, mu0 = read_actuation(self.bench), self.bench.home.lever_ratio
+        self.loop = BenchLoop(self.plant, actuation, mu0, self.configuration, self.sink)
+        self._deadline = self.now()
+
+    def now(self) -> float:
+        """The rig's time, s."""
+        return self._clock.now()
+
+    def tick(self, count: int = 1) -> None:
+        """So many periods."""
+        for _ in range(count):
+            self._deadline += self.bench.timing.period_s
+            self._clock.wait_until(self._deadline)
+            self.loop.tick(self.now())
+
+    def tick_until(self, status: BenchStatus, longest_s: float = ARMING_S) -> None:
+        """Periods until the bench has this status; raises `FaultError` or `StateError`."""
+        end = self.now() + longest_s
+        while self.plant.status is not status:
+            if self.plant.fault is not None:
+                raise FaultError(self.plant.fault)
+            if self.now() > end:
+                raise StateError(f"The bench is {self.plant.status} after {longest_s:g} s.")
+            self.tick()
+
+    def prepare(self) -> None:
+        """Arm, and confirm the zero marks at which the rig stands."""
+        self.plant.arm(self.now())
+        self.tick_until(BenchStatus.READY)
+        while (step := self.plant.homing_step) is not None:
+            self.plant.confirm_home(step, "lockstep")
+        self.tick(round(SETTLING_S / self.bench.timing.period_s))
+
+    def start(self) -> None:
+        """Begin the run at tick 0."""
+        self.loop.start(self.now())
+
+    def close(self) -> None:
+        """Leave the drives at zero current."""
+        self.plant.close()
+
+
+def connect_bench(rig: RunningRig) -> BenchFile:
+    """The rig's bench file, with the ports of this rig."""
+    bench = read_bench(RIG_BENCH)
+    options = {**bench.bus.options, "port": rig.port}
+    return bench.changed(bus=bench.bus.changed(options=options))
+
+
+def run_on_rig(
+    figure: Figure, law: str, duration_s: float, progress: Callable[[float], None]
+) -> Result:
+    """Run a figure with its load on the emulated rig; progress: told the share done.
+
+    Raises `FaultError` where the run ends in a fault.
+    """
+    with start_rig(lockstep=True) as rig:
+        bench = LockstepBench(rig, figure.build_configuration(law), round(duration_s / 0.001))
+        try:
+            bench.prepare()
+            bench.start()
+            onset = bench.now() + LOAD_TIME_S
+            rig.control.load(figure.hung.changed(start_s=None), at_s=onset)
+            ticks = len(bench.sink.samples)
+            for tick in range(ticks):
+                bench.tick()
+                if bench.plant.fault is not None:
+                    raise FaultError(bench.plant.fault)
+                if tick % 100 == 0:
+                    progress(tick / ticks)
+            progress(1.0)
+        finally:
+            bench.close()
+    samples = bench.sink.samples[: bench.sink.done]
+    return Result(bench.configuration, samples, law=law, plant="emulated")

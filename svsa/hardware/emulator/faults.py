@@ -1,0 +1,112 @@
+"""What can go wrong on a bench, one model each, to be injected on demand."""
+
+from typing import Annotated, Literal
+
+from svsa.inputs.checked import BY_KIND, Checked, Number, Whole, quantity
+
+Node = Literal["motor1", "motor2", "deflection"]
+DriveName = Literal["motor1", "motor2"]
+
+
+class DropFrames(Checked):
+    """Frames of a node that never come, each with this probability (seeded)."""
+
+    kind: Literal["drop"] = "drop"
+    node: Node = quantity("", "Whose frames")
+    probability: Number = quantity("1", "Of each frame", gt=0, le=1, default=1.0)
+
+
+class LateFrames(Checked):
+    """Frames of a node that come late."""
+
+    kind: Literal["late"] = "late"
+    node: Node = quantity("", "Whose frames")
+    delay_s: Number = quantity("s", "How late", gt=0, le=10)
+
+
+class FrozenEncoder(Checked):
+    """Counts that stay as they are."""
+
+    kind: Literal["freeze"] = "freeze"
+    node: Node = quantity("", "Which encoder")
+
+
+class ReversedEncoder(Checked):
+    """Counts that go the wrong way."""
+
+    kind: Literal["reverse_encoder"] = "reverse_encoder"
+    node: Node = quantity("", "Which encoder")
+
+
+class ReversedMotor(Checked):
+    """Torque that goes the wrong way."""
+
+    kind: Literal["reverse_motor"] = "reverse_motor"
+    node: DriveName = quantity("", "Which motor")
+
+
+class BrownOut(Checked):
+    """A drive that restarts: no mode, position zero."""
+
+    kind: Literal["brown_out"] = "brown_out"
+    node: DriveName = quantity("", "Which drive")
+
+
+class Stall(Checked):
+    """A drive in stall protection: no torque, an error frame every 100 ms."""
+
+    kind: Literal["stall"] = "stall"
+    node: DriveName = quantity("", "Which drive")
+
+
+class Unplugged(Checked):
+    """A drive whose CAN cable is off: it holds its last current, hears and says nothing."""
+
+    kind: Literal["unplugged"] = "unplugged"
+    node: DriveName = quantity("", "Which drive")
+
+
+class ZeroedCounter(Checked):
+    """A drive that takes its position for zero without leaving its mode."""
+
+    kind: Literal["zeroed_counter"] = "zeroed_counter"
+    node: DriveName = quantity("", "Which drive")
+
+
+class Silence(Checked):
+    """A drive without power."""
+
+    kind: Literal["silent"] = "silent"
+    node: DriveName = quantity("", "Which drive")
+
+
+class BusErrors(Checked):
+    """Error frames on the bus, one a millisecond."""
+
+    kind: Literal["bus_errors"] = "bus_errors"
+    count: Whole = quantity("frames", "How many", ge=1, le=10_000, default=1)
+
+
+class CurrentOffset(Checked):
+    """A drive that makes more current than asked."""
+
+    kind: Literal["current_offset"] = "current_offset"
+    node: DriveName = quantity("", "Which drive")
+    offset_a: Number = quantity("A", "How much more", ge=-15, le=15)
+
+
+RigFault = Annotated[
+    DropFrames
+    | LateFrames
+    | FrozenEncoder
+    | ReversedEncoder
+    | ReversedMotor
+    | BrownOut
+    | Stall
+    | Silence
+    | Unplugged
+    | ZeroedCounter
+    | BusErrors
+    | CurrentOffset,
+    BY_KIND,
+]

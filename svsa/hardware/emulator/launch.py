@@ -1,0 +1,55 @@
+"""Start an emulated rig as a process of its own, and end it."""
+
+import contextlib
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from svsa.hardware.emulator.control import RigControl, RigError
+
+START_S = 60.0
+_READY = re.compile(r"socketcand 127\.0\.0\.1:(\d+), slcan (\S+), control 127\.0\.0\.1:(\d+)")
+
+
+class RunningRig(NamedTuple):
+    """Where a rig is: the port of socketcand, the pty of slcan, the control port."""
+
+    port: int
+    slcan: str
+    control_port: int
+    control: RigControl
+    process: subprocess.Popen[str]
+
+
+@contextlib.contextmanager
+def start_rig(lockstep: bool = True, idle_s: float = 120.0, *options: str) -> Iterator[RunningRig]:
+    """A rig on free ports of this machine, ended at the end; raises `RigError`."""
+    command = [
+        sys.executable,
+        "-m",
+        "svsa.hardware.emulator.cli",
+        "--port",
+        "0",
+        "--control-port",
+        "0",
+    ]
+    command += ["--idle-s", str(idle_s), *options, *(["--lockstep"] if lockstep else [])]
+    process = subprocess.Popen(  # noqa: S603
+        command, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
+    )
+    try:
+        if process.stdout is None:
+            raise RigError("The emulated rig has no output.")
+        line = process.stdout.readline()
+        found = _READY.search(line)
+        if found is None:
+            raise RigError(f"The emulated rig did not start: {line.strip() or 'it said nothing'}")
+        with RigControl(int(found[3])) as control:
+            yield RunningRig(int(found[1]), found[2], int(found[3]), control, process)
+    finally:
+        process.terminate()
+        process.wait(START_S)
+        if process.stdout is not None:
+            process.stdout.close()

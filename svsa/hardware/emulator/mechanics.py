@@ -1,0 +1,159 @@
+"""The mechanism between two instants: the true plant, on a grid of 100 µs.
+
+The current loops take a new target at the next point of the grid, as a loop of 10 kHz does.
+Between two events all periods are one compiled call.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.dynamics import Actuator, build_actuator
+from svsa.actuators.lever import compute_lever_ratio_slope
+from svsa.actuators.signals import State, Torque
+from svsa.errors import StateError
+from svsa.hardware.emulator.parameters import RigParameters
+from svsa.numerics.compilation import compiled
+from svsa.numerics.packed import pack, view_field
+from svsa.simulation.loop.lane import AT_REST, NO_TORQUE
+from svsa.simulation.loop.measured import read_state, store_state, store_torque
+from svsa.simulation.plant.effects import Bench, Effects, build_bench
+from svsa.simulation.plant.integration import coast
+from svsa.simulation.plant.loads import (
+    Load,
+    LoadTable,
+    ScheduledLoad,
+    build_load_table,
+    schedule_load,
+)
+from svsa.simulation.plant.stops import Stops
+
+GRID_US = 100
+MAX_LOADS = 100
+_PERIOD_S = GRID_US * 1e-6
+
+
+class _Plant(NamedTuple):
+    """What stays as it is: the true actuator, its effects, its stops."""
+
+    actuator: Actuator
+    bench: Bench
+    stops: Stops
+
+
+class _Moving(NamedTuple):
+    """Where it is; what the motors make, and what they are asked for, N·m."""
+
+    x: State = AT_REST
+    torque: Torque = NO_TORQUE
+    target: Torque = NO_TORQUE
+
+
+@compiled
+def _coast_on(
+    plant: np.ndarray, moving: np.ndarray, table: LoadTable, tick: int, count: int
+) -> None:
+    """`coast` with a `_Plant` and a `_Moving` that are packed: cheap to call from Python."""
+    p, m = plant[0], moving[0]
+    torque, target = Torque(m.torque.u1, m.torque.u2), Torque(m.target.u1, m.target.u2)
+    x, made = coast(
+        p.actuator, p.bench, p.stops, read_state(m.x), torque, target, table, tick, _PERIOD_S, count
+    )
+    store_state(m.x, x)
+    store_torque(m.torque, made)
+
+
+class Mechanics:
+    """The actuator, what its motors make, and what hangs on it; begins at rest at home.
+
+    torque: what the motors make at the last point of the grid, target: what they are asked
+    for, N·m at the gearbox outputs.
+    """
+
+    def __init__(self, parameters: RigParameters) -> None:
+        p = parameters
+        effects = Effects(friction=p.friction, current_lag=p.current_lag, gravity=p.gravity)
+        slope = compute_lever_ratio_slope(p.actuator.spiral_reduction)
+        plant = _Plant(
+            build_actuator(p.actuator, p.lever_ratio),
+            build_bench(effects, p.seed, p.actuator, _PERIOD_S),
+            Stops(
+                (p.lever_ratio_min - p.lever_ratio) / slope,
+                (p.lever_ratio_max - p.lever_ratio) / slope,
+                float(p.deflection_max_rad),
+            ),
+        )
+        self._plant, self._moving = pack(plant), pack(_Moving())
+        self._state = view_field(self._moving, "x")
+        self._made = view_field(self._moving, "torque")
+        self._asked = view_field(self._moving, "target")
+        self._tick = 0
+        self._x = AT_REST
+        self.torque = self.target = NO_TORQUE
+        self._loads: tuple[ScheduledLoad, ...] = ()
+        self._table = build_load_table(())
+        self._load_count = 0
+        self._coast(0)
+
+    @property
+    def load_count(self) -> int:
+        """How many loads hang on the rig or are still to come."""
+        return sum(load.end_tick > self._tick for load in self._loads)
+
+    def read(self, time_us: int) -> State:
+        """x at this time; between two points of the grid it goes on with its velocities."""
+        self._coast(time_us // GRID_US)
+        since = time_us * 1e-6 - self._tick * _PERIOD_S
+        x = self._x
+        if time_us == self._tick * GRID_US:
+            return x
+        return State(
+            x.q + x.dq * since,
+            x.dq,
+            x.theta1 + x.dtheta1 * since,
+            x.dtheta1,
+            x.theta2 + x.dtheta2 * since,
+            x.dtheta2,
+        )
+
+    def set_target(self, time_us: int, target: Torque) -> None:
+        """Ask the motors for this torque, N·m, from the next point of the grid on."""
+        if target != self.target:
+            self._coast(-(-time_us // GRID_US))
+            self.target = target
+            self._asked[:] = target
+
+    def add_load(self, time_us: int, load: Load) -> int:
+        """Hang a load on; its `start_s` is the rig's time. Returns its number.
+
+        Raises `StateError` where too many hang there.
+        """
+        if self.load_count >= MAX_LOADS:
+            raise StateError(f"{MAX_LOADS} loads are on the rig: take some off first.")
+        now = max(self._tick, -(-time_us // GRID_US))
+        self._load_count += 1
+        loads = [*self._loads, schedule_load(self._load_count, load, now, _PERIOD_S)]
+        self._loads = tuple(load for load in loads if load.end_tick > self._tick)
+        self._table = build_load_table(self._loads)
+        return self._load_count
+
+    def clear_loads(self, time_us: int) -> None:
+        """Take every load off, also those still to come."""
+        self._coast(-(-time_us // GRID_US))
+        self._loads = ()
+        self._table = build_load_table(())
+
+    def home(self, time_us: int) -> None:
+        """Put the mechanism to its zero marks, at rest, as an operator does by hand."""
+        self._coast(-(-time_us // GRID_US))
+        self._state[:] = self._x = AT_REST
+
+    def _coast(self, tick: int) -> None:
+        if tick > self._tick or self._tick == 0:
+            _coast_on(self._plant, self._moving, self._table, self._tick, tick - self._tick)
+            self._tick = max(tick, self._tick)
+            self._x = State(*self._state.tolist())
+            self.torque = Torque(*self._made.tolist())
+        if not math.isfinite(sum(self._x)):
+            raise StateError("The emulated mechanism has left all bounds: home it.")

@@ -1,0 +1,106 @@
+"""The emulated bench as a value: Table 1's plant, and what stands around it on a bench."""
+
+from functools import cache
+from pathlib import Path
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from svsa.actuators.lever import compute_lever_ratio_for_stiffness
+from svsa.actuators.parameters import ActuatorParameters
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.inputs.toml_file import read_toml
+from svsa.runs.configuration import load_prototype
+from svsa.simulation.plant.effects import CurrentLag, Friction, LinkGravity
+
+HOME_STIFFNESS_NM_PER_RAD = 30.0
+
+Sign = Literal[-1, 1]
+
+
+class RigClock(Checked):
+    """When a part speaks: every whole ms of its own clock, which began at `phase_s`."""
+
+    phase_s: Number = quantity("s", "First beat after the rig's start", ge=0, le=0.001)
+    drift: Number = quantity("1", "How much longer its ms is", ge=-0.01, le=0.01, default=0.0)
+
+
+class RigMotor(RigClock):
+    """A drive, its motor, gearbox and encoder. Torque and angle are at the gearbox output."""
+
+    group: Whole = quantity("", "Group of the drive's address", ge=0, le=7, default=0)
+    number: Whole = quantity("", "Number of the drive's address", ge=1, le=15)
+    counts_per_rev: Whole = quantity("1", "Counts a motor turn", ge=4, le=10**7, default=2000)
+    gear_ratio: Number = quantity("1", "Gearbox N : 1", gt=0, le=10_000, default=50.0)
+    torque_constant_nm_per_a: Number = quantity("N·m/A", "K_t of the winding", gt=0, le=10)
+    efficiency: Number = quantity("1", "η of the gearbox", gt=0, le=1, default=0.9)
+    sign: Sign = quantity("", "1 where positive current grows angle and counts", default=1)
+    peak_current_a: Number = quantity(
+        "A", "Current the drive gives at most", gt=0, le=32, default=15
+    )
+
+    @property
+    def torque_nm_per_a(self) -> float:
+        """N η K_t with its sign: torque at the gearbox output for a current."""
+        return self.sign * self.gear_ratio * self.efficiency * self.torque_constant_nm_per_a
+
+
+class RigDeflection(RigClock):
+    """The deflection encoder, a node of its own: counts as i32 big-endian, every ms."""
+
+    can_id: Whole = quantity("", "Its standard identifier", ge=0, le=0x7FF, default=0x700)
+    counts_per_rev: Whole = quantity("1", "Counts a turn", ge=4, le=10**8, default=8000)
+    sign: Sign = quantity("", "1 where counts grow with φ = q − θ1", default=1)
+    offset_counts: Whole = quantity(
+        "counts", "What it counts at φ = 0", ge=-(2**30), le=2**30, default=0
+    )
+
+
+@cache
+def _compute_home_ratio() -> float:
+    K = load_prototype().actuator.rotational_stiffness_nm_per_rad
+    return float(compute_lever_ratio_for_stiffness(HOME_STIFFNESS_NM_PER_RAD, K))
+
+
+class RigParameters(Checked):
+    """All that the emulated bench is made of; left out, the prototype of Table 1.
+
+    The parts speak at different moments of each ms, none of them at the loop's. Supply
+    voltage is taken as ample: no back-EMF limits the current.
+    """
+
+    actuator: ActuatorParameters = Field(default_factory=lambda: load_prototype().actuator)
+    lever_ratio: Number = Field(
+        default_factory=_compute_home_ratio,
+        description="μ at θ2 = 0; left out, that of σ = 30 N·m/rad, 1",
+        json_schema_extra={"unit": "1"},
+        gt=0,
+        lt=1,
+    )
+    lever_ratio_min: Number = quantity("1", "Lower stop of μ", gt=0, lt=1, default=0.25)
+    lever_ratio_max: Number = quantity("1", "Upper stop of μ", gt=0, lt=1, default=0.83)
+    deflection_max_rad: Number = quantity("rad", "Stop of |φ|", gt=0, le=1.5, default=0.75)
+    motor1: RigMotor = RigMotor(number=1, torque_constant_nm_per_a=0.0396, phase_s=0.0003)
+    motor2: RigMotor = RigMotor(number=2, torque_constant_nm_per_a=0.0234, phase_s=0.0005)
+    deflection: RigDeflection = RigDeflection(phase_s=0.0008)
+    current_lag: CurrentLag | None = quantity("", "Lag of the current loops", default=CurrentLag())
+    friction: Friction | None = quantity("", "Motor friction", default=Friction())
+    gravity: LinkGravity | None = quantity("", "Weight of the link", default=None)
+    seed: Whole = quantity("", "Seed of what is random in faults", ge=0, le=2**31, default=0)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.lever_ratio_min < self.lever_ratio < self.lever_ratio_max:
+            bound = f"between its stops, {self.lever_ratio_min:g} and {self.lever_ratio_max:g}"
+            raise ParameterError(Violation("lever_ratio", self.lever_ratio, "1", bound))
+        addresses = [(motor.group, motor.number) for motor in (self.motor1, self.motor2)]
+        if addresses[0] == addresses[1]:
+            violation = Violation("motor2.number", self.motor2.number, "", "another than motor1's")
+            raise ParameterError(violation)
+        return self
+
+
+def read_rig(path: Path | str) -> RigParameters:
+    """Read a rig's file (TOML); raises `ParameterError` for every wrong value."""
+    return RigParameters(**read_toml(path, "rig file"))

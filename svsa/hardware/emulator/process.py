@@ -1,0 +1,83 @@
+"""The rig's process: frames in, time on, frames out; against the clock or in lockstep."""
+
+import math
+import select
+import time
+from typing import Any
+
+from svsa.hardware.emulator.control import ControlServer
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.exchange import Exchange
+from svsa.hardware.emulator.frame import FrameServer
+
+LONGEST_SLEEP_S = 0.5
+GRAIN_S = 0.00025
+"""Against the clock frames come so late at most, and then together, as from an adapter on USB."""
+
+
+class RigProcess:
+    """Serves a rig to its clients until told to stop, or idle for `idle_s` (0: for ever).
+
+    lockstep: time goes on only when a client asks for it. Frames are stamped with the rig's
+    time then, and with the time of day against the clock, as adapters do. alone_s: where nobody
+    asks any more for so long, it goes on by itself until somebody does, as a machine whose loop
+    is gone.
+    """
+
+    def __init__(
+        self,
+        rig: Rig,
+        servers: list[FrameServer],
+        control: ControlServer,
+        lockstep: bool,
+        idle_s: float = 0.0,
+        alone_s: float = math.inf,
+    ) -> None:
+        self._rig, self._servers, self._control = rig, servers, control
+        self._lockstep, self._idle_s = lockstep, idle_s
+        self._start = time.monotonic()
+        self._exchange = Exchange(rig, servers, lockstep, 0.0 if lockstep else time.time())
+        self._last_use = self._start
+        self._alone_s, self._asked = alone_s, 0
+        self._alone_since, self._left_us = math.inf, 0
+        self.stopped = False
+
+    def run(self) -> None:
+        """Serve until `stopped`, or idle for too long."""
+        while not self.stopped:
+            sources: list[Any] = [*self._control.sources()]
+            for server in self._servers:
+                sources += server.sources()
+            select.select(sources, [], [], self._choose_sleep())
+            self._control.poll()
+            if not self._lockstep:
+                self._exchange.advance_to(self._read_clock())
+            for server in self._servers:
+                self._exchange.serve(server)
+            now = time.monotonic()
+            if self._lockstep:
+                self._go_on_alone(now)
+            if any(server.listening for server in self._servers):
+                self._last_use = now
+            elif self._idle_s and now - self._last_use > self._idle_s:
+                return
+
+    def _go_on_alone(self, now: float) -> None:
+        """Let as much time pass as nobody has asked for; what has come is done before."""
+        if self._exchange.asked != self._asked:
+            self._asked = self._exchange.asked
+            self._alone_since, self._left_us = now + self._alone_s, self._rig.now_us
+        elif now > self._alone_since:
+            self._exchange.advance_to(self._left_us + int((now - self._alone_since) * 1e6))
+
+    def _choose_sleep(self) -> float:
+        waits = [LONGEST_SLEEP_S]
+        waits += [wait for server in self._servers if (wait := server.wait_s()) is not None]
+        if self._lockstep:
+            waits.append(max(GRAIN_S, self._alone_since - time.monotonic()))
+        else:
+            waits.append(max(GRAIN_S, (self._rig.next_event_us - self._read_clock()) * 1e-6))
+        return max(0.0, min(waits))
+
+    def _read_clock(self) -> int:
+        return int((time.monotonic() - self._start) * 1e6)

@@ -1,0 +1,147 @@
+"""A slcan (LAWICEL) adapter on a pseudo-terminal: one client at a time, as with a cable.
+
+Source: LAWICEL CANUSB manual, its ASCII commands. Each line ends with CR and is answered with CR,
+or with BELL where it is not known or not to be had now. Every bit rate is taken and makes no
+difference; a remote frame is acknowledged and goes nowhere, since nobody here would answer it.
+The protocol has no error frames: bus trouble is bit 7 of the status flags.
+"""
+
+import os
+import re
+import termios
+import tty
+from typing import Any
+
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.outbox import Outbox
+
+OK, BELL = b"\r", b"\a"
+MAX_UNREAD_BYTES = 65_536
+BUS_ERROR = 0x80
+_HEX = "[0-9A-Fa-f]"
+_STANDARD = re.compile(rf"t([0-7]{_HEX}{{2}})([0-8])((?:{_HEX}{{2}}){{0,8}})")
+_EXTENDED = re.compile(rf"T([01]{_HEX}{{7}})([0-8])((?:{_HEX}{{2}}){{0,8}})")
+_REMOTE = re.compile(rf"r[0-7]{_HEX}{{2}}[0-8]|R[01]{_HEX}{{7}}[0-8]")
+_BIT_RATE = re.compile(rf"S[0-8]|s{_HEX}{{4}}")
+_VERSION, _SERIAL_NUMBER = b"V1013\r", b"NSVSA\r"
+
+
+class SlcanServer:
+    """A `FrameServer` whose one client is whoever opens the terminal at `path`."""
+
+    def __init__(self) -> None:
+        self._ours, self._theirs = os.openpty()
+        tty.setraw(self._theirs)
+        self.path = os.ttyname(self._theirs)
+        os.set_blocking(self._ours, False)
+        self._unread = bytearray()
+        self._outbox = Outbox(lambda text: os.write(self._ours, text))
+        self._channel = ""
+        self._timed = False
+        self._flags = 0
+        self._arrived = False
+
+    @property
+    def listening(self) -> int:
+        """1 while the channel is open."""
+        return int(bool(self._channel))
+
+    def sources(self) -> list[int]:
+        """The terminal."""
+        return [self._ours]
+
+    def wait_s(self) -> float | None:
+        """Until more may go of what the client has still to be said."""
+        return self._outbox.wait_s
+
+    def poll(self) -> list[tuple[Any, Frame]]:
+        """Frames that the client has sent; everything else is answered."""
+        self.flush()
+        try:
+            self._unread += os.read(self._ours, 65536)
+        except OSError:
+            return []
+        *lines, rest = self._unread.split(OK)
+        self._unread = bytearray(rest[-MAX_UNREAD_BYTES:])
+        frames = []
+        for line in lines:
+            answer, frame = self._answer(line.decode("ascii", "replace").strip("\n"))
+            self._write(answer)
+            if frame is not None:
+                frames.append((self, frame))
+        self.flush()
+        return frames
+
+    def flush(self) -> None:
+        """Have the client be said what it has still to be said, as far as it reads."""
+        self._outbox.flush()
+
+    def _answer(self, line: str) -> tuple[bytes, Frame | None]:
+        """What a line is answered with, and the frame in it."""
+        if line in _FACTS:
+            return _FACTS[line], None
+        if not self._channel:
+            return self._set(line), None
+        if line == "C":
+            self._close_channel()
+            return OK, None
+        if line == "F":
+            flags, self._flags = self._flags, 0
+            return b"F%02X\r" % flags, None
+        if self._channel == "O":
+            acknowledged = b"z\r" if line[0] in "tr" else b"Z\r"
+            sent = _STANDARD.fullmatch(line) or _EXTENDED.fullmatch(line)
+            if sent and len(sent[3]) == 2 * int(sent[2]):
+                data = bytes.fromhex(sent[3])
+                return acknowledged, Frame(int(sent[1], 16), data, extended=line[0] == "T")
+            if _REMOTE.fullmatch(line):
+                return acknowledged, None
+        return BELL, None
+
+    def _set(self, line: str) -> bytes:
+        """A setting; they are taken while the channel is closed."""
+        if line in ("O", "L"):
+            self._channel, self._arrived = line, True
+            self._flags = 0
+        elif line in ("Z0", "Z1"):
+            self._timed = line == "Z1"
+        elif not _BIT_RATE.fullmatch(line):
+            return BELL
+        return OK
+
+    def take_arrivals(self) -> list[Any]:
+        """Itself, where the channel was opened since the last call."""
+        arrived, self._arrived = self._arrived, False
+        return [self] if arrived else []
+
+    def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
+        """Say a frame at the rig's time; times go along, in ms modulo a minute, after Z1."""
+        if not self._channel or but is self or (to is not None and to is not self):
+            return
+        if frame.error:
+            self._flags |= BUS_ERROR
+            return
+        name = f"T{frame.can_id:08X}" if frame.extended else f"t{frame.can_id:03X}"
+        stamp = f"{int(time_s * 1000) % 60_000:04X}" if self._timed else ""
+        self._write(f"{name}{len(frame.data)}{frame.data.hex().upper()}{stamp}\r".encode())
+
+    def _write(self, text: bytes) -> None:
+        """A client that has long read nothing has left: the channel is closed."""
+        try:
+            self._outbox.push(text)
+        except OSError:
+            self._close_channel()
+
+    def _close_channel(self) -> None:
+        """What was not read is not for who opens the channel next."""
+        self._channel = ""
+        self._outbox.clear()
+        termios.tcflush(self._theirs, termios.TCIFLUSH)
+
+    def close(self) -> None:
+        """Close the terminal."""
+        os.close(self._ours)
+        os.close(self._theirs)
+
+
+_FACTS = {"V": _VERSION, "v": _VERSION, "N": _SERIAL_NUMBER, "": OK}

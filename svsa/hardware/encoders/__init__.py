@@ -1,0 +1,36 @@
+"""Where the counts of the deflection encoder come from: one source a file."""
+
+from svsa.errors import ParameterError
+from svsa.hardware.encoders.source import DeflectionSource
+from svsa.hardware.file import DeflectionSettings
+
+
+def read_source(settings: DeflectionSettings) -> DeflectionSource:
+    """The source that the bench file names, not yet open.
+
+    Raises `ParameterError` for wrong options of it.
+    """
+    try:
+        return _build_source(settings)
+    except ParameterError as error:
+        raise error.within("deflection.options") from None
+
+
+def _build_source(settings: DeflectionSettings) -> DeflectionSource:
+    match settings.source:
+        case "can":
+            from svsa.hardware.encoders.can_node import CanNode, CanNodeSettings
+
+            return CanNode(CanNodeSettings(**settings.options))
+        case "serial":
+            from svsa.hardware.encoders.serial_line import SerialLine, SerialLineSettings
+
+            return SerialLine(SerialLineSettings(**settings.options))
+        case "nidaqmx":
+            from svsa.hardware.encoders.nidaqmx_counter import CounterSettings, NidaqmxCounter
+
+            return NidaqmxCounter(CounterSettings(**settings.options))
+        case "replay":
+            from svsa.hardware.encoders.replay import Replay, ReplaySettings
+
+            return Replay(ReplaySettings(**settings.options))

@@ -1,0 +1,52 @@
+"""Counts from a file, for trying out a bench without its encoder."""
+
+from pathlib import Path
+
+import can
+import numpy as np
+
+from svsa.hardware.encoders.source import EncoderError
+from svsa.inputs.checked import Checked, quantity
+
+
+class ReplaySettings(Checked):
+    """The file: CSV, a row "time_s,counts" each reading, times growing from 0."""
+
+    file: str = quantity("", "CSV file of readings")
+
+
+class Replay:
+    """The readings of a file, from the first call of `read` on; the last one stays."""
+
+    bits = 32
+
+    def __init__(self, settings: ReplaySettings) -> None:
+        self._path = Path(settings.file)
+        self._times = np.zeros(0)
+        self._counts = np.zeros(0, np.int64)
+        self._start: float | None = None
+
+    def open(self) -> None:
+        """Read the file; raises `EncoderError` where it is not readable."""
+        try:
+            rows = np.loadtxt(self._path, delimiter=",", skiprows=1, ndmin=2)
+            self._times, self._counts = rows[:, 0], rows[:, 1].astype(np.int64)
+        except (OSError, ValueError, IndexError) as error:
+            raise EncoderError(f"{self._path} cannot be replayed: {error}.") from None
+        if not len(self._times) or np.any(np.diff(self._times) <= 0.0):
+            raise EncoderError(f"{self._path} cannot be replayed: its times must grow.")
+        self._start = None
+
+    def feed(self, message: can.Message, time_s: float) -> bool:
+        """No frame of the bus is this encoder's."""
+        return False
+
+    def read(self, now_s: float) -> tuple[int, float] | None:
+        """The reading of the time since the first call, as if it were new."""
+        if self._start is None:
+            self._start = now_s
+        place = int(np.searchsorted(self._times, now_s - self._start, side="right")) - 1
+        return (int(self._counts[max(place, 0)]), now_s) if len(self._counts) else None
+
+    def close(self) -> None:
+        """Nothing is open."""

@@ -1,0 +1,88 @@
+"""How long the motors of a bench bear a load, before it is hung."""
+
+import math
+from collections.abc import Iterable
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNELS, TORQUES
+from svsa.hardware.file import BenchFile
+from svsa.hardware.safety.heat import Winding
+from svsa.runs.configuration import Configuration
+from svsa.runs.run import Run
+from svsa.simulation.plant.loads import Load
+
+BEFORE_S, LONGEST_S = 2.0, 30.0
+_STEP_S, _STRETCH_S = 0.01, 1.0
+
+Motor = Literal["motor1", "motor2"]
+
+
+class Endurance(NamedTuple):
+    """A motor that a load is too much for. torque_nm: rms that is asked for.
+
+    lasting_torque_nm: what it bears for ever. seconds: from the load's onset, the motor cold, until
+    heat holds its torque back.
+    """
+
+    motor: Motor
+    torque_nm: float
+    lasting_torque_nm: float
+    seconds: float
+
+
+def find_endurance(
+    bench: BenchFile, configuration: Configuration, loads: Iterable[Load]
+) -> Endurance | None:
+    """The motor that heat holds back first under these loads, or None where neither is in 30 s.
+
+    The bench's simulated twin moves as the configuration says and is given the loads after 2 s; its
+    torques warm windings that are cold then, in steps of 10 ms. None, too, where the run ends in
+    a fault before.
+
+    configuration: of the bench, see `build_bench_configuration`. loads: all that are on then.
+    """
+    run = Run(configuration.changed(rivals=(), loads=()))
+    limits = configuration.limits
+    windings = (
+        Winding(bench.motor1, limits.torque1_nm),
+        Winding(bench.motor2, limits.torque2_nm),
+    )
+    _advance(run, BEFORE_S)
+    onset_s = run.time_s
+    for load in loads:
+        run.add_load(load.changed(start_s=None))
+    step = round(_STEP_S / run.period_s)
+    torques = np.empty((0, 2))
+    while run.fault is None and run.time_s < onset_s + LONGEST_S:
+        begin_s = len(torques) * run.period_s
+        stretch = _advance(run, _STRETCH_S)
+        torques = np.vstack((torques, stretch))
+        for number in range(len(stretch) // step):
+            asked = stretch[number * step : (number + 1) * step]
+            held = _warm(windings, asked)
+            if held is not None:
+                return Endurance(
+                    "motor2" if held else "motor1",
+                    float(np.sqrt(np.mean(torques[:, held] ** 2))),
+                    windings[held].lasting_nm,
+                    begin_s + number * _STEP_S,
+                )
+    return None
+
+
+def _warm(windings: tuple[Winding, Winding], asked: np.ndarray) -> Literal[0, 1] | None:
+    """Heat after one step with torques (ticks, 2), N·m; the motor that it holds back, or None."""
+    for number, winding in enumerate(windings):
+        torque = np.abs(asked[:, number])
+        if winding.find_held_back(float(np.max(torque))) is not None:
+            return 1 if number else 0
+        winding.warm(math.sqrt(float(np.mean(torque**2))), _STEP_S)
+    return None
+
+
+def _advance(run: Run, seconds: float) -> np.ndarray:
+    """u1, u2 of so long, (ticks, 2); fewer where the run has ended."""
+    samples = np.empty((1, round(seconds / run.period_s), len(CHANNELS)))
+    return samples[0, : run.advance(samples)][:, TORQUES]

@@ -1,0 +1,205 @@
+"""A bench as its file describes it: bus, drives, motors, encoders, timing and safety.
+
+What belongs to a particular motor or encoder has no silent default: a bench whose winding,
+gearbox, efficiency, sign or counts are not given can be checked, but does not arm.
+"""
+
+from pathlib import Path
+from typing import Any, Literal
+
+from svsa.errors import ParameterError, Violation
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.inputs.toml_file import read_toml
+
+PERIODS_S = (0.001, 0.002)
+Sign = Literal[-1, 1]
+_ADDRESS = "of the drive's CAN address"
+
+
+class BusSettings(Checked):
+    """What python-can is given; `options` goes to `can.Bus` as it is."""
+
+    interface: str = quantity("", "Interface of python-can: socketcan, slcan, pcan, socketcand …")
+    channel: str = quantity("", "Channel of that interface, as can0 or /dev/ttyACM0")
+    bitrate: Whole = quantity("bit/s", "Bit rate", ge=10_000, le=1_000_000, default=1_000_000)
+    options: dict[str, Any] = quantity("", "More arguments of can.Bus", default={})
+    timestamps: Literal["bus", "arrival"] = quantity(
+        "", "bus: the adapter's time of a frame; arrival: when it was read", default="bus"
+    )
+
+
+class MotorSettings(Checked):
+    """A drive and its motor. Torque is at the gearbox output; None is not known yet."""
+
+    drive_group: Whole = quantity("", f"Group {_ADDRESS}", ge=0, le=7, default=0)
+    drive_number: Whole = quantity("", f"Number {_ADDRESS}", ge=1, le=15)
+    counts_per_rev: Whole | None = quantity(
+        "1", "Counts a motor turn, after quadrature", ge=4, le=10**7, default=None
+    )
+    gear_ratio: Number | None = quantity("1", "Gearbox N : 1", gt=0, le=10_000, default=None)
+    torque_constant_nm_per_a: Number | None = quantity(
+        "N·m/A", "K_t of the winding", gt=0, le=10, default=None
+    )
+    efficiency: Number | None = quantity("1", "η of the gearbox", gt=0, le=1, default=None)
+    sign: Sign | None = quantity(
+        "", "1 where positive current grows the angle of the model", default=None
+    )
+    nominal_current_a: Number = quantity("A", "Continuous current", gt=0, le=32)
+    peak_current_a: Number = quantity("A", "Current never passed", gt=0, le=32)
+    thermal_time_s: Number = quantity("s", "Thermal time constant of the winding", gt=0, le=3600)
+    pwm_limit: Whole = quantity("1", "Limit of the drive's PWM", ge=0, le=5000, default=5000)
+    speed_max_rad_per_s: Number = quantity("rad/s", "Fastest at the output", gt=0, le=1000)
+    position_min_rad: Number = quantity("rad", "Lowest angle at the output", ge=-100, le=100)
+    position_max_rad: Number = quantity("rad", "Highest angle at the output", ge=-100, le=100)
+
+
+class DeflectionSettings(Checked):
+    """The deflection encoder; `options` is what its source needs."""
+
+    source: Literal["can", "serial", "nidaqmx", "replay"] = quantity("", "Where counts come from")
+    counts_per_rev: Whole | None = quantity(
+        "1", "Counts a turn, after quadrature", ge=4, le=10**8, default=None
+    )
+    sign: Sign | None = quantity("", "1 where counts grow with φ = q − θ1", default=None)
+    options: dict[str, Any] = quantity("", "Settings of the source", default={})
+
+
+class HomeSettings(Checked):
+    """What holds at the zero marks."""
+
+    lever_ratio: Number = quantity("1", "μ at the stiffness motor's zero mark", gt=0, lt=1)
+
+
+class TimingSettings(Checked):
+    """The loop's period and what lies between measuring and acting."""
+
+    period_s: Number = quantity("s", "Control period T, 0.001 or 0.002", default=0.001)
+    latency_s: Number = quantity("s", "From a tick to its current", ge=0, le=0.002, default=0.0004)
+    current_lag_s: Number = quantity(
+        "s", "Time constant of the current loops", ge=0, le=0.05, default=0.0005
+    )
+    feedback_age_s: Number = quantity(
+        "s", "Age of a count when its frame is stamped", ge=0, le=0.005, default=0.0002
+    )
+    start_silence_s: Number = quantity(
+        "s",
+        "A loop that starts is given up when it has not got on for so long",
+        ge=1,
+        le=3600,
+        default=60.0,
+    )
+
+
+class SafetySettings(Checked):
+    """Limits beside those of the motors; see `svsa.hardware.safety.guard`."""
+
+    torque_rate_nm_per_s: Number = quantity("N·m/s", "Fastest change of torque", gt=0, le=1e6)
+    disturbance_max_nm: Number = quantity(
+        "N·m", "|ŵ| beyond which an encoder or motor must be wrong", gt=0, le=1000
+    )
+    standstill_max_nm: Number = quantity(
+        "N·m",
+        "Change of ŵ while counts stand still: more than twice the friction",
+        gt=0,
+        default=1.0,
+    )
+    link_position_max_rad: Number = quantity("rad", "|q| at most", gt=0, le=100)
+    link_speed_max_rad_per_s: Number = quantity("rad/s", "Fastest link", gt=0, le=1000)
+    ramp_s: Number = quantity("s", "From full torque to zero at a stop", ge=0.01, le=5, default=0.3)
+    stale_zero_s: Number = quantity("s", "Feedback older: zero torque", gt=0, le=1, default=0.005)
+    stale_fault_s: Number = quantity("s", "Feedback older: fault", gt=0, le=1, default=0.020)
+    missed_ticks: Whole = quantity("ticks", "Missed in a row: fault", ge=1, le=1000, default=20)
+    loop_s: Number = quantity(
+        "s", "Loop silent: the supervisor stops the drives", ge=0.005, le=1, default=0.020
+    )
+    supervisor_s: Number = quantity("s", "Supervisor silent: fault", gt=0, le=5, default=0.05)
+    server_s: Number = quantity("s", "Server silent: ramp to zero", ge=0.1, le=60, default=1.0)
+    dead_man: Flag = quantity("", "It runs only while the operator holds a switch", default=False)
+    operator_s: Number = quantity("s", "Switch not held: ramp to zero", ge=0.05, le=2, default=0.1)
+    needs_watcher: Flag = quantity("", "Runs only while a stream of it is open", default=True)
+
+
+class DesignSettings(Checked):
+    """The control design of this bench."""
+
+    file: str | None = quantity("", "Parameter file; left out, the prototype's", default=None)
+    corner_rad_per_s: Number = quantity(
+        "rad/s", "Corner of the state estimator", ge=1, le=2000, default=200.0
+    )
+
+
+class EmulatorSettings(Checked):
+    """Where an emulated rig is told what happens to it, and whose time it has."""
+
+    control_port: Whole = quantity("", "Its control port", ge=1, le=65535)
+    lockstep: Flag = quantity(
+        "",
+        "The rig (`svsa rig --lockstep`) waits for the loop: a busy machine makes both slow, not"
+        " late",
+        default=False,
+    )
+
+
+class BenchFile(Checked):
+    """A bench; `path` is where the file lies."""
+
+    name: str = quantity("", "What people call it")
+    bus: BusSettings
+    supervisor_bus: BusSettings | None = quantity(
+        "", "The supervisor's own way to the bus, where an adapter serves one program", default=None
+    )
+    motor1: MotorSettings
+    motor2: MotorSettings
+    deflection: DeflectionSettings
+    home: HomeSettings
+    timing: TimingSettings = TimingSettings()
+    safety: SafetySettings
+    design: DesignSettings = DesignSettings()
+    emulator: EmulatorSettings | None = None
+    path: str = quantity("", "The file itself", default="")
+
+    def find_missing(self) -> list[str]:
+        """What is not known of the bench yet, and without which it does not arm."""
+        wanted = {
+            "motor1": ("counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency"),
+            "motor2": ("counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency"),
+            "deflection": ("counts_per_rev",),
+        }
+        return [
+            f"{AXIS_WORDS[section]} has no {_WORDS[name]}: {section}.{name} is not given"
+            for section, names in wanted.items()
+            for name in (*names, "sign")
+            if getattr(getattr(self, section), name) is None
+        ]
+
+
+_WORDS = {
+    "counts_per_rev": "counts a turn",
+    "gear_ratio": "gear ratio",
+    "torque_constant_nm_per_a": "torque constant",
+    "efficiency": "efficiency",
+    "sign": "sign",
+}
+
+
+def read_bench(path: Path | str) -> BenchFile:
+    """Read a bench file (TOML); raises `ParameterError` for every wrong value."""
+    bench = BenchFile(**{**read_toml(path, "bench file"), "path": str(path)})
+    for name in ("motor1", "motor2"):
+        motor: MotorSettings = getattr(bench, name)
+        lowest, highest, peak = motor.position_min_rad, motor.position_max_rad, motor.peak_current_a
+        if not lowest < highest:
+            bound = f"less than position_max_rad = {highest:g} rad"
+            raise ParameterError(Violation(f"{name}.position_min_rad", lowest, "rad", bound))
+        if peak < motor.nominal_current_a:
+            bound = f"at least nominal_current_a = {motor.nominal_current_a:g} A"
+            raise ParameterError(Violation(f"{name}.peak_current_a", peak, "A", bound))
+    if bench.timing.period_s not in PERIODS_S:
+        bound = "0.001 or 0.002 s: a drive takes a command each ms at most"
+        raise ParameterError(Violation("timing.period_s", bench.timing.period_s, "s", bound))
+    numbers = [(motor.drive_group, motor.drive_number) for motor in (bench.motor1, bench.motor2)]
+    if numbers[0] == numbers[1]:
+        number = bench.motor2.drive_number
+        raise ParameterError(Violation("motor2.drive_number", number, "", "another than motor1's"))
+    return bench

@@ -1,0 +1,61 @@
+"""The guided zero: link, principal motor and stiffness motor, each confirmed at its mark.
+
+A drive's reset takes its position as zero, so the marks are confirmed after every arming:
+the mechanism stands at its marks when the drives are reset. What outlives a power cycle is
+the deflection encoder's zero, in the calibration record.
+"""
+
+from typing import Literal, NamedTuple
+
+from svsa.errors import ParameterError, StateError, Violation
+from svsa.hardware.axes import AXIS_WORDS
+
+Axis = Literal["link", "motor1", "motor2"]
+
+
+class HomingStep(NamedTuple):
+    """An axis and what to look at before it is confirmed."""
+
+    name: Axis
+    instruction: str
+
+
+STEPS = (
+    HomingStep("link", "Set the link to its zero mark by hand, spring relaxed: q = 0, φ = 0."),
+    HomingStep("motor1", "See that the principal motor stands at its zero mark: θ1 = 0."),
+    HomingStep("motor2", "See that the spiral stands at its zero mark: θ2 = 0."),
+)
+DONE = "All axes are at home."
+
+
+class Homing:
+    """What has been confirmed since the drives were last reset."""
+
+    def __init__(self) -> None:
+        self.confirmed: dict[str, str] = {}
+
+    @property
+    def next_step(self) -> Axis | None:
+        """The axis to confirm next, or None when all are."""
+        return next((step.name for step in STEPS if step.name not in self.confirmed), None)
+
+    def confirm(self, step: str, by: str) -> None:
+        """That `by` has seen this axis at its mark; raises `StateError` out of turn."""
+        names = [known.name for known in STEPS]
+        if step not in names:
+            raise ParameterError(Violation("step", step, "", "one of " + ", ".join(names)))
+        if not by.strip():
+            raise ParameterError(Violation("by", by, "", "the name of who looked at the mark"))
+        if step != self.next_step:
+            told = AXIS_WORDS[self.next_step] if self.next_step else "nothing is left"
+            raise StateError(f"The next mark to confirm is not that of {AXIS_WORDS[step]}: {told}.")
+        self.confirmed[step] = by
+
+    def reset(self) -> None:
+        """Forget: the drives have been reset."""
+        self.confirmed.clear()
+
+
+def get_instruction(step: str | None) -> str:
+    """What to look at, in words."""
+    return next((known.instruction for known in STEPS if known.name == step), DONE)

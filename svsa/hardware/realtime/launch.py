@@ -1,0 +1,256 @@
+"""Start the processes of a bench, the loop and its supervisor, and talk with the loop.
+
+Nothing here blocks but by `rest`: whoever has more to do than wait for a bench says how to.
+"""
+
+import contextlib
+import math
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.link import LinkClosedError, build_links
+from svsa.hardware.realtime.memory import LoopMemory
+from svsa.hardware.realtime.prepared_laws import UnpreparedLawError
+from svsa.hardware.safety.heartbeat import Heartbeats
+from svsa.runs.configuration import Configuration
+
+if TYPE_CHECKING:
+    from svsa.hardware.safety.third_line import ThirdLine
+
+LISTEN_S = 0.1
+END_S = 5.0
+PATIENCE_S = 0.5
+_REST_S = 0.001
+
+Process = subprocess.Popen[bytes]
+Rest = Callable[[float], None]
+"""Let so many seconds pass."""
+
+Teller = Callable[[str, float], None]
+COLD = (0.0, 0.0)
+"""The heat of both motors where nobody has run them."""
+
+
+def keep_quiet(step: str, seconds: float) -> None:
+    """Tell nobody what a loop does while it starts."""
+
+
+class BenchError(StateError):
+    """The processes of a bench could not be started, or are gone or silent."""
+
+
+class BenchProcesses:
+    """The loop and the supervisor of one bench, each a process that is being started.
+
+    `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or end. `events`:
+    what the loop has said and nobody has read yet. `notes`: what real time was granted. `step`:
+    what the loop does until it is ready. `failure`: why it did not get ready, or None. heat: of
+    both motors as a loop before this one left them, see `Winding`. patience_s: a loop that has not
+    ticked for longer is silent, and a command is answered within it.
+    """
+
+    def __init__(
+        self,
+        bench: Path,
+        configuration: Configuration,
+        rest: Rest = time.sleep,
+        heat: tuple[float, float] = COLD,
+        patience_s: float = PATIENCE_S,
+    ) -> None:
+        self.memory, self.beats = LoopMemory.create(), Heartbeats.create()
+        self.memory.fields["heat"] = heat
+        self.events: list[dict[str, Any]] = []
+        self.notes: list[str] = []
+        self._rest, self.patience_s = rest, patience_s
+        self._number = 0
+        self._waiting: list[int] = []
+        self._answers: dict[int, dict[str, Any]] = {}
+        self._link, theirs = build_links()
+        self.beats.beat("server")
+        names = [str(bench), self.memory.name, self.beats.name, str(theirs.fileno())]
+        supervise = [str(bench), self.beats.name]
+        self._loop = _start("svsa.hardware.realtime.process", names, theirs.fileno())
+        self._supervisor = _start("svsa.hardware.safety.supervisor", supervise)
+        theirs.close()
+        self.third_line = _watch(bench, self.beats, self._loop, self._supervisor)
+        with contextlib.suppress(LinkClosedError):  # who waits until it is ready reads why
+            self._link.send({"configuration": configuration.model_dump(mode="json")})
+        self.step, self._begun_s = "starting its process", time.monotonic()
+        self.failure: str | None = None
+
+    @property
+    def age_s(self) -> float:
+        """Since they were started, s."""
+        return time.monotonic() - self._begun_s
+
+    def wait_until_ready(self, silence_s: float, tell: Teller) -> None:
+        """Wait as long as the loop gets on: a first compilation takes what it takes.
+
+        tell: hears what it is doing, with the seconds since its start. Raises `BenchError` where
+        the loop cannot open the bench, ends, or says nothing for silence_s; both are ended then.
+        """
+        try:
+            self._wait_until_ready(silence_s, tell)
+        except (LinkClosedError, BenchError) as error:
+            self.failure = f"The bench cannot be opened: {error}"
+            self.end()
+            raise BenchError(self.failure) from None
+
+    def _wait_until_ready(self, silence_s: float, tell: Teller) -> None:
+        heard = time.monotonic()
+        while time.monotonic() - heard < silence_s:
+            tell(self.step, self.age_s)
+            self._rest(LISTEN_S)
+            try:
+                self._read()
+            except LinkClosedError:
+                raise BenchError(f"its loop has ended, which was {self.step}.") from None
+            while self.events:
+                heard, event = time.monotonic(), self.events.pop(0)
+                match event["event"]:
+                    case "starting":
+                        self.step = event["step"]
+                    case "failed":
+                        raise BenchError(event["message"])
+                    case "ready":
+                        self.notes = event["notes"]
+                        return
+        raise BenchError(
+            f"its loop has not got on for {silence_s:g} s: it was {self.step}. On a slow machine"
+            " set [timing] start_silence_s in the bench file."
+        )
+
+    @property
+    def alive(self) -> bool:
+        """Whether the loop's process runs."""
+        return self._loop.poll() is None
+
+    @property
+    def supervisor_alive(self) -> bool:
+        """Whether the supervisor's process runs: a bench without it does not get ready."""
+        return self._supervisor.poll() is None
+
+    @property
+    def silence_s(self) -> float:
+        """Since the loop's last tick, s; 0 where it has not begun, or has ended in order."""
+        age = self.beats.age_s("loop")
+        return 0.0 if math.isinf(age) else age
+
+    @property
+    def listens(self) -> bool:
+        """Whether the loop can be asked for something: its process runs and ticks."""
+        return self.alive and self.silence_s <= self.patience_s
+
+    def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
+        """Have the loop do something between two ticks, and rest until it answers.
+
+        Raises what the loop refused with (`ParameterError`, `StateError`), and `BenchError`
+        where it is silent or does not answer in time; a command that comes too late is not
+        carried out. Requests that rest at the same time are answered in their order.
+        """
+        if not self.listens:
+            raise BenchError(self._describe_silence())
+        until = time.monotonic() + self.patience_s
+        try:
+            number = self._send(wanted, argument, until)
+            self._waiting.append(number)
+            try:
+                while time.monotonic() < until:
+                    self._read()
+                    if number in self._answers and self._waiting[0] == number:
+                        return _check(self._answers.pop(number))
+                    self._rest(_REST_S)
+            finally:
+                self._waiting.remove(number)
+        except LinkClosedError:
+            raise BenchError(self._describe_silence()) from None
+        raise BenchError(f"The loop of the bench did not answer within {self.patience_s:g} s.")
+
+    def tell(self, wanted: str, argument: Any = None) -> None:
+        """As `request`, without waiting to hear what becomes of it."""
+        if self.listens:
+            with contextlib.suppress(LinkClosedError):
+                self._send(wanted, argument, time.monotonic() + self.patience_s)
+
+    def _describe_silence(self) -> str:
+        what = "is silent" if self.alive else "is gone"
+        return (
+            f"The loop of the bench {what} since {self.silence_s:.1f} s: nothing can be asked of"
+            " it. Start it anew."
+        )
+
+    def _send(self, wanted: str, argument: Any, until: float) -> int:
+        self._number += 1
+        message = {"number": self._number, "do": wanted, "argument": argument, "until": until}
+        self._link.send(message)
+        return self._number
+
+    def take_events(self) -> list[dict[str, Any]]:
+        """What the loop has said since the last time."""
+        with contextlib.suppress(LinkClosedError):
+            self._read()
+        events, self.events = self.events, []
+        return events
+
+    def _read(self) -> None:
+        """Take what has come: events, and answers that somebody waits for."""
+        for message in self._link.receive():
+            if "event" in message:
+                self.events.append(message)
+            elif message["answer"] in self._waiting:
+                self._answers[message["answer"]] = message
+
+    def end(self) -> None:
+        """Ramp to zero, and end both processes: the supervisor after the loop."""
+        with contextlib.suppress(SvsaError):
+            self.request("end")
+        if self.alive and self.silence_s > self.patience_s:
+            self._loop.kill()
+        self._link.close()
+        self._wait(self._loop)
+        self.third_line.stop(self._rest)
+        self._supervisor.terminate()
+        self._wait(self._supervisor)
+
+    def free(self) -> None:
+        """Let go of the memory: nothing of it can be read any more."""
+        self.memory.close()
+        self.beats.close()
+
+    def _wait(self, process: subprocess.Popen[bytes]) -> None:
+        """Rest until a process has ended; one that hangs is killed."""
+        end = time.monotonic() + END_S
+        while process.poll() is None and time.monotonic() < end:
+            self._rest(_REST_S)
+        if process.poll() is None:
+            process.kill()
+            process.wait()
+
+
+def _watch(bench: Path, beats: Heartbeats, loop: Process, supervisor: Process) -> "ThirdLine":
+    from svsa.hardware.safety.third_line import ThirdLine  # late: it needs the extra `bench`
+
+    return ThirdLine(read_bench(bench), beats, loop, supervisor)
+
+
+def _start(module: str, arguments: list[str], *descriptors: int) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-m", module, *arguments]
+    return subprocess.Popen(  # noqa: S603
+        command, pass_fds=descriptors, stdin=subprocess.DEVNULL, start_new_session=True
+    )
+
+
+def _check(answer: dict[str, Any]) -> dict[str, Any]:
+    if "refused" not in answer:
+        return answer
+    if "violations" in answer:
+        raise ParameterError(*(Violation(**violation) for violation in answer["violations"]))
+    if "unprepared" in answer:
+        raise UnpreparedLawError(answer["unprepared"])
+    raise StateError(answer["refused"])

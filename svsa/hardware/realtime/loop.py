@@ -1,0 +1,236 @@
+"""The loop on a bench, tick by tick: read → follow → decide → write → publish.
+
+The same pieces as on the simulated plant, around a plant that is read and written. It
+knows neither processes nor shared memory: a test or an experiment runs it in lockstep, the
+loop's process against the clock.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, State, Torque
+from svsa.control.call import BoundLaw, build_call
+from svsa.control.installed import get_law
+from svsa.errors import StateError
+from svsa.hardware.reading import Reading
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.numerics.packed import pack, view_field
+from svsa.runs.blocks import Bind, bind_law
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration
+from svsa.runs.run import Run, Start
+from svsa.simulation.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
+from svsa.simulation.loop.measured import (
+    Actuation,
+    BenchConstants,
+    Carried,
+    follow_and_decide,
+    pass_ticks,
+    publish_and_predict,
+)
+
+STATUSES = tuple(BenchStatus)
+MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
+MOTION = ("known", "made", "before", "sent")
+"""Of what is carried (`Carried`): what the first tick of a run finds."""
+FARTHEST_RAD = 2.0 * math.pi
+"""Where a reference may be."""
+_NOTHING = pack(Carried())
+
+
+class Plant(Protocol):
+    """A plant that is read and written, in the states of a bench."""
+
+    @property
+    def status(self) -> BenchStatus:
+        """Where it is."""
+        ...
+
+    def start(self, now: float) -> None:
+        """RUN from the next tick on; raises `StateError`."""
+        ...
+
+    def read(self, now: float, known: State) -> Reading:
+        """What has come since the last tick. known: x̂ now."""
+        ...
+
+    def write(
+        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+    ) -> Torque:
+        """Send what may be sent of `asked`; returns the torque that was really sent, N·m."""
+        ...
+
+
+class SampleSink(Protocol):
+    """Where samples go: shared memory, or an array."""
+
+    def begin_run(self, number: int) -> None:
+        """Samples from now on are those of run `number`, from tick 0."""
+        ...
+
+    def get_row(self, tick: int) -> np.ndarray:
+        """Where the sample of this tick goes; then `commit` it."""
+        ...
+
+    def commit(self, tick: int) -> None:
+        """The row of this tick is written."""
+        ...
+
+    def skip(self, first: int, ticks: int) -> None:
+        """These ticks, from tick `first` on, were missed: their rows are NaN, not committed."""
+        ...
+
+
+class BenchLoop:
+    """Controller and observer on a bench. `run` holds what is set; `tick` is one period.
+
+    plant: open. actuation: from a torque that is decided to one that acts. mu0: lever ratio at the
+    zero marks. configuration: its references, law, gains and observer are used; see
+    `build_bench_configuration`. bind: binds the law of a lane.
+    """
+
+    def __init__(
+        self,
+        plant: Plant,
+        actuation: Actuation,
+        mu0: float,
+        configuration: Configuration,
+        sink: SampleSink,
+        bind: Bind = bind_law,
+    ) -> None:
+        self.plant, self.sink = plant, sink
+        self.number = 0
+        self.reading: Reading | None = None
+        self._actuation, self._mu0, self._bind = actuation, mu0, bind
+        self.run = Run(configuration, start=Start(self._mu0, AT_REST), bind=bind)
+        self._scratch = np.empty(len(CHANNELS))
+        self._carried = _NOTHING.copy()
+        self._known, self._estimate, self._asked, self._expected, self._measured, self._ages = (
+            view_field(self._carried, name)
+            for name in ("known", "estimate", "asked", "expected", "measured", "ages_s")
+        )
+        self._blocks: Blocks | None = None
+        self._called: tuple[BoundLaw, np.ndarray] | None = None
+        self._constants = np.empty(0)
+        self._forget()
+
+    def _forget(self) -> None:
+        """Know nothing of the state: the next measurement is where it begins."""
+        self._is_known = False
+        self._carried[:] = _NOTHING
+        self.run.lanes[0].memory[:] = get_law(self.run.configuration.law).start_memory()
+
+    def load(self, configuration: Configuration) -> None:
+        """Use this configuration from the next start on; raises `StateError` in motion."""
+        if self.plant.status in MOVING:
+            raise StateError("The bench is moving: stop it before another run is loaded.")
+        x = State(*self._known.tolist())
+        near = x if abs(x.q) <= FARTHEST_RAD else AT_REST
+        self.run = Run(configuration, start=Start(self._mu0, near), bind=self._bind)
+
+    def start(self, now: float) -> Start:
+        """Begin a run at tick 0 from where the bench stands; raises `StateError`.
+
+        The references fade in from the measured position and stiffness, and ŵ begins at
+        zero, so that the first torque is about zero.
+        """
+        if self.plant.status is BenchStatus.READY and not self._is_known:
+            raise StateError("The bench has not been read yet: arm it and wait until READY.")
+        known = State(*self._known.tolist())
+        if self._is_known and abs(known.q) > FARTHEST_RAD:
+            raise StateError(
+                f"The link stands {known.q:.1f} rad from its mark, and a run begins at most"
+                f" {FARTHEST_RAD:.1f} rad from it: take off what hangs, press Quick stop, clear"
+                " the fault, set the bench to its marks, and arm it."
+            )
+        self.plant.start(now)
+        still = known._replace(dq=0.0, dtheta1=0.0, dtheta2=0.0)
+        start = Start(self._mu0, still)
+        self.run = Run(self.run.configuration, start=start, bind=self._bind)
+        self._estimate[:] = UNDISTURBED
+        self.number += 1
+        self.sink.begin_run(self.number)
+        return start
+
+    def read_motion(self) -> dict[str, list[float]]:
+        """x̂ and the torques on their way, by the names in `MOTION`."""
+        return {name: view_field(self._carried, name).tolist() for name in MOTION}
+
+    def know(self, motion: Mapping[str, Sequence[float]]) -> None:
+        """Know the bench as `read_motion` told it, in place of a first measurement."""
+        for name in MOTION:
+            view_field(self._carried, name)[:] = motion[name]
+        self._is_known = True
+
+    def change(self, command: Command) -> int:
+        """Give the run a command now; returns the tick at which it holds.
+
+        Raises `ParameterError` or `StateError`, and then nothing has changed.
+        """
+        command.apply(self.run)
+        return self.run.tick
+
+    def warm_up(self) -> None:
+        """Have every compiled piece loaded before time counts."""
+        self._decide(Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, 1)
+        self._publish(NO_TORQUE, self._scratch)
+        self._forget()
+
+    def tick(self, now: float, missed: int = 0) -> None:
+        """One period. now: time of the plant's clock, s. missed: ticks lost before it.
+
+        A run's time goes on with that of the world: a tick that was missed has its number, and
+        no sample. Tick 0 is the first that a run has, and finds the bench as `start` did. Where
+        nothing was measured the run does not go on: the server waits for every tick of a run.
+        """
+        plant = self.plant
+        begins = not self.run.tick and plant.status in MOVING
+        if missed and self._is_known and not begins:
+            pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, missed)
+        reading = self.reading = plant.read(now, State(*self._expected.tolist()))
+        measurement = reading.measurement
+        if measurement is None:
+            self._forget()
+            plant.write(now, NO_TORQUE, AT_REST, UNDISTURBED, missed)
+            return
+        moving = plant.status in MOVING
+        if missed and not begins and moving:
+            self.sink.skip(self.run.tick, missed)
+            self.run.tick += missed
+        known, estimate, asked = self._decide(measurement, reading.ages_s)
+        sent = plant.write(now, asked if moving else NO_TORQUE, known, estimate, missed)
+        tick = self.run.tick
+        row = self.sink.get_row(tick) if moving else self._scratch
+        self._publish(sent, row)
+        if moving:
+            self.run.tick = tick + 1
+            self.sink.commit(tick)
+
+    def _decide(
+        self, y: Measurement, ages_s: tuple[float, float, float]
+    ) -> tuple[State, Disturbance, Torque]:
+        """x̂, ŵ and the torque that is asked for. It begins at rest where y was measured first."""
+        if not self._is_known:
+            self._known[:] = (y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
+            self._is_known = True
+        run = self.run
+        if run.blocks[0] is not self._blocks:
+            self._connect()
+        self._measured[:], self._ages[:] = y, ages_s
+        follow_and_decide(self._constants, run.inputs, self._carried, run.tick)
+        known, estimate, asked = self._known, self._estimate, self._asked
+        return State(*known.tolist()), Disturbance(*estimate.tolist()), Torque(*asked.tolist())
+
+    def _connect(self) -> None:
+        """Pack what is constant as the run has it now, its law with the memory of that."""
+        run = self.run
+        self._blocks, self._called = run.blocks[0], (run.laws[0], run.lanes[0].memory)
+        call = build_call(*self._called)
+        self._constants = pack(BenchConstants(self._blocks, self._actuation, call))
+
+    def _publish(self, sent: Torque, row: np.ndarray) -> None:
+        publish_and_predict(self._constants, self._carried, sent.u1, sent.u2, self.run.tick, row)

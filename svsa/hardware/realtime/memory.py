@@ -1,0 +1,124 @@
+"""What the loop's process shares with the server: samples in a ring, and how it does.
+
+One writer, one reader, no lock: a sample is written before the count that announces it.
+"""
+
+from multiprocessing import shared_memory
+from typing import Self
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNELS
+from svsa.hardware.safety.heartbeat import attach_block
+
+CAPACITY_TICKS = 16_384
+_EDGES_A_DECADE = 100
+LATENESS_EDGES_S = np.concatenate(
+    [10.0 ** (np.arange(-6 * _EDGES_A_DECADE, 1) / _EDGES_A_DECADE), [np.inf]]
+)
+
+_LAYOUT = np.dtype(
+    [
+        ("run", np.int64),
+        ("end_tick", np.int64),
+        ("ticks", np.int64),
+        ("skipped", np.int64),
+        ("skipped_in_run", np.int64),
+        ("status", np.int64),
+        ("emulated", np.int64),
+        ("quick_stop", np.int64),
+        ("worst_s", np.float64),
+        ("current_a", np.float64, 2),
+        ("heat", np.float64, 2),
+        ("allowed_nm", np.float64, 2),
+        ("is_held_back", np.int64, 2),
+        ("ages_s", np.float64, 3),
+        ("lateness", np.int64, len(LATENESS_EDGES_S)),
+        ("cost", np.int64, len(LATENESS_EDGES_S)),
+        ("rows", np.float64, (CAPACITY_TICKS, len(CHANNELS))),
+    ]
+)
+
+
+class LoopMemory:
+    """A block of shared memory; `fields` are views of it by name, see `_LAYOUT`.
+
+    run: number of the present run. end_tick: its samples so far. skipped_in_run: ticks that it
+    missed. ticks, skipped: of the loop since its start. status: index of the bench's state.
+    quick_stop: 1 asks for it. heat, allowed_nm, is_held_back: of both motors, see
+    `Winding`; the heat is at first that of a loop before this one.
+    lateness, cost: histograms over `LATENESS_EDGES_S` (upper edges).
+    """
+
+    def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:
+        self._block, self._owner = block, owner
+        self.name = block.name
+        self.fields = np.ndarray((), _LAYOUT, block.buf)
+        self._rows = self.fields["rows"]
+
+    @classmethod
+    def create(cls) -> Self:
+        """A new block, zeroed; who created it also removes it at `close`."""
+        block = shared_memory.SharedMemory(create=True, size=_LAYOUT.itemsize)
+        memory = cls(block, owner=True)
+        memory.fields[...] = np.zeros((), _LAYOUT)
+        return memory
+
+    @classmethod
+    def attach(cls, name: str) -> Self:
+        """The block of that name, made by another process."""
+        return cls(attach_block(name), owner=False)
+
+    @property
+    def number(self) -> int:
+        """Of the present run."""
+        return int(self.fields["run"])
+
+    def count(self, number: int) -> int:
+        """How many samples of run `number` there are; 0 where another has begun."""
+        return int(self.fields["end_tick"]) if number == self.number else 0
+
+    def begin_run(self, number: int) -> None:
+        """Samples from now on are those of this run, from tick 0."""
+        self.fields["end_tick"] = self.fields["skipped_in_run"] = 0
+        self.fields["run"] = number
+
+    def get_row(self, tick: int) -> np.ndarray:
+        """Where the sample of this tick goes; then `commit` it."""
+        return self._rows[tick % CAPACITY_TICKS]
+
+    def commit(self, tick: int) -> None:
+        """The row of this tick is written."""
+        self.fields["end_tick"] = tick + 1
+
+    def skip(self, first: int, ticks: int) -> None:
+        """These ticks, from tick `first` on, were missed: their rows are NaN."""
+        self.fields["skipped_in_run"] += ticks
+        missed = first + np.arange(min(ticks, CAPACITY_TICKS))
+        self._rows[missed % CAPACITY_TICKS] = np.nan
+
+    def read(self, first: int, rows: np.ndarray) -> None:
+        """Copy the samples from tick `first` on into `rows` (ticks, channels)."""
+        ticks = np.arange(first, first + len(rows)) % CAPACITY_TICKS
+        rows[:] = self._rows[ticks]
+
+    def close(self) -> None:
+        """Let go of the block, and remove it where it was created."""
+        del self.fields, self._rows
+        self._block.close()
+        if self._owner:
+            self._block.unlink()
+
+
+def add_to_histogram(histogram: np.ndarray, value_s: float) -> None:
+    """Count a time (s) into its bin."""
+    histogram[np.searchsorted(LATENESS_EDGES_S, value_s)] += 1
+
+
+def read_quantile(histogram: np.ndarray, share: float) -> float:
+    """The upper edge (s) below which this share of the counts lies; 0 where there is none."""
+    total = int(histogram.sum())
+    if not total:
+        return 0.0
+    reached = np.searchsorted(np.cumsum(histogram), share * total)
+    return float(LATENESS_EDGES_S[min(reached, len(LATENESS_EDGES_S) - 2)])

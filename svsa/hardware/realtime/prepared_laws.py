@@ -1,0 +1,149 @@
+"""The laws of a bench's loop: compiled and loaded before READY, only looked up in a tick.
+
+To import, compile or load a law takes 10 to 100 ms, and so do the constants of some laws (LQI
+solves twenty Riccati equations). A tick has 1 ms. The loop's process therefore loads every law
+before its first tick. Constants that it does not have yet are computed by the server's process.
+"""
+
+import json
+from typing import Any
+
+import numpy as np
+
+from svsa.actuators.domain import Domain
+from svsa.actuators.dynamics import Actuator
+from svsa.control.call import BoundLaw
+from svsa.control.installed import get_law
+from svsa.control.law import LawError, Setting
+from svsa.control.parameters import LawParameters
+from svsa.errors import StateError
+from svsa.numerics.packed import pack
+from svsa.runs.blocks import build_setting
+from svsa.runs.configuration import Configuration, Lane
+from svsa.simulation.loop.lane import Blocks
+
+MAX_BOUND = 256
+"""Bound laws that are kept: those that were used last."""
+_RESTART = "Restart the loop of the bench when it is corrected."
+
+_KEY = ("law", "parameters", "setting")
+
+
+class UnpreparedLawError(StateError):
+    """The loop lacks the constants of a law.
+
+    Attributes:
+        wanted: What `compute_constants` needs, as JSON can hold it.
+    """
+
+    def __init__(self, wanted: dict[str, Any]) -> None:
+        self.wanted = wanted
+        super().__init__(
+            f"The law {wanted['law']} is not prepared for its parameters: give the command again."
+        )
+
+
+class PreparedLaws:
+    """Bind laws for the loop; after `close`, only from what was prepared before.
+
+    Attributes:
+        refused: Why a law cannot be used on this bench, by its name.
+    """
+
+    def __init__(self) -> None:
+        self.refused: dict[str, str] = {}
+        self._bound: dict[tuple[str, str, Setting], BoundLaw] = {}
+        self._layouts: dict[tuple[str, str], tuple[np.dtype, np.dtype]] = {}
+        self._is_closed = False
+
+    def close(self) -> None:
+        """Import, compile and compute nothing from now on."""
+        self._is_closed = True
+
+    def bind(self, configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
+        """Bind the law of one lane, as `svsa.runs.blocks.bind_law` does.
+
+        Args:
+            configuration: Of the run.
+            lane: Its law and parameters.
+            blocks: The blocks of the lane.
+
+        Returns:
+            The law as the compiled loop calls it.
+
+        Raises:
+            LawError: If the law is not usable on this bench.
+            UnpreparedLawError: If its constants have to be computed first.
+        """
+        if self._is_closed and lane.law in self.refused:
+            reason = self.refused[lane.law]
+            raise LawError(f"The law {lane.law} is not ready on this bench. {reason} {_RESTART}")
+        parameters, setting = configuration.get_parameters(lane), build_setting(blocks)
+        key = lane.law, parameters.model_dump_json(), setting
+        bound = self._bound.pop(key, None)
+        if bound is None and self._is_closed:
+            raise UnpreparedLawError(dict(zip(_KEY, key, strict=True)))
+        self._keep(key, bound or self._load(lane.law, parameters, setting))
+        return self._bound[key]
+
+    def add(self, computed: dict[str, Any]) -> None:
+        """Take in constants that another process has computed.
+
+        Args:
+            computed: As `compute_constants` returns it.
+
+        Raises:
+            LawError: If the law is not compiled for constants of this layout.
+        """
+        name, setting = computed["law"], _read_setting(computed["setting"])
+        layout = self._layouts.get((name, computed["layout"]))
+        if layout is None:
+            raise LawError(
+                f"The law {name} is not compiled for constants of this layout on this bench: its"
+                " parameters decide how many numbers it has. Use parameters that leave the layout"
+                " as it was when the loop was started."
+            )
+        words = np.array(computed["constants"], np.uint64)
+        bound = get_law(name).bind_packed(pack(setting.nominal), words.view(layout[1]))
+        self._keep((name, computed["parameters"], setting), bound)
+
+    def _load(self, name: str, parameters: LawParameters, setting: Setting) -> BoundLaw:
+        law, nominal = get_law(name), pack(setting.nominal)
+        constants = law.pack_constants(parameters, setting)
+        bound = law.bind_packed(nominal, constants)
+        layout = _describe_layout(nominal, constants)
+        self._layouts[name, layout] = nominal.dtype, constants.dtype
+        return bound
+
+    def _keep(self, key: tuple[str, str, Setting], bound: BoundLaw) -> None:
+        self._bound[key] = bound
+        if len(self._bound) > MAX_BOUND:
+            del self._bound[next(iter(self._bound))]
+
+
+def compute_constants(wanted: dict[str, Any]) -> dict[str, Any]:
+    """Compute the constants of a law that a loop lacks, in a process that may take its time.
+
+    Args:
+        wanted: Of an `UnpreparedLawError`.
+
+    Returns:
+        `wanted` with the constants, for `PreparedLaws.add`.
+
+    Raises:
+        LawError: If the law's own code fails at it.
+    """
+    law, setting = get_law(wanted["law"]), _read_setting(wanted["setting"])
+    parameters = law.parameters(**json.loads(wanted["parameters"]))
+    constants = law.pack_constants(parameters, setting)
+    layout = _describe_layout(pack(setting.nominal), constants)
+    return {**wanted, "layout": layout, "constants": constants.view(np.uint64).tolist()}
+
+
+def _read_setting(numbers: Any) -> Setting:
+    nominal, domain, *others = numbers
+    return Setting(Actuator(*nominal), Domain(*domain), *others)
+
+
+def _describe_layout(nominal: np.ndarray, constants: np.ndarray) -> str:
+    return f"{nominal.dtype.descr} {constants.dtype.descr}"

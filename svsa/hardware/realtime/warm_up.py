@@ -1,0 +1,120 @@
+"""What a bench may be told while its loop runs, done once before time counts.
+
+The first use of a law, of a kind of reference or of an effect imports modules, loads machine code
+from the cache, and compiles what is not there. That takes up to 100 ms, and a tick has 1 ms.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from svsa.control.gains import Gains
+from svsa.control.installed import get_law, list_law_names
+from svsa.errors import SvsaError
+from svsa.hardware.realtime.loop import BenchLoop
+from svsa.hardware.realtime.prepared_laws import PreparedLaws
+from svsa.runs.command import read_command
+from svsa.runs.configuration import Configuration
+from svsa.simulation.plant.effects import EVERY
+
+_CHIRP = {"kind": "chirp", "start_hz": 0.1, "end_hz": 1.0, "duration_s": 1.0}
+_TIMES_S = [0.0, 1.0, 2.0]
+_LEVELS_RAD = [0.0, 0.1, 0.2]
+_TORQUE_NM = [0.1, 0.0, 0.0]
+
+
+def warm_up(loop: BenchLoop, laws: PreparedLaws, tell: Callable[[str], None]) -> None:
+    """Use every law and every kind of command once, and leave the loop as it was.
+
+    From then on `laws` looks up what is prepared, and computes nothing. A law that fails is
+    refused with its reason; the others are not affected.
+
+    Args:
+        loop: At rest; its laws are bound by `laws`.
+        laws: Of the loop.
+        tell: Is called with each step.
+    """
+    configuration = loop.run.configuration
+    names = list_law_names()
+    for number, name in enumerate(names, 1):
+        tell(f"loading the control laws: {name}, {number} of {len(names)}")
+        try:
+            _use(loop, "law", name)
+        except SvsaError as error:
+            laws.refused[name] = str(error)
+    tell("loading the references, loads and effects")
+    loop.load(configuration)
+    ready = [name for name in names if name not in laws.refused]
+    for kind, argument in list_changes(configuration, ready):
+        _use(loop, kind, argument)
+    laws.close()
+    loop.load(configuration)
+
+
+def _use(loop: BenchLoop, kind: str, argument: Any) -> None:
+    """Give the loop a command as its link does, and compute a tick."""
+    loop.change(read_command({"tick": 0, "kind": kind, "argument": argument}))
+    loop.warm_up()
+
+
+def list_changes(configuration: Configuration, laws: list[str]) -> list[tuple[str, Any]]:
+    """List a change of every kind, with every kind of reference and load.
+
+    Args:
+        configuration: What the bench runs on.
+        laws: The laws that can be used.
+
+    Returns:
+        Kind and argument of each, as JSON has them. The bench takes all of them.
+    """
+    c, limits = configuration.model_dump(mode="json"), configuration.limits
+    middle = 0.5 * (limits.stiffness_min_nm_per_rad + limits.stiffness_max_nm_per_rad)
+    own = [law for law in laws if get_law(law).parameters is not Gains]
+    lane = {"law": configuration.law}
+    positions = (
+        {"kind": "constant"},
+        {"kind": "sine", "amplitude_rad": 0.1, "frequency_hz": 1.0},
+        {"kind": "steps", "time_s": _TIMES_S, "position_rad": _LEVELS_RAD},
+        {"kind": "minimum_jerk", "end_rad": 0.1, "duration_s": 1.0},
+        {**_CHIRP, "amplitude_rad": 0.1},
+        {"kind": "series", "time_s": _TIMES_S, "position_rad": _LEVELS_RAD},
+    )
+    steady, held = {"offset_nm_per_rad": middle, "amplitude_nm_per_rad": 0.0}, [middle] * 3
+    stiffnesses = (
+        {"kind": "constant", "stiffness_nm_per_rad": middle},
+        {"kind": "sine", **steady, "frequency_hz": 1.0},
+        {"kind": "steps", "time_s": _TIMES_S, "stiffness_nm_per_rad": held},
+        {
+            "kind": "minimum_jerk",
+            "start_nm_per_rad": middle,
+            "end_nm_per_rad": middle,
+            "duration_s": 1.0,
+        },
+        {**_CHIRP, **steady},
+        {"kind": "series", "time_s": _TIMES_S, "stiffness_nm_per_rad": held},
+    )
+    loads = (
+        {"kind": "paper"},
+        {"kind": "mass"},
+        {"kind": "constant", "torque_nm": _TORQUE_NM},
+        {"kind": "pulse", "torque_nm": _TORQUE_NM, "duration_s": 0.1},
+        {"kind": "push", "torque_nm": _TORQUE_NM},
+        {"kind": "sine", "torque_nm": _TORQUE_NM, "frequency_hz": 1.0},
+        {"kind": "series", "time_s": _TIMES_S, "torque_nm": [_TORQUE_NM] * 3},
+    )
+    return [
+        *(("position", reference) for reference in positions),
+        *(("stiffness", reference) for reference in stiffnesses),
+        ("law", configuration.law),
+        ("laws", [configuration.law]),
+        ("gains", c["gains"]),
+        ("parameters", {law: {} for law in own}),
+        ("observer", c["observer"]),
+        ("actuator", c["actuator"]),
+        ("nominal", c["nominal"]),
+        ("effects", EVERY.model_dump(mode="json")),
+        ("rivals", [lane, lane]),
+        ("lane", {"lane": 2, "setting": lane}),
+        *(("load", load) for load in loads),
+        ("unload", 1),
+        ("stop", None),
+    ]

@@ -1,0 +1,227 @@
+"""The limits of one tick on a bench: what of a torque may be sent, and what ends the run."""
+
+import math
+
+from svsa.actuators.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
+from svsa.actuators.dynamics import Actuator
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.file import BenchFile, MotorSettings
+from svsa.hardware.safety.faults import Alarm
+from svsa.hardware.safety.heat import HeldBack, HoldingBack, Winding, describe_held_back
+from svsa.hardware.safety.standstill import NewCounts, Standstill
+from svsa.hardware.safety.vibration import REVERSALS, WINDOW_S, Vibration
+from svsa.numerics.packed import pack
+from svsa.runs.fault_labels import label_fault
+
+POSITION_MARGIN_RAD = 0.2
+OVERLOAD = 1.05
+_STILL = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class MotorGuard:
+    """The limits of one motor.
+
+    Its winding is warmed by the current that was asked for or, where it is greater, the one that
+    the drive says it makes. A drive that makes more than heat allows brings it above 1.05, which
+    ends the run. last: sent, N·m.
+    """
+
+    def __init__(self, name: str, motor: MotorSettings, torque_max: float, rate: float) -> None:
+        self.name, self._title, self._motor = name, AXIS_WORDS[name].capitalize(), motor
+        self._rate = rate
+        self.winding, self._holding = Winding(motor, torque_max), HoldingBack()
+        self.last = 0.0
+
+    @property
+    def held_back(self) -> HeldBack | None:
+        """What heat takes of its torque, now or within the last half second; None for nothing."""
+        return self._holding.present
+
+    def begin(self) -> None:
+        """A new run begins; its heat is that of the runs before."""
+        self._holding.forget()
+
+    def warm(self, current_a: float, seconds: float) -> None:
+        """Heat after so long with what was sent last; current_a: as the drive says."""
+        made = abs(current_a) * self.winding.scale
+        self.winding.warm(max(abs(self.last), made), seconds)
+        self._holding.pass_time(seconds)
+
+    def limit(self, torque: float, angle: float, period: float) -> float:
+        """The torque (N·m) that may be sent: limit, rate, heat, and no way out of its ends."""
+        self._holding.note(self.winding.find_held_back(torque))
+        most = self.winding.allow()
+        torque = min(max(torque, -most), most)
+        step = self._rate * period
+        torque = min(max(torque, self.last - step), self.last + step)
+        if angle > self._motor.position_max_rad:
+            torque = min(torque, 0.0)
+        elif angle < self._motor.position_min_rad:
+            torque = max(torque, 0.0)
+        return torque
+
+    def check(self, angle: float, velocity: float) -> Alarm | None:
+        """What is wrong with the motor, or None."""
+        name, motor = self.name, self._motor
+        if abs(velocity) > motor.speed_max_rad_per_s:
+            return _exceeded(
+                "overspeed",
+                f"{self._title} turned with",
+                f"{name}_velocity_rad_per_s",
+                velocity,
+                motor.speed_max_rad_per_s,
+                "rad/s",
+            )
+        beyond = max(angle - motor.position_max_rad, motor.position_min_rad - angle)
+        if beyond > POSITION_MARGIN_RAD:
+            end = motor.position_max_rad if angle > 0.0 else motor.position_min_rad
+            words = f"{self._title} stood at"
+            return _exceeded("position_limit", words, f"{name}_position_rad", angle, end, "rad")
+        return None
+
+    def find_overload(self) -> Alarm | None:
+        """Whether the winding is warmer than any torque that was asked for makes it."""
+        heat = self.winding.heat
+        if heat <= OVERLOAD:
+            return None
+        words = f"{self._title} is too warm: its heat (I²t, 1 is what its winding bears) was"
+        return _exceeded("overload", words, f"{self.name}_heat", heat, OVERLOAD, "")
+
+    def explain(self, alarm: Alarm) -> Alarm:
+        """An alarm that came while heat held the motor back says so first."""
+        held = self.held_back
+        if held is None:
+            return alarm
+        values = {
+            f"{self.name}_heat": self.winding.heat,
+            f"{self.name}_asked_nm": held.asked_nm,
+            f"{self.name}_held_to_nm": held.allowed_nm,
+        }
+        words = describe_held_back(self.name, held, self.winding)
+        return Alarm(alarm.code, f"{words} {alarm.message}", {**alarm.values, **values})
+
+
+class Guard:
+    """The limits of the whole bench.
+
+    counts: of motor 1, motor 2 and deflection in this tick; None where one is too old.
+    """
+
+    def __init__(
+        self, bench: BenchFile, torque_max: tuple[float, float], domain: Domain, actuator: Actuator
+    ) -> None:
+        rate = bench.safety.torque_rate_nm_per_s
+        self._safety, self._period = bench.safety, bench.timing.period_s
+        self._bounds = pack(Bounds(domain, actuator))
+        self.motor1 = MotorGuard("motor1", bench.motor1, torque_max[0], rate)
+        self.motor2 = MotorGuard("motor2", bench.motor2, torque_max[1], rate)
+        self.motors = (self.motor1, self.motor2)
+        self.counts: NewCounts | None = None
+        self._standstill = Standstill(bench.safety.standstill_max_nm)
+        self._vibrations = (Vibration(self._period), Vibration(self._period))
+        check_packed_domain(self._bounds, _STILL)  # compiled here, not in the first tick that runs
+
+    def limit(self, asked: Torque, known: State) -> Torque:
+        """What of `asked` may be sent, N·m."""
+        return Torque(
+            self.motor1.limit(asked.u1, known.theta1, self._period),
+            self.motor2.limit(asked.u2, known.theta2, self._period),
+        )
+
+    def note(self, sent: Torque, current_a: tuple[float, float]) -> None:
+        """What was sent in this period, N·m, and the currents that the drives say they make."""
+        for motor, torque, current in zip(self.motors, sent, current_a, strict=True):
+            motor.last = torque
+            motor.warm(current, self._period)
+
+    def pass_ticks(self, missed: int, held_s: float, current_a: tuple[float, float]) -> None:
+        """Nothing was sent for so many periods: a drive holds its last current meanwhile.
+
+        held_s: for so long at most, s; the supervisor told it zero then. current_a: as the
+        drives say now.
+        """
+        seconds = missed * self._period
+        for motor, current in zip(self.motors, current_a, strict=True):
+            motor.warm(current, min(seconds, held_s))
+            if seconds > held_s:
+                motor.last = 0.0
+                motor.warm(current, seconds - held_s)
+
+    def find_overload(self) -> Alarm | None:
+        """The motor that is too warm, or None."""
+        return self.motor1.find_overload() or self.motor2.find_overload()
+
+    def check(self, asked: Torque, known: State, estimate: Disturbance) -> Alarm | None:
+        """Why the run ends, or None. known: x̂. estimate: ŵ, N·m."""
+        if not math.isfinite(asked.u1 + asked.u2 + sum(known) + sum(estimate)):
+            return Alarm("not_finite", "A torque or a state was not a finite number.", {})
+        alarm = (
+            self.motor1.check(known.theta1, known.dtheta1)
+            or self.motor2.check(known.theta2, known.dtheta2)
+            or self._check_link(known)
+            or self._check_estimate(estimate)
+            or self._standstill.check(self.counts, estimate)
+            or self._check_vibration(known)
+        )
+        return alarm and self.motor1.explain(self.motor2.explain(alarm))
+
+    def begin(self) -> None:
+        """A new run begins."""
+        self._standstill.reset()
+        for motor in self.motors:
+            motor.begin()
+        for vibration in self._vibrations:
+            vibration.reset()
+
+    def _check_link(self, known: State) -> Alarm | None:
+        safety = self._safety
+        if abs(known.dq) > safety.link_speed_max_rad_per_s:
+            most = safety.link_speed_max_rad_per_s
+            words = "The link turned with"
+            return _exceeded("overspeed", words, "velocity_rad_per_s", known.dq, most, "rad/s")
+        if abs(known.q) > safety.link_position_max_rad:
+            most = safety.link_position_max_rad
+            words = "The link stood at"
+            return _exceeded("position_limit", words, "position_rad", known.q, most, "rad")
+        code = check_packed_domain(self._bounds, known)
+        if code == INSIDE:
+            return None
+        values = {"deflection_rad": known.q - known.theta1, "motor2_position_rad": known.theta2}
+        message = (
+            f"{label_fault(FAULT_CODES[code])}: the actuator left the domain of the model with a"
+            f" deflection of {values['deflection_rad']:.4f} rad and its stiffness motor at"
+            f" {known.theta2:.4f} rad."
+        )
+        return Alarm(FAULT_CODES[code], message, values)
+
+    def _check_vibration(self, known: State) -> Alarm | None:
+        shakes1 = self._vibrations[0].update(known.dtheta1)
+        shakes2 = self._vibrations[1].update(known.dtheta2)
+        if not (shakes1 or shakes2):
+            return None
+        name, velocity = ("motor1", known.dtheta1) if shakes1 else ("motor2", known.dtheta2)
+        words = (
+            f"{AXIS_WORDS[name].capitalize()} shakes: it turned around {REVERSALS} times within"
+            f" {WINDOW_S:g} s. The loop is unstable: an encoder stands still or counts the wrong"
+            " way, feedback comes late, or the gains are too high."
+        )
+        return Alarm("vibration", words, {f"{name}_velocity_rad_per_s": velocity})
+
+    def _check_estimate(self, estimate: Disturbance) -> Alarm | None:
+        most = self._safety.disturbance_max_nm
+        for name, value in zip(("link", "motor1", "motor2"), estimate, strict=True):
+            if abs(value) > most:
+                words = (
+                    f"The observer sees a torque on {AXIS_WORDS[name]} that no load makes: it was"
+                )
+                return _exceeded("implausible", words, f"estimate_{name}_nm", value, most, "N·m")
+        return None
+
+
+def _exceeded(code: str, subject: str, name: str, value: float, most: float, unit: str) -> Alarm:
+    """subject: what exceeds its limit, for people; name: the same for scripts."""
+    words = f"{subject} {value:.4g} {unit}: the limit is {most:.4g} {unit}."
+    return Alarm(
+        code, words.replace(" :", ":").replace(" .", "."), {name: value, f"{name}_limit": most}
+    )

@@ -1,0 +1,106 @@
+"""The heat of a motor's winding (I²t): what it allows, and how long it has held a torque back."""
+
+import math
+from typing import NamedTuple
+
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.drives.conversion import build_motor_scale
+from svsa.hardware.file import MotorSettings
+from svsa.numerics.exponential import expm1
+
+WARM = 0.9
+LINGERS_S = 0.5
+"""So long after it held a torque back heat still counts as a reason for what happens."""
+
+
+def compute_lasting_torque(motor: MotorSettings) -> float:
+    """The torque at the output that a motor bears for ever: that of its nominal current, N·m."""
+    return motor.nominal_current_a * _compute_scale(motor)
+
+
+def _compute_scale(motor: MotorSettings) -> float:
+    """|τ| at the output for 1 A, N·m."""
+    return abs(build_motor_scale(motor).torque_per_ma) * 1000.0
+
+
+class HeldBack(NamedTuple):
+    """A torque that heat did not allow, of what the motor gives cold, and what it did, N·m."""
+
+    asked_nm: float
+    allowed_nm: float
+
+
+class Winding:
+    """The heat h of one winding, 1 is all it bears, and the torque that it allows.
+
+    ḣ = ((τ/τ_n)² − h)/T and |τ| ≤ τ_n + (τ_p − τ_n) (1 − h)/(1 − 0.9) for 0.9 ≤ h ≤ 1, with the
+    torques τ_n, τ_p of nominal and peak current: at τ_n, which it bears for ever, heat stays at 1.
+    torque_max: of the design, N·m. scale: N·m at the output for 1 A.
+    """
+
+    def __init__(self, motor: MotorSettings, torque_max: float) -> None:
+        self.scale = _compute_scale(motor)
+        self._peak = motor.peak_current_a * self.scale
+        self._time_s = motor.thermal_time_s
+        self.lasting_nm = compute_lasting_torque(motor)
+        self.cold_nm = min(torque_max, self._peak)
+        self.heat = 0.0
+
+    def warm(self, torque: float, seconds: float) -> None:
+        """Heat after so long with this torque, N·m; of one that changes its rms."""
+        share = (torque / self.lasting_nm) ** 2
+        self.heat += -expm1(-seconds / self._time_s) * (share - self.heat)
+
+    def allow(self) -> float:
+        """The greatest torque that it allows now, N·m."""
+        if self.heat <= WARM:
+            return self.cold_nm
+        room = max((1.0 - self.heat) / (1.0 - WARM), 0.0)
+        return min(self.cold_nm, self.lasting_nm + room * (self._peak - self.lasting_nm))
+
+    def find_held_back(self, torque: float) -> HeldBack | None:
+        """What heat takes of a torque that is asked for, N·m; None where it takes nothing."""
+        asked, allowed = min(abs(torque), self.cold_nm), self.allow()
+        return HeldBack(asked, allowed) if asked > allowed else None
+
+
+class HoldingBack:
+    """Whether heat holds a motor's torque back, now or within the last half second."""
+
+    def __init__(self) -> None:
+        self._newest: HeldBack | None = None
+        self._since_s = math.inf
+
+    @property
+    def present(self) -> HeldBack | None:
+        """The newest torque that was held back; None where it was longer ago."""
+        return self._newest if self._since_s <= LINGERS_S else None
+
+    def note(self, held: HeldBack | None) -> None:
+        """What heat took of the torque of this tick."""
+        if held is not None:
+            self._newest, self._since_s = held, 0.0
+
+    def pass_time(self, seconds: float) -> None:
+        """So long later."""
+        self._since_s += seconds
+
+    def forget(self) -> None:
+        """A new run begins."""
+        self._since_s = math.inf
+
+
+def describe_held_back(name: str, held: HeldBack, winding: Winding) -> str:
+    """Of what heat took, as the first sentence of a fault that came then. name: of the axis."""
+    motor = AXIS_WORDS[name]
+    return (
+        f"{motor.capitalize()} was held back by heat: its winding had {100.0 * winding.heat:.0f} %"
+        f" of the heat that it bears, and gave {held.allowed_nm:.3g} N·m at most where"
+        f" {held.asked_nm:.3g} N·m were asked for ({winding.lasting_nm:.3g} N·m is what it bears"
+        " for ever)."
+    )
+
+
+def describe_heat(name: str, is_on: bool) -> str:
+    """That heat begins to hold a motor back, or ends to, as an event."""
+    return f"{AXIS_WORDS[name].capitalize()} held back by heat{'' if is_on else ': no more'}"

@@ -1,0 +1,209 @@
+"""The states of a bench: what may be sent in each, and how one leads to the next.
+
+    OFF → RESET → CONFIG → MODE → READY → RUN → RAMP → READY        any → FAULT → OFF
+
+A fault is latched with its values, the first one counts, and only `clear` leaves it. Outside
+RUN and RAMP the torque is zero.
+"""
+
+import math
+from enum import StrEnum
+from typing import NamedTuple
+
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.errors import Fault, StateError
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.drives.phase import Phase
+from svsa.hardware.file import BenchFile
+from svsa.hardware.homing import Homing
+from svsa.hardware.safety.faults import Alarm
+from svsa.hardware.safety.guard import Guard
+
+NO_TORQUE = Torque(0.0, 0.0)
+AXES = ("motor1", "motor2", "deflection")
+
+
+class BenchStatus(StrEnum):
+    """The states."""
+
+    OFF = "off"
+    RESET = "reset"
+    CONFIG = "config"
+    MODE = "mode"
+    READY = "ready"
+    RUN = "run"
+    RAMP = "ramp"
+    FAULT = "fault"
+
+
+class Conditions(NamedTuple):
+    """What the bench was found to be in at a tick.
+
+    phase: of the drive that is behind. ages_s: of motor 1, motor 2, deflection; infinite
+    before the first. missed: ticks lost before this one. supervisor_age_s, operator_age_s:
+    since their last heartbeat; infinite where there is none. late_s: how late the loop was when
+    the supervisor stopped the drives; None where it has not since they were armed.
+    """
+
+    phase: Phase
+    ages_s: tuple[float, float, float]
+    alarm: Alarm | None
+    missed: int
+    supervisor_age_s: float
+    operator_age_s: float
+    late_s: float | None = None
+
+
+SEQUENCE = {
+    Phase.RESET: BenchStatus.RESET,
+    Phase.CONFIG: BenchStatus.CONFIG,
+    Phase.MODE: BenchStatus.MODE,
+    Phase.READY: BenchStatus.READY,
+}
+ARMING = (BenchStatus.RESET, BenchStatus.CONFIG, BenchStatus.MODE)
+MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
+
+
+class Machine:
+    """The state of a bench. problems: why it does not arm, in words."""
+
+    def __init__(self, bench: BenchFile, guard: Guard, problems: list[str]) -> None:
+        self.status = BenchStatus.OFF
+        self.fault: Fault | None = None
+        self.problems = problems
+        self.homing = Homing()
+        self._safety, self._guard = bench.safety, guard
+        self._period = bench.timing.period_s
+        self._tick = 0
+        self._share = 0.0
+
+    def check_arming(self) -> None:
+        """Raise `StateError` unless OFF, or READY to be armed anew, and calibrated."""
+        if self.status not in (BenchStatus.OFF, BenchStatus.READY):
+            raise StateError(f"The bench is {self.status}: it is armed from OFF or READY.")
+        if self.problems:
+            raise StateError("The bench does not arm. " + "; ".join(self.problems) + ".")
+
+    def arm(self) -> None:
+        """Allow the drives' sequence; raises `StateError` as `check_arming` does."""
+        self.check_arming()
+        self.homing.reset()
+        self.status = BenchStatus.RESET
+
+    def confirm_home(self, step: str, by: str) -> None:
+        """An axis stands at its zero mark; raises `StateError` unless READY."""
+        if self.status is not BenchStatus.READY:
+            raise StateError(f"The bench is {self.status}: its marks are confirmed in READY.")
+        self.homing.confirm(step, by)
+
+    def start(self, operator_age_s: float) -> None:
+        """RUN from now on; raises `StateError` unless READY, at home and the switch held."""
+        if self.status is not BenchStatus.READY:
+            raise StateError(f"The bench is {self.status}: it starts from READY; arm it first.")
+        if self.homing.next_step is not None:
+            axis = AXIS_WORDS[self.homing.next_step]
+            raise StateError(f"The zero mark of {axis} is not confirmed yet.")
+        if self._safety.dead_man and operator_age_s > self._safety.operator_s:
+            raise StateError("The dead-man's switch is not held: hold it, then start.")
+        self.status, self._share, self._tick = BenchStatus.RUN, 1.0, 0
+        self._guard.begin()
+
+    def stop(self) -> None:
+        """Ramp to zero torque; nothing where it does not run."""
+        if self.status is BenchStatus.RUN:
+            self.status = BenchStatus.RAMP
+
+    def clear(self) -> None:
+        """FAULT → OFF; raises `StateError` elsewhere."""
+        if self.status is not BenchStatus.FAULT:
+            raise StateError(f"The bench is {self.status}: there is no fault to clear.")
+        self.status, self.fault = BenchStatus.OFF, None
+
+    def fail(self, alarm: Alarm) -> None:
+        """Latch a fault, unless there is one; its time is that of the run."""
+        if self.fault is None:
+            self.status = BenchStatus.FAULT
+            time_s = self._tick * self._period
+            self.fault = Fault(alarm.code, 0, self._tick, time_s, alarm.message, alarm.values)
+
+    def update(
+        self, conditions: Conditions, asked: Torque, known: State, estimate: Disturbance
+    ) -> Torque:
+        """The torque that may be sent in this tick, N·m; the state goes on.
+
+        asked: by the controller. known: x̂. estimate: ŵ.
+        """
+        if self._tick and self.status in MOVING:
+            self._tick += conditions.missed
+        alarm = self._find_alarm(conditions)
+        if alarm is None and self.status in MOVING:
+            alarm = self._guard.check(asked, known, estimate)
+        if alarm is not None:
+            self.fail(alarm)
+        if self.status in ARMING:
+            self.status = SEQUENCE.get(conditions.phase, self.status)
+        silent = self._safety.dead_man and conditions.operator_age_s > self._safety.operator_s
+        if self.status is BenchStatus.RUN and silent:
+            self.status = BenchStatus.RAMP
+        if self.status is BenchStatus.RAMP:
+            self._share -= (1 + conditions.missed) * self._period / self._safety.ramp_s
+            if self._share <= 0.0:
+                self.status = BenchStatus.READY
+        if self.status not in MOVING:
+            return NO_TORQUE
+        self._tick += 1
+        if max(conditions.ages_s) > self._safety.stale_zero_s:
+            return NO_TORQUE
+        share = self._share
+        return self._guard.limit(Torque(share * asked.u1, share * asked.u2), known)
+
+    def _find_alarm(self, conditions: Conditions) -> Alarm | None:
+        """What of the bench itself ends its run, in the states in which it is watched."""
+        if self.status in (BenchStatus.OFF, BenchStatus.FAULT):
+            return None
+        if conditions.late_s is not None:
+            return _describe_lateness(conditions.late_s, self._safety.loop_s)
+        supervisor_age_s = conditions.supervisor_age_s
+        if self.status not in ARMING and supervisor_age_s > self._safety.supervisor_s:
+            return _describe_lost_supervisor(supervisor_age_s)
+        if conditions.alarm is not None:
+            return conditions.alarm
+        if conditions.phase is Phase.SILENT:
+            return Alarm(
+                "drive_silent",
+                "A drive did not answer: check its supply, the CAN wiring, both 120 Ω"
+                " terminators, the bit rate and the drive's address.",
+                {},
+            )
+        if self.status in ARMING:
+            return None
+        safety = self._safety
+        for axis, age in zip(AXES, conditions.ages_s, strict=True):
+            if age > safety.stale_fault_s:
+                words = (
+                    f"The feedback of {AXIS_WORDS[axis]} is older than"
+                    f" {1e3 * safety.stale_fault_s:g} ms."
+                )
+                return Alarm("stale_feedback", words, {f"{axis}_age_s": min(age, 1e6)})
+        if conditions.missed >= safety.missed_ticks:
+            words = f"The loop missed {conditions.missed} ticks in a row."
+            return Alarm("missed_ticks", words, {"missed_ticks": conditions.missed})
+        return self._guard.find_overload()
+
+
+def _describe_lateness(late_s: float, waits_s: float) -> Alarm:
+    """The supervisor's own frames have stopped the drives: nobody else's."""
+    late_s = max(late_s, waits_s)
+    words = (
+        f"The control loop was {1e3 * late_s:.0f} ms late. The supervisor, which waits"
+        f" {1e3 * waits_s:g} ms, has set both drives to zero current and reset them."
+    )
+    return Alarm("loop_late", words, {"late_s": late_s, "supervisor_waits_s": waits_s})
+
+
+def _describe_lost_supervisor(age_s: float) -> Alarm:
+    if math.isinf(age_s):
+        words = "There is no supervisor: its process has ended, or has not heard the bus yet."
+        return Alarm("supervisor_lost", words, {})
+    words = f"The supervisor has been silent for {age_s:.3f} s."
+    return Alarm("supervisor_lost", words, {"supervisor_age_s": age_s})

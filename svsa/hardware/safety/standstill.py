@@ -1,0 +1,55 @@
+"""An encoder that stands still while the torque on its axis changes: frozen, or its cable is off.
+
+Whatever stands still is in balance: the observer sees a torque there that changes by no more
+than friction can take up. With counts that have stopped, ŵ goes on growing against what the
+controller asks for, long before it is greater than any load.
+"""
+
+from svsa.actuators.signals import Disturbance
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.safety.faults import Alarm
+
+NewCounts = tuple[int | None, int | None, int | None]
+"""Of motor 1, motor 2, deflection; None where nothing new was heard of one in this tick."""
+
+_AXES = (("motor1", "w4"), ("motor2", "w6"), ("deflection", "w2"))
+
+
+class Standstill:
+    """Compares ŵ with what it was when the counts last changed. most: N·m of difference."""
+
+    def __init__(self, most: float) -> None:
+        self._most = most
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget: a new run begins."""
+        self._counts: list[int | None] = [None, None, None]
+        self._torques = [0.0, 0.0, 0.0]
+
+    def check(self, counts: NewCounts | None, estimate: Disturbance) -> Alarm | None:
+        """The axis whose encoder must be wrong, or None: what is late is not frozen.
+
+        counts: None where they are too old for x̂ to follow them. estimate: ŵ, N·m.
+        """
+        if counts is None:
+            self.reset()
+            return None
+        for number, (axis, channel) in enumerate(_AXES):
+            torque: float = getattr(estimate, channel)
+            new = counts[number]
+            if new is None:
+                continue
+            if new != self._counts[number]:
+                self._counts[number], self._torques[number] = new, torque
+                continue
+            change = torque - self._torques[number]
+            if abs(change) > self._most:
+                words = (
+                    f"The encoder of {AXIS_WORDS[axis]} stands still at {new} counts, although the"
+                    f" torque on its axis has changed by {change:.3g} N·m since: its limit is"
+                    f" {self._most:g} N·m. It is frozen or not connected, or the axis is jammed."
+                )
+                values = {f"{axis}_counts": float(new), f"{axis}_change_nm": change}
+                return Alarm("encoder_frozen", words, values)
+        return None

@@ -1,0 +1,110 @@
+"""The supervisor: a process with a bus of its own that stops the drives when the loop dies.
+
+    python -m svsa.hardware.safety.supervisor BENCH HEARTBEATS
+
+The drives hold their last current for ever. When the loop, once begun, has not beaten for
+`loop_s` (20 ms), both drives are told zero current and every drive is reset, again and again
+until it beats. It ends at SIGTERM, or by itself when its parent is gone and the loop silent.
+"""
+
+import math
+import os
+import signal
+import sys
+import time
+
+import can
+
+from svsa.errors import SvsaError
+from svsa.hardware.drives.bus import DELIVERY_S, open_bus, take_waiting
+from svsa.hardware.drives.drive import build_broadcast_resets, build_zero_currents
+from svsa.hardware.file import BenchFile, read_bench
+from svsa.hardware.safety.heartbeat import Heartbeats
+from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
+
+DEAF_S = 0.25
+PERIOD_S = 0.005
+ORPHANED_S = 2.0
+_MAX_FRAMES = 500
+
+
+class Supervisor:
+    """Watches the loop's heartbeat. silenced: whether it has taken over."""
+
+    def __init__(self, bench: BenchFile, bus: can.BusABC, beats: Heartbeats) -> None:
+        self._bus, self._beats = bus, beats
+        self._settings = bench.supervisor_bus or bench.bus
+        self._frames = [*build_zero_currents(bench), *build_broadcast_resets(bench)]
+        self._loop_s = bench.safety.loop_s
+        self._heard_s = -math.inf
+        self.silenced = False
+
+    def watch(self) -> None:
+        """One look: stop the drives where the loop is silent, and beat while the bus is heard.
+
+        A bus can be lost without a word: a supervisor that hears nothing on it is no use.
+        """
+        now = time.monotonic()
+        if self.listen():
+            self._heard_s = now
+        if now - self._heard_s <= DEAF_S:
+            self._beats.beat("supervisor")
+        age = self._beats.age_s("loop")
+        if age == math.inf or age <= self._loop_s:
+            self.silenced = False
+            return
+        if not self.silenced:
+            self._beats.count_stop()
+            print(f"Supervisor: the loop is silent, the drives are stopped ({age:.3f} s).")
+            sys.stdout.flush()
+        self.silenced = True
+        self.stop_drives()
+        self._beats.beat("stopping")
+
+    def listen(self) -> bool:
+        """Take what has come off the bus; whether there was anything."""
+        return bool(list(take_waiting(self._bus, self._settings, _MAX_FRAMES)))
+
+    def stop_drives(self) -> None:
+        """Zero current to both, and reset all."""
+        for frame in self._frames:
+            self._bus.send(frame)
+
+    def is_orphaned(self, parent: int) -> bool:
+        """Whether nobody is left to work for: parent gone and loop silent for long."""
+        age = self._beats.age_s("loop")
+        return os.getppid() != parent and age > ORPHANED_S
+
+
+def main(arguments: list[str]) -> int:
+    """Watch until told to end; 1 where the bus cannot be opened or is lost."""
+    path, name = arguments
+    parent = os.getppid()
+    ended: list[int] = []
+    signal.signal(signal.SIGTERM, lambda number, _: ended.append(number))
+    try:
+        bench, beats = read_bench(path), Heartbeats.attach(name)
+        bus = open_bus(bench.supervisor_bus or bench.bus)
+    except (SvsaError, OSError) as error:
+        print(f"Supervisor: {error}", file=sys.stderr)
+        return 1
+    supervisor = Supervisor(bench, bus, beats)
+    request_real_time(SUPERVISOR_PRIORITY)
+    try:
+        while not ended and not supervisor.is_orphaned(parent):
+            supervisor.watch()
+            time.sleep(PERIOD_S)
+        beats.end("supervisor")
+        supervisor.stop_drives()
+        time.sleep(DELIVERY_S)
+    except (can.CanError, OSError) as error:
+        print(f"Supervisor: the bus is lost: {error}", file=sys.stderr)
+        return 1
+    finally:
+        bus.shutdown()
+        beats.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,217 @@
+"""What a bench says: frames and counts in, one reading a tick out, and what went wrong."""
+
+import contextlib
+import math
+
+import can
+
+from svsa.actuators.signals import Measurement, State
+from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.clock import BenchClock
+from svsa.hardware.drives.bus import BUS_TROUBLE, take_waiting
+from svsa.hardware.drives.conversion import MotorScale, Unwrapped, build_deflection_scale
+from svsa.hardware.drives.drive import Drive, list_command_ids
+from svsa.hardware.drives.phase import Phase
+from svsa.hardware.drives.robomodule import LENGTH
+from svsa.hardware.emulation import EMULATED_ID
+from svsa.hardware.encoders import read_source
+from svsa.hardware.encoders.source import EncoderError
+from svsa.hardware.file import BenchFile
+from svsa.hardware.reading import Reading
+from svsa.hardware.safety.faults import Alarm
+from svsa.hardware.safety.standstill import NewCounts
+
+MAX_FRAMES_A_TICK = 200
+MAX_FRAMES_UNHEARD = 100_000
+"""Some seconds of a bus that never rests."""
+NEW_PERIODS = 2
+FRESH_PERIODS = 5
+"""What is older says nothing of the present: x̂ goes on by its model alone."""
+UNHEARD = (math.inf, math.inf, math.inf)
+
+
+class Sensing:
+    """Feedback of two drives and a deflection encoder.
+
+    zero: counts of the deflection encoder at φ = 0. ages_s, current_a, counts: of the last reading.
+    emulated: the bus says that it is an emulated rig. lost: the bus failed, and has to be
+    opened again.
+    """
+
+    def __init__(
+        self,
+        bench: BenchFile,
+        drives: tuple[Drive, Drive],
+        scales: tuple[MotorScale, MotorScale],
+        zero: int,
+        clock: BenchClock,
+    ) -> None:
+        self._drives, self._clock, self._zero = drives, clock, zero
+        self._angles = tuple(scale.angle_per_count for scale in scales)
+        self._takers = {drive.feedback_id: drive for drive in drives}
+        self._echoers = {drive.online_id: drive for drive in drives}
+        self._complainers = {drive.error_id: drive for drive in drives}
+        self._commands = list_command_ids(bench)
+        self.source = read_source(bench.deflection)
+        self._deflection = Unwrapped(self.source.bits, zero)
+        self._deflection_scale = build_deflection_scale(bench.deflection)
+        self._heard_deflection: float | None = None
+        self._settings = bench.bus
+        self._stamped = bench.bus.timestamps == "bus"
+        self._wait = 0.5 * bench.timing.period_s  # on average, where nothing stamps a frame
+        self._new_s = NEW_PERIODS * bench.timing.period_s
+        self._fresh_s = FRESH_PERIODS * bench.timing.period_s
+        self._age, self._oldest = bench.timing.feedback_age_s, bench.safety.stale_fault_s
+        self._alarm: Alarm | None = None
+        self._early: list[can.Message] = []
+        self.ages_s, self.current_a, self.counts = UNHEARD, (0.0, 0.0), (0, 0, 0)
+        self._measurement: Measurement | None = None
+        self.emulated = self.lost = False
+
+    def forget_alarm(self) -> None:
+        """What went wrong before counts no longer."""
+        self._alarm = None
+
+    def catch_up(self, bus: can.BusABC, now: float) -> None:
+        """Take what has come while nobody listened, for which a tick has no time."""
+        with contextlib.suppress(*BUS_TROUBLE):
+            for message in take_waiting(bus, self._settings, MAX_FRAMES_UNHEARD):
+                self._take(message, now)
+
+    def listen(self, bus: can.BusABC) -> None:
+        """Fetch what has come so far, for the next `read`; trouble is left for it to find."""
+        with contextlib.suppress(*BUS_TROUBLE):
+            room = MAX_FRAMES_A_TICK - len(self._early)
+            self._early += take_waiting(bus, self._settings, room)
+
+    def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
+        """What has come since the last tick. known: x̂ now, whose velocities bridge the ages."""
+        self._drain(bus, now)
+        one, two = self._drives
+        heard1, heard2, heard3 = one.heard_s, two.heard_s, self._read_deflection(now)
+        age1 = math.inf if heard1 is None else max(0.0, now - heard1)
+        age2 = math.inf if heard2 is None else max(0.0, now - heard2)
+        age3 = math.inf if heard3 is None else max(0.0, now - heard3)
+        self.ages_s = (age1, age2, age3)
+        self.counts = counts = (one.counts, two.counts, self._deflection.counts)
+        measurement = None
+        if max(self.ages_s) <= self._oldest:
+            phi = (counts[2] - self._zero) * self._deflection_scale
+            measurement = Measurement(
+                self._bridge(counts[0] * self._angles[0], known.dtheta1, age1, known.theta1),
+                self._bridge(counts[1] * self._angles[1], known.dtheta2, age2, known.theta2),
+                self._bridge(phi, known.dq - known.dtheta1, age3, known.q - known.theta1),
+                known.dq,
+                known.dtheta1,
+                known.dtheta2,
+            )
+        self.current_a = (
+            one.current_ma * 1e-3 if age1 <= self._oldest else 0.0,
+            two.current_ma * 1e-3 if age2 <= self._oldest else 0.0,
+        )
+        self._measurement = measurement
+        return Reading(measurement, self.current_a, self.ages_s, counts)
+
+    def _bridge(self, angle: float, velocity: float, age: float, known: float) -> float:
+        """An angle (rad) of that age now, or, where that is too long ago, what is known of it.
+
+        With it moved on for longer, an error of the velocity would come back as a greater one.
+        """
+        if age > self._fresh_s and self._measurement is not None:
+            return known
+        return angle + velocity * age
+
+    def find_new_counts(self) -> NewCounts | None:
+        """Those of this tick; None where one is too old for x̂ to follow it."""
+        if max(self.ages_s) > self._fresh_s:
+            return None
+        one, two, three = (
+            counts if age <= self._new_s else None
+            for counts, age in zip(self.counts, self.ages_s, strict=True)
+        )
+        return one, two, three
+
+    def find_angle(self, step: str) -> float:
+        """How far an axis (a step of the homing) is from zero, rad; 0 where it is unknown."""
+        y = self._measurement
+        if y is None:
+            return 0.0
+        angles = {"link": y.theta1 + y.phi, "motor1": y.theta1, "motor2": y.theta2}
+        return angles.get(step, 0.0)
+
+    def _drain(self, bus: can.BusABC, now: float) -> None:
+        """Take every frame that waits; the bus's trouble becomes an alarm."""
+        early, self._early = self._early, []
+        for message in (*self._clock.take_frames(), *early):
+            self._take(message, now)
+        try:
+            room = MAX_FRAMES_A_TICK - len(early)
+            for message in take_waiting(bus, self._settings, room):
+                self._take(message, now)
+        except BUS_TROUBLE as error:
+            self.lost = True
+            self._sound("bus_error", f"The bus failed: {error}.")
+
+    def _take(self, message: can.Message, now: float) -> None:
+        """One frame, to whom it is for; remote frames and frames of others are passed over."""
+        if message.is_error_frame:
+            self._sound(
+                "bus_error", "The bus reported an error frame: check wiring and termination."
+            )
+            return
+        if message.is_remote_frame or not message.is_rx:
+            return
+        identifier, extended = message.arbitration_id, message.is_extended_id
+        stamp = self._clock.convert(message.timestamp, now) if self._stamped else now - self._wait
+        time_s = min(stamp, now) - self._age
+        drive = None if extended else self._takers.get(identifier)
+        if drive is not None:
+            if len(message.data) == LENGTH:
+                drive.take(message, time_s)
+        elif self.source.feed(message, time_s):
+            return
+        elif extended:
+            self.emulated = self.emulated or identifier == EMULATED_ID
+        elif identifier in self._echoers:
+            self._echoers[identifier].online = True
+        elif identifier in self._complainers:
+            self._complainers[identifier].errors += 1
+        elif identifier in self._commands and self._drives[0].phase is Phase.READY:
+            words = (
+                f"Somebody else gave the drives a command (identifier {identifier:03X}): another"
+                " program on this bus."
+            )
+            self._sound("foreign_command", words)
+
+    def _read_deflection(self, now: float) -> float | None:
+        """When the deflection was last heard of, and its counts up to then."""
+        try:
+            found = self.source.read(now)
+        except EncoderError as error:
+            self._sound("encoder_lost", str(error))
+            return self._heard_deflection
+        if found is not None and found[1] != self._heard_deflection:
+            self._deflection.update(found[0])
+            self._heard_deflection = found[1]
+        return self._heard_deflection
+
+    def _sound(self, code: str, message: str) -> None:
+        if self._alarm is None:
+            self._alarm = Alarm(code, message, {})
+
+    def find_alarm(self) -> Alarm | None:
+        """The first thing that is wrong with the bus, the encoder or a drive, or None."""
+        if self._alarm is not None:
+            return self._alarm
+        for name, drive in zip(("motor1", "motor2"), self._drives, strict=True):
+            if drive.errors:
+                words = (
+                    f"The drive of {AXIS_WORDS[name]} sent an error frame: stall protection is on."
+                )
+                return Alarm("drive_error", words, {f"{name}_error_frames": drive.errors})
+            if drive.zeroed and drive.phase is Phase.READY:
+                words = (
+                    f"The position of {AXIS_WORDS[name]} jumped to zero: its drive has restarted."
+                )
+                return Alarm("drive_zeroed", words, {f"{name}_counts": drive.counts})
+        return None

@@ -1,0 +1,1 @@
+"""The session of a bench, as the server sees it."""

@@ -1,0 +1,94 @@
+"""How a command reaches the loop of a bench, and from which tick on it holds."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from svsa.errors import StateError
+from svsa.hardware.realtime.configuration import check_loads, check_takes_no_time
+from svsa.hardware.realtime.launch import Rest
+from svsa.hardware.session.run import TWIN
+from svsa.runs.command import ApplyLoad, Command, SetLane, SetPosition, SetRivals, SetStiffness
+from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.session.journal import Journal
+
+CHANGING_S = 0.001
+LONGEST_CHANGES_S = 10.0
+"""A command waits for so long for the loop to answer to those before it."""
+
+Ask = Callable[[str, object], dict[str, Any]]
+"""Have the loop do something; its answer."""
+
+
+class BenchCommands:
+    """Gives commands to the loop, and enters each at the tick at which the loop has taken it.
+
+    journal: of the present run. ask: raises what the loop refuses with. is_moving: whether the
+    bench moves. rest: lets time pass.
+    """
+
+    def __init__(
+        self, journal: Journal, ask: Ask, is_moving: Callable[[], bool], rest: Rest
+    ) -> None:
+        self._journal, self._ask, self._is_moving, self._rest = journal, ask, is_moving, rest
+        self._pending = 0
+
+    @property
+    def is_pending(self) -> bool:
+        """Whether the loop has still to answer: what comes after that tick is not taken in yet."""
+        return self._pending > 0
+
+    def change(self, command: Command) -> None:
+        """Give the run a command."""
+        self._journal.check(command)
+        if isinstance(command, ApplyLoad):
+            check_loads((command.argument,))
+        self._journal.enter(self._give(self._complete(command)))
+
+    def patch(self, build: Callable[[Configuration], Command]) -> None:
+        """`change`, once the loop has answered to every change before; unless all is so already.
+
+        Raises `StateError` where it has not answered to all of them within `LONGEST_CHANGES_S`.
+        """
+        self._wait()
+        configuration = self._journal.run.configuration
+        command = self._complete(build(configuration))
+        if not command.is_held_by(configuration):
+            self.change(command)
+
+    def _wait(self) -> None:
+        end = time.monotonic() + LONGEST_CHANGES_S
+        while self.is_pending:
+            if time.monotonic() > end:
+                raise StateError(
+                    f"The change was not made: the loop of the bench has {self._pending} earlier"
+                    f" changes to answer, for more than {LONGEST_CHANGES_S:g} s. Send it again."
+                )
+            self._rest(CHANGING_S)
+
+    def _complete(self, command: Command) -> Command:
+        """The command as a bench takes it: lane 2 is its twin, whatever the others are."""
+        if isinstance(command, SetLane) and command.argument.lane == TWIN + 1:
+            raise StateError(
+                f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
+                " of the bench: set those, or a lane after it."
+            )
+        if isinstance(command, SetRivals):
+            self._wait()
+            twin = Lane(law=self._journal.run.configuration.law)
+            others = tuple(lane for lane in command.argument if lane != twin)
+            return command.changed(argument=(twin, *others))
+        return command
+
+    def _give(self, command: Command) -> Command:
+        """The command at the tick at which the loop has taken it."""
+        if isinstance(command, SetPosition | SetStiffness) and self._is_moving():
+            check_takes_no_time(command.argument)
+        self._pending += 1
+        try:
+            tick = self._ask("change", command.to_json())["tick"]
+        finally:
+            self._pending -= 1
+        # Another run may have begun meanwhile, whose samples are not those up to this tick.
+        self._journal.advance(tick - self._journal.run.tick)
+        return command.at(self._journal.run.tick)

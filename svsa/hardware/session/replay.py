@@ -1,0 +1,163 @@
+"""A bench's record followed again: what it measured and sent, through the bench's own loop.
+
+Nobody can run a bench again. But the loop that had it under control is made of functions of what
+was measured and what was sent, so that everything else in the record has to come out the same.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.signals import MEASURED, TORQUES, Disturbance, Measurement, State, Torque
+from svsa.hardware.reading import Reading
+from svsa.hardware.realtime.loop import BenchLoop
+from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.safety.machine import BenchStatus
+from svsa.hardware.session.run import BenchRun
+from svsa.runs.command import Command
+from svsa.runs.records.header import PlantKind, RecordError
+from svsa.runs.records.reader import Record
+from svsa.runs.records.resimulation import read_origin
+from svsa.runs.replay import play
+from svsa.simulation.loop.measured import Actuation
+
+_HALF_STEP = 0.5 + 1e-6
+
+
+class Verified(NamedTuple):
+    """What holds of a bench's record.
+
+    ticks, missed: samples, and those of them that the loop was too late for. lanes: simulated ones
+    beside. share_as_asked: of the samples in which the torque sent is the one that the law asked
+    for, to a step of the drive's current; in the others it was held back.
+    """
+
+    plant: PlantKind
+    ticks: int
+    missed: int
+    lanes: int
+    share_as_asked: float
+
+    @property
+    def told(self) -> str:
+        """The same in words."""
+        what = "an emulated rig" if self.plant == "emulated" else "a bench"
+        beside = {0: "", 1: ", and the simulated lane beside it"}.get(
+            self.lanes, f", and the {self.lanes} simulated lanes beside it"
+        )
+        late = f" ({self.missed} of them were missed)" if self.missed else ""
+        return (
+            f"Recorded on {what}, which cannot be run again. From the angles measured and the"
+            f" torques sent in its {self.ticks} samples{late} references, observer, estimate and"
+            f" errors were worked out again{beside}: the same, bit for bit. The torques sent are"
+            f" those that its law asks for, to a step of the drives, in"
+            f" {100.0 * self.share_as_asked:.1f} % of the samples, and never beyond them."
+        )
+
+
+class RecordedPlant:
+    """A bench that measures and sends what it did. asked: what the law asked for, (ticks, 2)."""
+
+    status = BenchStatus.RUN
+
+    def __init__(self, samples: np.ndarray) -> None:
+        self._measured = samples[:, MEASURED].tolist()
+        self.sent = samples[:, TORQUES]
+        self.asked = np.full_like(self.sent, np.nan)
+        self.tick = 0
+
+    def start(self, now: float) -> None:
+        """It runs."""
+
+    def read(self, now: float, known: State) -> Reading:  # noqa: D102
+        y = Measurement(*self._measured[self.tick])
+        return Reading(y, (0.0, 0.0), (0.0, 0.0, 0.0), (0, 0, 0))
+
+    def write(  # noqa: D102
+        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+    ) -> Torque:
+        self.asked[self.tick] = asked
+        return Torque(*self.sent[self.tick].tolist())
+
+
+def verify_bench_record(record: Record) -> Verified:
+    """Work out again what a bench's record tells; raises `RecordError` where it differs."""
+    header, start = record.header, record.start
+    if start is None or record.first_tick:
+        raise RecordError(
+            f"Run {header.run_id} was recorded on a bench, and not from the start of its run:"
+            " nothing of it can be verified."
+        )
+    configuration, commands = read_origin(record)
+    before, later = commands[: start.commands], commands[start.commands :]
+    for command in before:
+        configuration = command.configure(configuration)
+    samples = record.samples.transpose(1, 0, 2)
+    plant, rows = RecordedPlant(samples[0]), SampleArray(record.tick_count)
+    actuation = Actuation(start.latency_s, start.lag_s)
+    loop = BenchLoop(plant, actuation, start.mu0, configuration, rows)
+    loop.know(start.motion)
+    begun = loop.start(0.0)
+    _follow(loop, plant, later, record)
+    run, again = BenchRun(configuration, begun, rows), np.empty_like(samples)
+    for _ in play(run, later, record.tick_count, again):
+        pass
+    _compare(record, again, samples)
+    share = _compare_torques(record, plant, start.torque_step_nm)
+    missed = int(np.isnan(plant.sent[:, 0]).sum())
+    return Verified(header.plant, record.tick_count, missed, len(samples) - 1, share)
+
+
+def _follow(loop: BenchLoop, plant: RecordedPlant, commands: list[Command], record: Record) -> None:
+    """Every tick of the bench again, with the commands that it was given."""
+    later, end = list(commands), record.tick_count
+    is_missed = np.isnan(plant.sent[:, 0])
+    while loop.run.tick < end:
+        first = tick = loop.run.tick
+        while later and later[0].tick <= first:
+            loop.change(later.pop(0))
+        while tick < end and is_missed[tick]:
+            tick += 1
+        if tick == end or (tick > first == 0):
+            raise RecordError(f"Run {record.header.run_id} has no samples from tick {first} on.")
+        plant.tick = tick
+        loop.tick(0.0, tick - first)
+
+
+def _compare(record: Record, again: np.ndarray, samples: np.ndarray) -> None:
+    """Raise `RecordError` at the first sample that is another. Both (lanes, ticks, channels)."""
+    differs = again.view(np.uint64) != np.ascontiguousarray(samples).view(np.uint64)
+    if not differs.any():
+        return
+    tick = int(np.argmax(differs.any(axis=(0, 2))))
+    lane, channel = np.argwhere(differs[:, tick])[0]
+    header = record.header
+    raise RecordError(
+        f"Run {header.run_id} does not follow from what it measured and sent: worked out again,"
+        f" {header.lanes[lane]}.{header.channel_names[channel]} differs at tick {tick}."
+    )
+
+
+def _compare_torques(
+    record: Record, plant: RecordedPlant, torque_step_nm: tuple[float, float]
+) -> float:
+    """The share of samples whose torques are as asked; raises `RecordError` where one is beyond.
+
+    What a bench holds back (limits, heat, rate of change, its ramp, a drive that takes nothing
+    yet) lies between zero, the torque before, and the one that is asked for.
+    """
+    there = np.flatnonzero(np.isfinite(plant.sent[:, 0]))
+    sent, asked = plant.sent[there], plant.asked[there]
+    last = np.vstack([np.zeros(2), sent[:-1]])
+    room = _HALF_STEP * np.array(torque_step_nm)
+    least = np.minimum(np.minimum(asked, last), 0.0) - room
+    most = np.maximum(np.maximum(asked, last), 0.0) + room
+    beyond = ((sent < least) | (sent > most)).any(axis=1)
+    if beyond.any():
+        row = int(np.argmax(beyond))
+        raise RecordError(
+            f"Run {record.header.run_id} was not controlled by its law: at tick {there[row]} it"
+            f" sent {sent[row].round(4).tolist()} N·m, and the law asks for"
+            f" {asked[row].round(4).tolist()} N·m."
+        )
+    return float((np.abs(sent - asked) <= room).all(axis=1).mean())

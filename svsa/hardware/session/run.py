@@ -1,0 +1,102 @@
+"""A run whose first lane is a bench: its samples are read, those of its twins are simulated."""
+
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from svsa.actuators.domain import INSIDE
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.controllers import complete_laws
+from svsa.runs.run import Run, Start, find_origins
+
+if TYPE_CHECKING:
+    from svsa.errors import Fault
+
+_MEASURED = [CHANNEL_INDEX["position_rad"], CHANNEL_INDEX["stiffness_nm_per_rad"]]
+_RESIDUALS = [
+    CHANNEL_INDEX["position_residual_rad"],
+    CHANNEL_INDEX["stiffness_residual_nm_per_rad"],
+]
+TWIN = 1
+
+
+class SampleSource(Protocol):
+    """Where the bench's loop leaves its samples, as `LoopMemory`. number: of its present run."""
+
+    @property
+    def number(self) -> int:  # noqa: D102
+        ...
+
+    def count(self, number: int) -> int:
+        """How many samples of run `number` there are."""
+        ...
+
+    def read(self, first: int, rows: np.ndarray) -> None:
+        """Copy the samples from tick `first` on into `rows` (ticks, channels)."""
+        ...
+
+
+class BenchRun(Run):
+    """Lane 1 comes from the loop's memory; the other lanes follow it tick for tick.
+
+    The first rival is the bench's twin: the same law, commands and loads on the simulated
+    plant. A twin that leaves the domain of the model ends, with NaN from there on; the bench
+    goes on. Ticks that the bench's loop missed have a time and no numbers in lane 1.
+    is_still: it stands until another run begins, and has none of the samples of the one before.
+    fault: the bench's, set by who watches its state.
+    """
+
+    def __init__(
+        self,
+        configuration: Configuration,
+        start: Start,
+        memory: SampleSource,
+        is_still: bool = False,
+    ) -> None:
+        self._memory = memory
+        self._number = None if is_still else memory.number
+        self._ended: set[int] = set()
+        self.fault: Fault | None = None
+        super().__init__(configuration, start=start)
+
+    def count_ready(self) -> int:
+        """How many samples of the bench wait to be read."""
+        there = 0 if self._number is None else self._memory.count(self._number)
+        return max(0, there - self.tick)
+
+    def advance(self, samples: np.ndarray) -> int:
+        """Read and simulate so many ticks as `samples` (lanes, ticks, channels) has room for.
+
+        How many were done: no more than the bench has done.
+        """
+        done = min(samples.shape[1], self.count_ready())
+        self._memory.read(self.tick, samples[0, :done])
+        samples[0, :done, 0] = (self.tick + np.arange(done)) * self.period_s
+        for number in range(1, len(self.lanes)):
+            self._advance_twin(number, samples[number, :done])
+        if len(self.lanes) > TWIN:
+            bench, twin = samples[0, :done], samples[TWIN, :done]
+            bench[:, _RESIDUALS] = bench[:, _MEASURED] - twin[:, _MEASURED]
+        self.tick += done
+        return done
+
+    def _advance_twin(self, number: int, rows: np.ndarray) -> None:
+        ticks = 0
+        if number not in self._ended:
+            self.lanes[number], ticks, code = self._advance_lane(number, rows)
+            if code != INSIDE:
+                self._ended.add(number)
+        rows[ticks:] = np.nan
+        rows[ticks:, 0] = (self.tick + np.arange(ticks, len(rows))) * self.period_s
+
+    def set_laws(self, laws: tuple[str, ...]) -> None:
+        """As `Run.set_laws`; the twin has the law of the bench."""
+        super().set_laws(complete_laws(laws, is_bench=True))
+
+    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
+        """As `Run.set_rivals`; a new rival begins where the twin is."""
+        origins = find_origins(self.configuration.rivals, rivals)
+        self.lanes[0] = self.lanes[min(TWIN, len(self.lanes) - 1)]
+        super().set_rivals(rivals)
+        self._ended = {lane for lane, origin in enumerate(origins) if origin in self._ended}

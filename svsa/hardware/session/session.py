@@ -1,0 +1,299 @@
+"""A session whose first lane is a bench, seen from the server."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from svsa.actuators.signals import State
+from svsa.errors import Fault, StateError
+from svsa.hardware.calibration import find_calibration, list_problems
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.configuration import build_bench_configuration, check_loads
+from svsa.hardware.realtime.launch import Rest, Teller, keep_quiet
+from svsa.hardware.safety.machine import MOVING, BenchStatus
+from svsa.hardware.session.commands import BenchCommands
+from svsa.hardware.session.report import BenchReport
+from svsa.hardware.session.run import BenchRun
+from svsa.hardware.session.start import describe_start
+from svsa.hardware.session.supervised_loop import SupervisedLoop
+from svsa.inputs.extras import require_extra
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration
+from svsa.runs.records.header import PlantKind
+from svsa.runs.records.recorder import Recorder
+from svsa.runs.run import Start
+from svsa.runs.session.clock import Pace
+from svsa.runs.session.hands import Hands
+from svsa.runs.session.journal import Journal
+from svsa.runs.session.session import PROGRAM_ERROR, Status
+from svsa.simulation.loop.lane import AT_REST
+
+UNWATCHED_S = 1.0
+
+
+class BenchSession:
+    """A `Session` of a bench: `start` begins a run at t = 0, `pause` ramps to zero torque.
+
+    Every start begins a new run, from where the bench stands. hands: told of the loads that
+    are on whenever they change, and of the marks. rest: lets time pass where a command waits for
+    the bench; `wake` waits for nothing. `bench`: the bench file. `loop`: its processes, which are
+    being started until `open` returns. `report`: what they have told. Raises `BenchError` where the
+    loop is silent, `MissingExtraError` without the extra `bench`.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        path: Path,
+        wanted: Configuration,
+        hands: Hands | None = None,
+        rest: Rest = time.sleep,
+    ) -> None:
+        require_extra("bench")
+        self.name = name
+        self.watched = self.closed = False
+        self.bench, self._hands = read_bench(path), hands or Hands()
+        self.calibration = find_calibration(self.bench)
+        self._unwatched_since = 0.0
+        self.loop = SupervisedLoop(path, self.bench, rest)
+        configuration = build_bench_configuration(self.bench, wanted)
+        self.loop.launch(configuration)
+        self._run = self._build_still_run(configuration)
+        self.journal = Journal(self._run, is_bench=True, hang=self._hands.hang)
+        problems = list_problems(self.bench, self.calibration)
+        self.report = BenchReport(self.loop, self.journal, problems)
+        self._commands = BenchCommands(self.journal, self._ask, self._is_moving, rest)
+
+    def _build_still_run(self, configuration: Configuration) -> BenchRun:
+        """A run that stands still until the processes are ready, and after."""
+        still = Start(self.bench.home.lever_ratio, AT_REST)
+        return BenchRun(configuration, still, self.loop.memory, is_still=True)
+
+    def _begin(self, run: BenchRun) -> None:
+        self._run = run
+        self.journal.begin(run)
+
+    def open(self, tell: Teller = keep_quiet) -> None:
+        """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
+
+        tell: hears what the loop does meanwhile.
+        """
+        try:
+            self.loop.open(tell)
+        finally:
+            self.journal.version += 1
+
+    @property
+    def run(self) -> BenchRun:
+        """The present run."""
+        return self._run
+
+    @property
+    def version(self) -> int:
+        """That of the journal."""
+        return self.journal.version
+
+    @property
+    def bench_status(self) -> BenchStatus:
+        """As the loop says; FAULT where it cannot be believed any more."""
+        return self.report.status
+
+    @property
+    def status(self) -> Status:
+        """Running while the bench moves, fault until it is cleared, else paused."""
+        if self.fault is not None:
+            return "fault"
+        return "running" if self.bench_status in MOVING else "paused"
+
+    @property
+    def emulated(self) -> bool | None:
+        """As the bus says; None before it was listened to."""
+        return self.loop.emulated
+
+    def _is_moving(self) -> bool:
+        return self.status == "running"
+
+    @property
+    def plant(self) -> PlantKind:
+        """A bench, or the emulated rig."""
+        return "emulated" if self.emulated else "bench"
+
+    @property
+    def fault(self) -> Fault | None:
+        """The bench's latched fault."""
+        return self.report.fault
+
+    @property
+    def pace(self) -> Pace:
+        """A bench has the speed of the world."""
+        return Pace()
+
+    def load(self, configuration: Configuration) -> None:
+        """Use its law, references and loads from the next start on; `StateError` in motion."""
+        self._load(build_bench_configuration(self.bench, configuration))
+
+    def _load(self, configuration: Configuration) -> None:
+        check_loads(configuration.loads)
+        self._ask("load", configuration.model_dump(mode="json"))
+        self._hands.hang(())
+        self.journal.stop_recording()
+        self._begin(self._build_still_run(configuration))
+
+    def reset(self) -> None:
+        """Begin again at t = 0 at the next start; raises `StateError` in motion."""
+        self._load(self.journal.build_restart())
+
+    def arm(self) -> None:
+        """Bring the drives to READY: reset, configuration, mode."""
+        self.loop.check_started()
+        if self.bench_status is BenchStatus.OFF:
+            self._hands.set_to_marks()
+        self._ask("arm")
+
+    def confirm_home(self, step: str, by: str) -> None:
+        """That an axis stands at its zero mark, and who says so."""
+        self._ask("home", {"step": step, "by": by})
+
+    def clear(self) -> None:
+        """Clear the latched fault: FAULT → OFF; loop and supervisor begin anew if one is gone."""
+        if self.loop.loss is not None or not self.loop.processes.supervisor_alive:
+            self.restart()
+        elif self.report.told_status is BenchStatus.FAULT:
+            self._ask("clear")
+        self.report.clear()
+        self.journal.version += 1
+
+    def restart(self) -> None:
+        """End loop and supervisor, by force where they do not listen, and start both anew.
+
+        Raises `StateError` in motion, and `BenchError` where the bench cannot be opened.
+        """
+        if self.loop.starting:
+            raise StateError("The loop of the bench is being started already.")
+        if self.bench_status in MOVING:
+            raise StateError("The bench is moving: stop it before its loop is started anew.")
+        self.journal.version += 1
+        try:
+            self.loop.restart(self._begin_anew)
+        finally:
+            self.journal.version += 1
+
+    def _begin_anew(self) -> None:
+        configuration = self.run.configuration
+        self.journal.stop_recording()
+        self.loop.launch(configuration)
+        self.report.begin()
+        self._begin(self._build_still_run(configuration))
+
+    def prepare_recording(self) -> None:
+        """As `Session.prepare_recording`, once it is known whether the bench is emulated."""
+        self.loop.check_started()
+        if self.emulated is None:
+            raise StateError("It is not known yet whether the bench is emulated: ask again.")
+        self.journal.check_recordable()
+        if not self._is_moving() and self.run.tick:
+            self.reset()
+
+    def start_recording(self, recorder: Recorder) -> None:
+        """As `Journal.start_recording`."""
+        self.journal.start_recording(recorder)
+
+    def stop_recording(self) -> None:
+        """As `Journal.stop_recording`."""
+        self.journal.stop_recording()
+
+    def start(self) -> None:
+        """Begin a run; raises `StateError` unless READY, at home and watched."""
+        if self.bench.safety.needs_watcher and not self.watched:
+            raise StateError("Nobody watches this bench: open the page or a stream of it first.")
+        answer = self._ask("start")
+        start = Start(answer["mu0"], State(*answer["x"]))
+        recorder = self.journal.recorder
+        if recorder is not None:
+            if recorder.status.ticks:
+                self.journal.stop_recording()
+            else:
+                recorder.write_fault(None)
+                mu0, motion, given = answer["mu0"], answer["motion"], len(self.journal.commands)
+                recorder.write_start(describe_start(self.bench, mu0, motion, given))
+        self._begin(BenchRun(self.run.configuration, start, self.loop.memory))
+
+    def pause(self) -> None:
+        """Ramp to zero torque."""
+        if self.bench_status in MOVING:
+            self._ask("stop", "stopped by hand")
+
+    def halt(self, why: str = PROGRAM_ERROR) -> None:
+        """Ramp to zero torque, without waiting for the loop to say that it does."""
+        self.loop.processes.tell("stop", why)
+
+    def quick_stop(self) -> None:
+        """The quick stop: zero current now, latched, even where the loop does not listen."""
+        self.stop_from_keyboard()
+        self.report.look_for_loss()
+        if self.loop.loss is None and not self.loop.starting:
+            self._ask("quick_stop", "quick stop")
+
+    def stop_from_keyboard(self) -> None:
+        """The quick stop, without waiting for the loop to say that it does it."""
+        self.loop.request_quick_stop()
+
+    def hear_operator(self) -> None:
+        """The operator holds the dead-man's switch."""
+        self.loop.processes.beats.beat("operator")
+
+    def step(self, ticks: int) -> None:
+        """Refused: a bench has no single ticks."""
+        raise StateError("A bench runs in real time: it cannot go by single ticks.")
+
+    def set_speed(self, factor: float) -> None:
+        """Refused: a bench has the speed of the world."""
+        raise StateError("A bench runs in real time: its speed cannot be changed.")
+
+    def burst(self, now: float) -> None:
+        """As `wake`: a bench does not go faster than time."""
+        self.wake(now)
+
+    def wake(self, now: float) -> None:
+        """Take in what the bench has done since the last time; waits for nothing."""
+        if self.loop.starting:
+            return
+        self.loop.processes.beats.beat("server")
+        told = self.loop.take_states()
+        self.report.look_for_stop(told)
+        if not self._commands.is_pending:
+            self.journal.advance(self._run.count_ready())
+        self.report.take(told)
+        self.report.look_for_loss()
+        if self.watched or self.bench_status is not BenchStatus.RUN:
+            self._unwatched_since = now
+        elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
+            self._unwatched_since = now
+            self.loop.processes.tell("stop", "nobody watches")
+
+    def _ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
+        """Have the loop do it; what it says of its state is known when this returns."""
+        answer = self.loop.ask(wanted, argument)
+        told = self.loop.take_states()
+        self.report.look_for_stop(told)
+        self.report.take(told)
+        return answer
+
+    def change(self, command: Command) -> None:
+        """Give the run a command, at the tick at which the loop has taken it."""
+        self._commands.change(command)
+
+    def set(self, command: Command) -> None:
+        """`change`, unless everything is so already."""
+        self._commands.patch(lambda _: command)
+
+    def patch(self, build: Callable[[Configuration], Command]) -> None:
+        """`set`, once the loop has answered to every change before."""
+        self._commands.patch(build)
+
+    def close(self) -> None:
+        """Ramp to zero, and end the bench's processes."""
+        self.journal.stop_recording()
+        self.loop.close()
+        self.closed = True

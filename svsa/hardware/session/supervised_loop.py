@@ -1,0 +1,135 @@
+"""The loop of a bench and its supervisor, as a session starts, asks and loses them."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from svsa.errors import StateError
+from svsa.hardware.emulation import EMULATED_PERIOD_S
+from svsa.hardware.file import BenchFile
+from svsa.hardware.realtime.launch import (
+    COLD,
+    PATIENCE_S,
+    BenchProcesses,
+    Rest,
+    Teller,
+    keep_quiet,
+)
+from svsa.hardware.realtime.loss import Loss, find_loss, is_supervised
+from svsa.hardware.realtime.prepared_laws import UnpreparedLawError, compute_constants
+from svsa.runs.configuration import MAX_LANES, Configuration
+
+UNKNOWN_S = 0.25
+"""So long after the last tick it may not be known yet who stops the drives."""
+SILENT = 2.0
+"""So many times `loop_s`, by which a loop may be late: the supervisor comes before the server."""
+LISTENED_S = 3.0 * EMULATED_PERIOD_S
+"""Who has heard no rig on the bus for so long has none."""
+
+
+class SupervisedLoop:
+    """Both processes, which `launch` starts anew.
+
+    path: of the bench file. bench: that file. rest: lets time pass where a command waits.
+    `starting`: they refuse commands until `open` returns. `memory`: see `LoopMemory`.
+    """
+
+    def __init__(self, path: Path, bench: BenchFile, rest: Rest = time.sleep) -> None:
+        self._path, self._timing, self._rest = path, bench.timing, rest
+        self._patience_s = max(PATIENCE_S, SILENT * bench.safety.loop_s)
+        self.starting = True
+        self._heat = COLD
+
+    def launch(self, configuration: Configuration) -> None:
+        """Start both processes; `open` waits for them."""
+        self.processes = BenchProcesses(
+            self._path, configuration, self._rest, self._heat, self._patience_s
+        )
+        self.memory = self.processes.memory
+
+    def open(self, tell: Teller = keep_quiet) -> None:
+        """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
+
+        tell: hears what the loop does meanwhile.
+        """
+        try:
+            self.processes.wait_until_ready(self._timing.start_silence_s, tell)
+        finally:
+            self.starting = False
+
+    def restart(self, launch: Callable[[], None]) -> None:
+        """End both processes, by force where they do not listen, have them launched, and open.
+
+        The motors are as warm as the loop before left them: how long they cooled nobody has seen.
+        """
+        self.starting = True
+        try:
+            before = self.processes
+            before.end()
+            first, second = before.memory.fields["heat"]
+            self._heat = float(first), float(second)
+            launch()
+            before.free()
+            self.open()
+        finally:
+            self.starting = False
+
+    def close(self) -> None:
+        """Ramp to zero, and end both."""
+        self.processes.end()
+        self.processes.free()
+
+    @property
+    def loss(self) -> Loss | None:
+        """What has become of the loop where it does not tick, and who stopped the drives."""
+        return None if self.starting else find_loss(self.processes)
+
+    @property
+    def emulated(self) -> bool | None:
+        """Whether the bus says that no machine is behind it; None before it was listened to."""
+        if self.memory.fields["emulated"]:
+            return True
+        listened_s = int(self.memory.fields["ticks"]) * self._timing.period_s
+        return False if listened_s > LISTENED_S else None
+
+    @property
+    def supervised(self) -> bool:
+        """Whether the supervisor is there and its heartbeat fresh."""
+        return is_supervised(self.processes)
+
+    def find_settled_loss(self) -> Loss | None:
+        """As `loss`, once it is known who stops the drives, or could have been."""
+        loss = self.loss
+        is_unknown = loss is not None and loss.stopped_by is None
+        return None if is_unknown and 0.0 < self.processes.silence_s < UNKNOWN_S else loss
+
+    def check_started(self) -> None:
+        """Raise `StateError` while they are being started."""
+        if self.starting:
+            raise StateError(
+                f"The bench is being started ({self.processes.step},"
+                f" {self.processes.age_s:.0f} s): ask again when it is ready."
+            )
+
+    def ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
+        """Have the loop do it, and rest until it answers.
+
+        Constants of a law that the loop lacks are computed here: it has no time for it.
+        """
+        self.check_started()
+        for _ in range(MAX_LANES):
+            try:
+                return self.processes.request(wanted, argument)
+            except UnpreparedLawError as lacking:
+                self.processes.request("prepare", compute_constants(lacking.wanted))
+        return self.processes.request(wanted, argument)
+
+    def take_states(self) -> list[dict[str, Any]]:
+        """What the loop has told of its state since the last time."""
+        events = self.processes.take_events()
+        return [event for event in events if event["event"] == "state"]
+
+    def request_quick_stop(self) -> None:
+        """The quick stop from any thread, through shared memory alone."""
+        self.memory.fields["quick_stop"] = 1

@@ -1,0 +1,1 @@
+"""Values and files that users give: checked, with units, limits and clear errors."""

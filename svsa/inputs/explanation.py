@@ -1,0 +1,149 @@
+"""Pydantic's errors in the words of a `Violation`: field, value, unit and bound."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+
+from svsa.errors import ParameterError, Violation, write_number
+
+
+def explain(error: ValidationError, model: type[BaseModel] | None = None) -> list[Violation]:
+    """What is wrong with the fields of `model`, each called by its path from there.
+
+    model: left out where the error is about a value by itself.
+    """
+    return explain_problems(error.errors(include_url=False), model and model.model_fields)
+
+
+def explain_problems(
+    problems: Sequence[Any], fields: Mapping[str, FieldInfo] | None = None
+) -> list[Violation]:
+    """Pydantic's problems (dicts with loc, type, ctx, msg, input) as violations.
+
+    fields: one of them begins each loc; None where all is about one value. Of a value that fits
+    none of several types, only what is wrong with the type it comes nearest to is told.
+    """
+    named = 0 if fields is None else 1
+    paths = [_find_path(problem["loc"], named) for problem in problems]
+    violations: dict[tuple[Any, ...], list[Violation]] = {}
+    for path, problem in zip(paths, problems, strict=True):
+        inner = problem.get("ctx", {}).get("error")
+        here = violations.setdefault(path, [])
+        if isinstance(inner, ParameterError):
+            here += inner.within(_write(path)).violations
+        elif not _is_noise(path, problem, paths, problems):
+            field = (fields or {}).get(path[0]) if path else None
+            here.append(_explain_problem(path, problem, field))
+    return [told for path, here in violations.items() for told in _join(path, here)]
+
+
+def _find_path(loc: Sequence[Any], named: int) -> tuple[Any, ...]:
+    """Field and indices; the words of pydantic's loc after `named` are branches of a union."""
+    return (*loc[:named], *(part for part in loc[named:] if isinstance(part, int)))
+
+
+def _write(path: tuple[Any, ...]) -> str:
+    return "".join(f"[{part}]" if isinstance(part, int) else str(part) for part in path)
+
+
+def _is_noise(
+    path: tuple[Any, ...], problem: Any, paths: list[tuple[Any, ...]], problems: Sequence[Any]
+) -> bool:
+    """Whether a problem only follows from another: a list is short of items that are wrong, or
+    a value is of a type that another branch of its union takes.
+    """
+    inside = any(len(other) > len(path) and other[: len(path)] == path for other in paths)
+    if problem["type"] == "too_short":
+        return inside
+    nearer = any(
+        other == path and rival["type"] not in _MISMATCHES
+        for other, rival in zip(paths, problems, strict=True)
+    )
+    return problem["type"] in _MISMATCHES and (inside or nearer)
+
+
+def _join(path: tuple[Any, ...], violations: list[Violation]) -> list[Violation]:
+    """One violation for a value that is of none of the types a union takes."""
+    first, *others = violations or [None]
+    if first is None or not others or any(other.name != _write(path) for other in violations):
+        return violations
+    bounds = dict.fromkeys(violation.bound for violation in violations)
+    return [replace(first, bound=" or ".join(bounds))]
+
+
+def _explain_problem(path: tuple[Any, ...], problem: Any, field: FieldInfo | None) -> Violation:
+    kind, context = problem["type"], problem.get("ctx", {})
+    if kind.startswith("union_tag"):
+        tag = context["discriminator"].strip("'")
+        bound = f"one of {context['expected_tags']}" if "expected_tags" in context else "given"
+        return Violation(tag, context.get("tag"), "", bound).within(_write(path))
+    extra = field.json_schema_extra if field else None
+    unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
+    value = None if kind == "missing" else problem.get("input")
+    limits = {
+        name: float(context[name]) for name in _COMPARISONS if kind == _COMPARISON_KINDS[name]
+    }
+    bound = _describe_bound(problem, unit, field)
+    return Violation(_write(path) or "value", value, unit, bound, limits)
+
+
+def _describe_bound(problem: Any, unit: str, field: FieldInfo | None) -> str:
+    kind, limits = problem["type"], problem.get("ctx", {})
+    unit = f" {unit}" if unit and unit != "1" else ""
+    for name, words in _COMPARISONS.items():
+        if kind == _COMPARISON_KINDS[name]:
+            return f"{words} {write_number(limits[name])}{unit}"
+    if kind in ("too_short", "too_long"):
+        side, count = ("least", "min_length") if kind == "too_short" else ("most", "max_length")
+        return f"a list of at {side} {limits[count]}"
+    if kind in ("float_type", "int_type", "finite_number", "missing"):
+        return _KINDS[kind] + _describe_range(field, unit)
+    if kind == "literal_error":
+        return f"one of {limits['expected']}"
+    if kind in ("string_too_short", "string_too_long"):
+        side, count = ("least", "min_length") if "short" in kind else ("most", "max_length")
+        return f"a text of at {side} {limits[count]} characters"
+    if kind == "value_error":
+        return str(limits["error"])
+    return _KINDS.get(kind) or str(problem["msg"])
+
+
+_COMPARISONS = {"ge": "at least", "gt": "greater than", "le": "at most", "lt": "less than"}
+_COMPARISON_KINDS = {
+    "ge": "greater_than_equal",
+    "gt": "greater_than",
+    "le": "less_than_equal",
+    "lt": "less_than",
+}
+_KINDS = {
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "finite_number": "a finite number",
+    "missing": "given",
+    "extra_forbidden": "left out: no such field exists here",
+    "tuple_type": "a list",
+    "bool_type": "true or false",
+    "string_type": "a text",
+    "model_attributes_type": "an object with named fields",
+    "model_type": "an object with named fields",
+    "dict_type": "an object with named fields",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_parsing": "a number",
+    "bool_parsing": "true or false",
+}
+_MISMATCHES = {*_KINDS, "literal_error"} - {"missing", "extra_forbidden", "finite_number"}
+
+
+def _describe_range(field: FieldInfo | None, unit: str) -> str:
+    """For a value of the wrong type, the range as well, so that one answer is enough."""
+    parts = [
+        f"{words} {write_number(getattr(bound, name))}{unit}"
+        for bound in (field.metadata if field else [])
+        for name, words in _COMPARISONS.items()
+        if getattr(bound, name, None) is not None
+    ]
+    return ", " + " and ".join(parts) if parts else ""

@@ -1,0 +1,1 @@
+"""Compiled functions: fused multiply-add, SIMD lanes, code cache and own trigonometry."""

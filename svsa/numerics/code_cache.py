@@ -1,0 +1,117 @@
+"""Where compiled code is kept between starts, and when it goes.
+
+A folder for each file with compiled functions, in it one for each text that the file and what it
+imports have had. Other processes and other versions of the lab use the same folders: what one of
+them may still use is told by its age, and who misses what is gone compiles it again.
+"""
+
+import contextlib
+import os
+import re
+import shutil
+import time
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from numba.core.caching import FunctionCache
+
+from svsa.inputs.file_lock import take_lock
+
+KEPT_TEXTS = 3
+UNUSED_S = 24 * 3600.0
+"""So long nobody has opened a text's folder that goes, where `KEPT_TEXTS` newer ones are kept."""
+ABANDONED_S = 30 * UNUSED_S
+"""So long nobody has opened a whole folder that goes: its file, or its version, is no more."""
+_FINGERPRINT = "[0-9a-f]{16}"
+_OF_EARLIER_VERSION = re.compile(f"compiled-{_FINGERPRINT}")
+_OF_FILE = re.compile(r"\w+(\.\w+)*")
+
+
+class SharedCache(FunctionCache):
+    """numba's cache of one function, which several processes fill at once.
+
+    numba reads the list of what is there, adds to it, writes it again, and then the code: of two
+    processes that do so at once one would find the other's code under the types of its own.
+    """
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Add a function's code for the types `sig`."""
+        with _hold(Path(self.cache_path)):
+            super().save_overload(sig, data)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The function's code for the types `sig`; None where there is none."""
+        with _hold(Path(self.cache_path)):
+            return super().load_overload(sig, target_context)
+
+
+@contextlib.contextmanager
+def _hold(folder: Path) -> Iterator[None]:
+    """The only one who writes in a folder; without a lock where there can be none."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        descriptor = os.open(folder, os.O_RDONLY)
+    except OSError:  # not ours to write in, or a system that opens no folders
+        yield
+        return
+    try:
+        with contextlib.suppress(OSError):
+            take_lock(descriptor)
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def choose_root() -> Path:
+    """`SVSA_CACHE`, or the user's cache folder."""
+    if chosen := os.environ.get("SVSA_CACHE"):
+        return Path(chosen)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "svsa"
+
+
+def open_folder(module: str, fingerprint: str) -> Path | None:
+    """The folder of a module's code with this fingerprint; None where none can be written."""
+    root = choose_root()
+    folder = root / module / fingerprint
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        os.utime(folder)
+    except OSError:
+        return None
+    with contextlib.suppress(OSError):  # another process removes the same
+        _remove_texts(folder.parent)
+        _remove_abandoned(root)
+    return folder if os.access(folder, os.W_OK) else None
+
+
+def _remove_texts(folder: Path) -> None:
+    texts = sorted(folder.iterdir(), key=os.path.getmtime, reverse=True)
+    for text in texts[KEPT_TEXTS:]:
+        if _is_older(text, UNUSED_S):
+            shutil.rmtree(text, ignore_errors=True)
+
+
+@cache
+def _remove_abandoned(root: Path) -> None:
+    """Once in a process. What is not called as this cache calls its own is somebody else's."""
+    for folder in list(root.iterdir()):
+        texts = _list_texts(folder)
+        if texts is not None and all(_is_older(text, ABANDONED_S) for text in texts):
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def _list_texts(folder: Path) -> list[Path] | None:
+    """The folders that tell when this one was last used; None where it is not of this cache."""
+    if _OF_EARLIER_VERSION.fullmatch(folder.name) and folder.is_dir():
+        return [folder]
+    if not _OF_FILE.fullmatch(folder.name) or not folder.is_dir():
+        return None
+    texts = list(folder.iterdir())
+    is_own = bool(texts) and all(re.fullmatch(_FINGERPRINT, text.name) for text in texts)
+    return texts if is_own else None
+
+
+def _is_older(folder: Path, age_s: float) -> bool:
+    return time.time() - folder.stat().st_mtime > age_s

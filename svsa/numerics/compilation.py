@@ -1,0 +1,203 @@
+"""How the equations become machine code: one decorator, one cache.
+
+Every equation is a pure function compiled by numba, without the GIL and without
+fast-math (the order of operations is the order written, and a product that is added is fused as
+it is written, see `svsa.numerics.fused`, so that the live loop, the batch run and a replay give the
+same bits). Calls between them are inlined: passing the
+constants of an actuator from one to the next would cost more than the equations.
+
+The compiled code is cached between starts. numba notices a change in the file of a
+function, but not in the files of the functions it calls. Each file with a compiled function has
+therefore a cache folder of its own, named after its text and that of all that it imports: of the
+library by what it names, of a package outside by the whole package. A change in a file compiles
+anew what is made of it, and nothing else: a law is no part of the loop that calls it.
+"""
+
+import atexit
+import contextlib
+import gc
+import hashlib
+import platform
+import re
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from threading import Lock
+from types import FunctionType
+from typing import Any
+
+import numba
+from numba.core import config, event
+from numba.np import linalg
+
+from svsa.numerics.code_cache import SharedCache, open_folder
+from svsa.numerics.fused import FusingCompiler
+
+
+def _import_arrays_of_numba() -> None:
+    """Numba imports scipy.linalg, a fifth of a start, only to see whether it is there: it is.
+
+    Compiled code that needs it has numba import it then.
+    """
+    ensure, linalg.ensure_blas = linalg.ensure_blas, lambda: None
+    try:
+        import_module("numba.np.arraymath")
+    finally:
+        linalg.ensure_blas = ensure
+
+
+_import_arrays_of_numba()
+atexit.register(gc.freeze)
+"""A quarter of a second less at the end of every process: Python need not walk through all of numba
+for circles, of which the system takes the memory anyway."""
+
+_LIBRARY = Path(__file__).parents[1]
+_IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
+_OPTIONS: dict[str, Any] = {
+    "nogil": True,
+    "error_model": "numpy",
+    "forceinline": True,
+    "pipeline_class": FusingCompiler,
+}
+_choosing_folder = Lock()
+"""numba takes the folder of a function's cache from a setting that all threads share."""
+_NO_WRAPPERS = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+
+@cache
+def _find_module(name: str) -> Path | None:
+    path = _LIBRARY.parent.joinpath(*name.split("."))
+    return next(
+        (file for file in (path.with_suffix(".py"), path / "__init__.py") if file.exists()), None
+    )
+
+
+@cache
+def _read(file: Path) -> bytes:
+    return file.read_bytes()
+
+
+@cache
+def _find_imported(file: Path) -> frozenset[Path]:
+    """The files of the library that a file imports, or imports from."""
+    found: set[Path] = set()
+    for module, names in _IMPORT.findall(_read(file).decode()):
+        for name in (module, *(f"{module}.{part}" for part in re.findall(r"\w+", names))):
+            if (imported := _find_module(name)) is not None:
+                found.add(imported)
+    return frozenset(found)
+
+
+def find_sources(file: Path) -> list[Path]:
+    """The files that decide what the compiled functions of a file become.
+
+    The file, what it imports of the library, and so on; of a package outside every file.
+    """
+    found = {file, *_find_siblings(file)}
+    waiting = list(found)
+    while waiting:
+        new = _find_imported(waiting.pop()) - found
+        found |= new
+        waiting += new
+    return sorted(found)
+
+
+def _find_siblings(file: Path) -> list[Path]:
+    """Every file of the package outside the library that a file belongs to."""
+    package = None
+    for folder in file.parents:
+        if folder == _LIBRARY or not (folder / "__init__.py").exists():
+            break
+        package = folder
+    return [] if package is None or _LIBRARY in file.parents else [*package.rglob("*.py")]
+
+
+def _compute_fingerprint(file: Path) -> str:
+    digest = hashlib.sha256(f"{numba.__version__} {platform.python_version()}".encode())
+    for source in find_sources(file):
+        digest.update(source.name.encode())
+        digest.update(_read(source))
+    return digest.hexdigest()[:16]
+
+
+@cache
+def _open_cache(module: str, file: Path) -> Path | None:
+    """The cache folder of a file's functions; None where none can be written."""
+    return open_folder(module, _compute_fingerprint(file))
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """The function as machine code for the types that it is called with; a decorator.
+
+    What other compiled functions call is compiled apart, without what takes Python's values in and
+    out again: that would be a third of all the compiling. It is prepared once it is called so.
+    """
+    file = Path(function.__code__.co_filename)
+    folder = _open_cache(function.__module__, file) if file.exists() else None
+    called = _compile_into(folder, function)
+
+    @cache
+    def open_inlined() -> Any:
+        return _compile_into(folder and folder / "inlined", function, **_NO_WRAPPERS)
+
+    called.get_call_template = lambda *given: open_inlined().get_call_template(*given)
+    called.get_overload = lambda signature: open_inlined().get_overload(signature)
+    return called
+
+
+def _compile_into(folder: Path | None, function: Callable[..., Any], **options: Any) -> Any:
+    dispatcher = numba.njit(**_OPTIONS, **options)(function)
+    if folder is None:
+        return dispatcher
+    with _choosing_folder:
+        before = config.CACHE_DIR  # pyright: ignore[reportAttributeAccessIssue]
+        config.CACHE_DIR = str(folder)  # pyright: ignore[reportAttributeAccessIssue]
+        try:
+            dispatcher._cache = SharedCache(function)  # pyright: ignore[reportAttributeAccessIssue]
+        finally:
+            config.CACHE_DIR = before  # pyright: ignore[reportAttributeAccessIssue]
+    return dispatcher
+
+
+def find_fingerprint(function: Callable[..., Any]) -> str:
+    """What changes with the text that a function of a file is made of."""
+    return _compute_fingerprint(Path(function.__code__.co_filename))
+
+
+def specialize(function: Callable[..., Any], name: str, **given: Any) -> Any:
+    """The function compiled with these in place of the globals of its file.
+
+    name: stands for what is given in the cache, so that another has another.
+    """
+    copy = FunctionType(function.__code__, function.__globals__ | given, name)
+    copy.__qualname__ = name
+    return compiled(copy)
+
+
+class _CompilationListener(event.Listener):
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self._tell = tell
+
+    def on_start(self, event: event.Event) -> None:
+        pass
+
+    def on_end(self, event: event.Event) -> None:
+        if event.data is not None:
+            self._tell(event.data["dispatcher"].py_func.__name__)
+
+
+def watch_compilation(tell: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
+    """While this is open, `tell` gets the name of every function once it is compiled.
+
+    What comes out of the cache is not told: it takes no time.
+    """
+    return event.install_listener("numba:compile", _CompilationListener(tell))
+
+
+def is_compiled_before(function: Any) -> bool:
+    """Whether an earlier start left this compiled function in the cache as it is now."""
+    python = function.py_func
+    file = Path(python.__code__.co_filename)
+    folder = _open_cache(python.__module__, file) if file.exists() else None
+    return folder is not None and any(folder.rglob(f"*.{python.__qualname__}-*.nbc"))

@@ -1,0 +1,64 @@
+"""A lane of a configuration as constants of the compiled loop."""
+
+import math
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from svsa.actuators.domain import build_domain
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.lever import compute_lever_ratio_for_stiffness
+from svsa.control.call import BoundLaw
+from svsa.control.installed import get_law
+from svsa.control.law import Setting
+from svsa.control.observers.disturbance import compute_shares
+from svsa.numerics.exponential import exp
+from svsa.runs.configuration import Configuration, Lane
+from svsa.simulation.loop.lane import Blocks
+from svsa.simulation.plant.effects import build_bench
+from svsa.simulation.reference.trajectories import compute_start_value
+
+Bind: TypeAlias = Callable[[Configuration, Lane, Blocks], BoundLaw]
+"""Binds the law of one lane among its blocks, as `bind_law` does."""
+
+
+def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: int = 1) -> Blocks:
+    """The blocks of one lane. mu0: lever ratio at θ2 = 0. steps: RK4 steps a period."""
+    c = configuration
+    limited = c.effects.torque_limits
+    estimation = c.effects.estimation
+    return Blocks(
+        plant=build_actuator(c.actuator, mu0),
+        nominal=build_actuator(c.nominal, mu0),
+        shares=compute_shares(lane.observer or c.observer, c.sampling.period_s),
+        torque1_max=c.limits.torque1_nm if limited else math.inf,
+        torque2_max=c.limits.torque2_nm if limited else math.inf,
+        bench=build_bench(c.effects, c.seed, c.actuator, c.sampling.period_s),
+        decay=exp(-estimation.corner_rad_per_s * c.sampling.period_s) if estimation else 0.0,
+        domain=build_domain(c.actuator, c.limits),
+        period=c.sampling.period_s,
+        steps=steps,
+    )
+
+
+def bind_law(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
+    """The law of one lane among its blocks; compiled where it has not been before."""
+    return get_law(lane.law).bind(configuration.get_parameters(lane), build_setting(blocks))
+
+
+def build_constants(configuration: Configuration, lane: Lane, blocks: Blocks) -> tuple[Any, ...]:
+    """The constants of one lane's law among its blocks."""
+    return get_law(lane.law).build(configuration.get_parameters(lane), build_setting(blocks))
+
+
+def build_setting(blocks: Blocks) -> Setting:
+    """What a law is set into by these blocks."""
+    b = blocks
+    return Setting(b.nominal, b.domain, b.torque1_max, b.torque2_max, b.period)
+
+
+def compute_start_ratio(configuration: Configuration) -> float:
+    """μ0 of a run that starts at rest: σ(0) = σ_d(0) at θ2 = 0."""
+    return compute_lever_ratio_for_stiffness(
+        compute_start_value(configuration.stiffness),
+        configuration.actuator.rotational_stiffness_nm_per_rad,
+    )

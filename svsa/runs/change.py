@@ -1,0 +1,69 @@
+"""Changes of a run at moments that are known before, as typed values."""
+
+from collections.abc import Iterable
+from typing import Self
+
+from pydantic import model_validator
+
+from svsa.actuators.parameters import ActuatorParameters
+from svsa.control.gains import Gains
+from svsa.control.installed import LawName, ParametersByLaw
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, Number, check_number, quantity
+from svsa.runs.command import Command, build_command
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+
+
+class Change(Checked):
+    """What becomes different at a time of a run; what is left out stays.
+
+    A law, gains, parameters of laws, an observer, a reference of position or stiffness, the true
+    plant, the nominal model or effects hold from the first tick at or after `at_s`; a load comes on
+    then.
+    """
+
+    at_s: Number = quantity("s", "Time of the run", ge=0, le=1e6)
+    law: LawName | None = quantity("", "Name of a law that is installed", default=None)
+    gains: Gains | None = None
+    parameters: ParametersByLaw | None = quantity(
+        "", "Parameters of laws that have their own, by the law's name", default=None
+    )
+    observer: ObserverBandwidth | None = None
+    position: PositionReference | None = None
+    stiffness: StiffnessReference | None = None
+    actuator: ActuatorParameters | None = None
+    nominal: ActuatorParameters | None = None
+    effects: Effects | None = None
+    load: Load | None = None
+
+    @model_validator(mode="after")
+    def _check_some(self) -> Self:
+        if not self.list_given():
+            names = ", ".join(name for name in type(self).model_fields if name != "at_s")
+            raise ParameterError(Violation("change", {}, "", f"of {names}"))
+        return self
+
+    def list_given(self) -> dict[str, object]:
+        """What is changed: the kind of its command, and its argument."""
+        return {name: value for name, value in self if name != "at_s" and value is not None}
+
+
+def build_commands(
+    changes: Iterable[Change], period_s: float, duration_s: float
+) -> tuple[Command, ...]:
+    """The commands of these changes, in the order of time, at whole ticks of `period_s`.
+
+    Raises `ParameterError` for a time after the run's end, and what is no `Change`.
+    """
+    commands: list[Command] = []
+    for change in changes:
+        if not isinstance(change, Change):
+            raise ParameterError(Violation("commands", change, "", "a list of svsa.Change"))
+        check_number("at_s", change.at_s, "s", 0.0, duration_s)
+        tick = round(change.at_s / period_s)
+        given = change.list_given()
+        commands += [build_command(tick, kind, value) for kind, value in given.items()]
+    return tuple(sorted(commands, key=lambda command: command.tick))

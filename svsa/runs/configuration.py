@@ -1,0 +1,240 @@
+"""A run as a value: parameters, design, references and loads; TOML files in and out."""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any, Self
+
+import tomli_w
+from pydantic import ValidationInfo, field_validator, model_validator
+
+from svsa.actuators.parameters import ActuatorParameters, Limits
+from svsa.control.gains import Gains
+from svsa.control.installed import (
+    PAPERS_LAW,
+    LaneParameters,
+    LawName,
+    ParametersByLaw,
+    check_installed,
+    get_law,
+    has_own_parameters,
+    is_usable,
+    read_parameters,
+)
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.parameters import LawParameters
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.inputs.toml_file import parse_toml, read_toml
+from svsa.simulation.plant.effects import IDEAL, Effects
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference, get_range
+
+MAX_LOADS = 16
+PARAMETER_FILE = "parameter file"
+MAX_LANES = 4
+PROTOTYPE_FILE = Path(__file__).parents[1] / "actuators" / "prototype.toml"
+
+
+class Sampling(Checked):
+    """The sampling of the loop."""
+
+    period_s: Number = quantity("s", "Control period T, zero-order hold", ge=1e-4, le=0.02)
+
+
+class Design(Checked):
+    """What a parameter file holds: plant, nominal model, gains, parameters of laws, observer,
+    limits, sampling.
+    """
+
+    actuator: ActuatorParameters
+    nominal: ActuatorParameters
+    gains: Gains
+    parameters: ParametersByLaw = quantity(
+        "",
+        "Parameters of laws that have their own, by the law's name; else its defaults",
+        default={},
+    )
+    observer: ObserverBandwidth
+    limits: Limits
+    sampling: Sampling
+
+
+class Lane(Checked):
+    """A controller with a plant of its own: same references, loads and noise as the others."""
+
+    law: LawName = quantity("", "Name of a law that is installed")
+    gains: Gains | None = quantity(
+        "", "Gains of a law that takes such (FL, NDOBC); left out, those of the run", default=None
+    )
+    parameters: LaneParameters = quantity(
+        "", "Parameters of a law that has its own; left out, those of the run", default=None
+    )
+    observer: ObserverBandwidth | None = quantity(
+        "", "Its observer; left out, that of the run", default=None
+    )
+
+    @field_validator("parameters")
+    @classmethod
+    def _read_parameters(cls, given: Any, info: ValidationInfo) -> LawParameters | None:
+        law = info.data.get("law")
+        return given if given is None or law is None else read_parameters(law, given)
+
+    def controlled_by(self, law: str) -> Self:
+        """The lane with another law: gains and observer stay, parameters go with their law."""
+        return self if law == self.law else self.changed(law=law, parameters=None)
+
+
+class LaneSetting(Checked):
+    """What controls a lane beside the first."""
+
+    lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MAX_LANES)
+    setting: Lane
+
+
+class Configuration(Design):
+    """Everything that decides a run, besides the commands given while it runs."""
+
+    law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
+    rivals: tuple[Lane, ...] = quantity(
+        "",
+        "Controllers that run beside the first, each on a plant of its own",
+        default=(),
+        max_length=MAX_LANES - 1,
+    )
+    effects: Effects = quantity(
+        "", "What separates the simulation from a bench", symbol="Effects", default=IDEAL
+    )
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
+    position: PositionReference
+    stiffness: StiffnessReference
+    loads: tuple[Load, ...] = quantity(
+        "", "Loads from the start on", default=(), max_length=MAX_LOADS
+    )
+
+    @model_validator(mode="after")
+    def _check_stiffness_range(self) -> Self:
+        self.limits.check_stiffness("stiffness", *get_range(self.stiffness))
+        return self
+
+    @property
+    def lanes(self) -> tuple[Lane, ...]:
+        """The run's own controller and its rivals."""
+        return (Lane(law=self.law), *self.rivals)
+
+    def get_parameters(self, lane: Lane) -> LawParameters:
+        """What the law of a lane is set to: the lane's own, the run's, or its defaults.
+
+        Raises `ParameterError` for a law that is not installed and not set either.
+        """
+        if not has_own_parameters(lane.law):
+            return lane.gains or self.gains
+        given = lane.parameters or self.parameters.get(lane.law)
+        return get_law(lane.law).parameters() if given is None else given
+
+    def list_parameters(self) -> dict[str, LawParameters]:
+        """Of laws that have their own: what was set, and what those of the lanes are set to."""
+        laws = dict.fromkeys((*(lane.law for lane in self.lanes), *self.parameters))
+        own = (law for law in laws if is_usable(law) and has_own_parameters(law))
+        return {law: self.get_parameters(Lane(law=law)) for law in own}
+
+    def with_design(self, design: Design) -> Self:
+        """With another design; parameters of laws that it does not name stay."""
+        parameters = {**self.parameters, **design.parameters}
+        return self.changed(**(dict(design) | {"parameters": parameters}))
+
+    def controlled_by(self, laws: Sequence[str]) -> Self:
+        """The first lanes with these laws, in this order; gains and observers stay theirs.
+
+        Raises `ParameterError` where there are fewer lanes.
+        """
+        if not 1 <= len(laws) <= len(self.lanes):
+            bound = f"1 to {len(self.lanes)} laws, one a lane from the first on"
+            raise ParameterError(Violation("laws", list(laws), "", bound))
+        changed = [
+            lane.controlled_by(law) for lane, law in zip(self.rivals, laws[1:], strict=False)
+        ]
+        return self.changed(law=laws[0], rivals=(*changed, *self.rivals[len(changed) :]))
+
+    def with_lane(self, setting: LaneSetting) -> Self:
+        """One lane beside with this controller; raises `ParameterError` where there is none."""
+        lanes = len(self.lanes)
+        if setting.lane > lanes:
+            bound = f"2 to {lanes}, of the lanes that run" if lanes > 1 else "none: one lane runs"
+            raise ParameterError(Violation("lane", setting.lane, "", bound))
+        at = setting.lane - 2
+        rivals = (*self.rivals[:at], setting.setting, *self.rivals[at + 1 :])
+        return self.changed(rivals=rivals)
+
+
+def read_design(path: Path | str) -> Design:
+    """Read a parameter file written as `prototype.toml` is; a value may stand bare.
+
+    The parameters of a law stand in a table of its own, `[parameters.fl_integral]`. Raises
+    `ParameterError` for a file that cannot be read and for every wrong value, with the file's name.
+    """
+    return _build_design(read_toml(path, PARAMETER_FILE), str(path))
+
+
+def parse_design(text: str, name: str = "") -> Design:
+    """The design in the text of a parameter file called `name`; raises `ParameterError`."""
+    return _build_design(parse_toml(text, PARAMETER_FILE, name), name)
+
+
+def _build_design(sections: dict[str, Any], file: str) -> Design:
+    plain = {name: _strip_sources(section) for name, section in sections.items()}
+    laws = plain.get("parameters", {})
+    if isinstance(laws, dict):
+        plain["parameters"] = {law: _strip_sources(table) for law, table in laws.items()}
+    try:
+        design = Design(**plain)
+        for law in design.parameters:
+            _check_law(law)
+    except ParameterError as error:
+        raise ParameterError(*error.violations, file=file) from None
+    return design
+
+
+def _check_law(law: str) -> None:
+    try:
+        check_installed(law)
+    except ParameterError as error:
+        raise error.within("parameters") from None
+
+
+def write_design(path: Path | str, design: Design, source: str) -> None:
+    """Write a parameter file in which every value has `source` as its source."""
+    Path(path).write_text(format_design(design, lambda _: source), encoding="utf-8")
+
+
+def format_design(design: Design, tell_source: Callable[[str], str]) -> str:
+    """The text of a parameter file. tell_source: what stands as the source of a section's values,
+    of a name as "gains" or "parameters.esp".
+    """
+    sections = design.model_dump(mode="json")
+    laws = {
+        law: _add_source(table, tell_source(f"parameters.{law}"))
+        for law, table in sections.pop("parameters").items()
+    }
+    written = {name: _add_source(table, tell_source(name)) for name, table in sections.items()}
+    return tomli_w.dumps(written | ({"parameters": laws} if laws else {}))
+
+
+@cache
+def load_prototype() -> Design:
+    """The paper's prototype with the declared assumptions: `svsa/actuators/prototype.toml`."""
+    return read_design(PROTOTYPE_FILE)
+
+
+def _add_source(section: dict[str, Any], source: str) -> dict[str, Any]:
+    return {key: {"value": value, "source": source} for key, value in section.items()}
+
+
+def _strip_sources(section: Any) -> Any:
+    if not isinstance(section, dict):
+        return section
+    plain = {
+        key: entry["value"] if isinstance(entry, dict) and "value" in entry else entry
+        for key, entry in section.items()
+    }
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in plain.items()}

@@ -1,0 +1,105 @@
+"""Who controls a lane: a law with its gains and its observer, told apart and named."""
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from svsa.control.installed import get_law, get_title, is_usable
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.parameters import LawParameters, UnreadParameters
+from svsa.runs.configuration import Configuration, Lane
+
+BENCH_LANES = ("Bench", "Twin")
+
+
+class Controller(NamedTuple):
+    """What a curve is drawn of and named by.
+
+    place: "Bench" or "Twin" on a bench, else "". observer: None where the law does not act on
+    it. copy: 1, and more for a lane beside another one with all of this the same.
+    """
+
+    place: str
+    law: str
+    parameters: LawParameters
+    observer: ObserverBandwidth | None
+    copy: int
+
+
+def list_controllers(
+    configuration: Configuration, is_bench: bool, before: Sequence[Controller | None] = ()
+) -> list[Controller]:
+    """Of every lane. before: who controlled it until now, which keeps the number of its copy."""
+    places = (*BENCH_LANES, *[""] * len(configuration.lanes)) if is_bench else None
+    alone = [
+        _build(configuration, lane, places[number] if places else "")
+        for number, lane in enumerate(configuration.lanes)
+    ]
+    counts, taken, found = Counter(alone), set[Controller](), dict[int, Controller]()
+    kept = dict(enumerate(before))
+    for number in sorted(range(len(alone)), key=lambda n: not _is_copy_of(kept.get(n), alone[n])):
+        controller, held = alone[number], kept.get(number)
+        if counts[controller] > 1 and held is not None and _is_copy_of(held, controller):
+            controller = held
+        while controller in taken:
+            controller = controller._replace(copy=controller.copy + 1)
+        taken.add(controller)
+        found[number] = controller
+    return [found[number] for number in range(len(alone))]
+
+
+def complete_laws(laws: tuple[str, ...], is_bench: bool) -> tuple[str, ...]:
+    """The laws of the first lanes: a bench's twin has the law of the bench."""
+    return (laws[0], laws[0], *laws[2:]) if is_bench else laws
+
+
+def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]:
+    """A name for each: place and law, and where one law is there twice what tells them apart."""
+    described = {one: _describe(one) for one in dict.fromkeys(controllers)}
+    alike: dict[tuple[str, str], list[dict[str, str]]] = {}
+    for one, numbers in described.items():
+        alike.setdefault((one.place, one.law), []).append(numbers)
+    differing = {law: _find_differing(numbers) for law, numbers in alike.items()}
+    names: dict[Controller, str] = {}
+    for one, numbers in described.items():
+        told = differing[one.place, one.law]
+        apart = (f"{symbol} {value}" for symbol, value in numbers.items() if symbol in told)
+        names[one] = " ".join(filter(None, (one.place, get_title(one.law), *apart)))
+    return _number_doubles(names)
+
+
+def _build(configuration: Configuration, lane: Lane, place: str) -> Controller:
+    if not is_usable(lane.law):
+        written = lane.parameters or configuration.parameters.get(lane.law) or UnreadParameters()
+        return Controller(place, lane.law, written, None, 1)
+    is_observing = get_law(lane.law).estimate == "observer"
+    observer = (lane.observer or configuration.observer) if is_observing else None
+    return Controller(place, lane.law, configuration.get_parameters(lane), observer, 1)
+
+
+def _is_copy_of(held: Controller | None, controller: Controller) -> bool:
+    return held is not None and held._replace(copy=1) == controller
+
+
+def _find_differing(described: Sequence[dict[str, str]]) -> set[str]:
+    """The symbols of the numbers in which these differ, or that not all of them have."""
+    symbols = {symbol for numbers in described for symbol in numbers}
+    return {symbol for symbol in symbols if len({numbers.get(symbol) for numbers in described}) > 1}
+
+
+def _describe(controller: Controller) -> dict[str, str]:
+    """Its numbers by their symbols; β is the observer's, rad/s."""
+    betas = controller.observer.bandwidth_rad_per_s if controller.observer else ()
+    shown = betas[:1] if len(set(betas)) == 1 else betas
+    beta = {"β": "/".join(f"{beta:.3g}" for beta in shown)} if betas else {}
+    return beta | controller.parameters.describe()
+
+
+def _number_doubles(names: dict[Controller, str]) -> dict[Controller, str]:
+    """Names that are still the same are numbered in the order in which they came."""
+    seen = Counter[str]()
+    numbered: dict[Controller, str] = {}
+    for controller, name in names.items():
+        seen[name] += 1
+        numbered[controller] = name if seen[name] == 1 else f"{name} ({seen[name]})"
+    return numbered

@@ -1,0 +1,101 @@
+"""What happened to a run, in words: the same while it runs and of its record."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from svsa.control.installed import LawName, get_title
+from svsa.errors import Fault
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, SetLane, SetLaw, SetLaws, SetRivals
+from svsa.runs.configuration import Configuration
+from svsa.runs.fault_labels import label_fault
+from svsa.runs.replay import list_loads
+from svsa.simulation.plant.loads import Load, MassLoad, PaperLoad, PushLoad
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that changed the run: when, of what kind, and in words."""
+
+    tick: int
+    time_s: float
+    kind: str
+    label: str
+
+
+def list_events(
+    configuration: Configuration,
+    commands: Iterable[Command],
+    fault: Fault | None = None,
+    told: Iterable[Event] = (),
+) -> list[Event]:
+    """The events of a run that was given these commands, in the order of time.
+
+    A load that comes and goes is one event each, whether it was planned or commanded; one that
+    never ends has an end at no tick of the run. fault: what the run ended in, or None. told: what
+    a bench said of itself meanwhile.
+    """
+    commands, law = list(commands), configuration.law
+    found: list[tuple[float, str, str]] = []
+    for command in commands:
+        if not isinstance(command, ApplyLoad | RemoveLoad):
+            found.append((command.tick, command.kind, describe_change(command, law)))
+            law = find_law(command) or law
+    for _, load, start, end in list_loads(configuration, commands):
+        if start < end:
+            found.append((start, "load_on", describe_onset(load)))
+            found.append((end, "load_off", describe_end(load)))
+    found += [(event.tick, event.kind, event.label) for event in told]
+    if fault is not None:
+        found.append((fault.tick, "fault", label_fault(fault.code)))
+    period_s = configuration.sampling.period_s
+    return [
+        Event(int(tick), tick * period_s, kind, label)
+        for tick, kind, label in sorted(found, key=lambda one: one[0])
+        if tick < float("inf")
+    ]
+
+
+def find_law(command: Command) -> LawName | None:
+    """The law that a command gives to the first lane, or None."""
+    match command:
+        case SetLaw(argument=law) | SetLaws(argument=(law, *_)):
+            return law
+    return None
+
+
+def describe_change(command: Command, law: LawName) -> str:
+    """A change in a few words; law: the one that controlled the first lane before."""
+    given = find_law(command)
+    if given is not None and given != law:
+        return f"{get_title(law)} → {get_title(given)}"
+    match command:
+        case SetLane(argument=argument):
+            return f"{get_title(argument.setting.law)} set beside"
+        case SetRivals(argument=()):
+            return "Nothing beside"
+        case SetRivals(argument=rivals):
+            return f"{', '.join(get_title(lane.law) for lane in rivals)} beside"
+    return command.label
+
+
+def describe_onset(load: Load) -> str:
+    """A load that comes on."""
+    return f"{describe_load(load)} on"
+
+
+def describe_end(load: Load) -> str:
+    """A load that ends or is taken off."""
+    return f"{describe_load(load)} off"
+
+
+def describe_load(load: Load) -> str:
+    """A load in a few words."""
+    match load:
+        case PaperLoad():
+            return "3 kg load"
+        case MassLoad():
+            return f"{load.mass_kg:g} kg mass"
+        case PushLoad():
+            return "Push"
+        case _:
+            return f"{load.kind.capitalize()} torque"

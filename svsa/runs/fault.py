@@ -1,0 +1,75 @@
+"""Why a run ended, in words and numbers."""
+
+from svsa.actuators.domain import (
+    DEFLECTION_LIMIT,
+    FAULT_CODES,
+    LEVER_END,
+    NOT_FINITE,
+    compute_deflection_limit,
+    compute_relative_determinant,
+)
+from svsa.actuators.dynamics import compute_deflection
+from svsa.actuators.lever import compute_lever_ratio, compute_zero_stiffness_deflection
+from svsa.actuators.signals import State
+from svsa.actuators.spring import compute_stiffness
+from svsa.errors import Fault
+from svsa.simulation.loop.lane import Blocks
+
+
+def build_fault(code: int, lane: int, tick: int, blocks: Blocks, x: State, name: str = "") -> Fault:
+    """The fault of the domain code `code` at the state x, with the values that broke it.
+
+    name: of the lane, by its law, where several run.
+    """
+    values, message = _describe(code, tick * blocks.period, blocks, x)
+    if name:
+        message = f"{name}: {message}"
+    return Fault(FAULT_CODES[code], lane, tick, tick * blocks.period, message, values)
+
+
+def _describe(code: int, time: float, blocks: Blocks, x: State) -> tuple[dict[str, float], str]:
+    values = {
+        "position_rad": x.q,
+        "velocity_rad_per_s": x.dq,
+        "motor1_position_rad": x.theta1,
+        "motor1_velocity_rad_per_s": x.dtheta1,
+        "motor2_position_rad": x.theta2,
+        "motor2_velocity_rad_per_s": x.dtheta2,
+    }
+    if code == NOT_FINITE:
+        message = f"At {time:.3f} s a torque or a state was not a finite number: the run ended."
+        return _keep_finite(values), message
+    mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
+    phi = compute_deflection(x)
+    domain = blocks.domain
+    values |= {"lever_ratio": mu, "deflection_rad": phi}
+    if code == LEVER_END:
+        values |= {"lever_ratio_min": domain.mu_min, "lever_ratio_max": domain.mu_max}
+        message = (
+            f"At {time:.3f} s the lever ratio μ = {mu:.4f} reached the end of the spiral: it must"
+            f" stay between {domain.mu_min:.4f} and {domain.mu_max:.4f}."
+        )
+        return values, message
+    values["stiffness_nm_per_rad"] = compute_stiffness(mu, phi, blocks.plant.K)
+    if code == DEFLECTION_LIMIT:
+        limit = compute_deflection_limit(domain, mu)
+        zero = compute_zero_stiffness_deflection(mu)
+        values |= {"deflection_limit_rad": limit, "zero_stiffness_deflection_rad": zero}
+        message = (
+            f"At {time:.3f} s the deflection φ = {phi:.4f} rad passed its limit of"
+            f" ±{limit:.4f} rad: at μ = {mu:.4f} the stiffness falls to zero at {zero:.4f} rad."
+        )
+    else:
+        share = compute_relative_determinant(mu, phi)
+        values["relative_determinant"] = share
+        message = (
+            f"At {time:.3f} s the decoupling matrix A(x) came near singular: det A is"
+            f" {share:.4f} of its value at φ = 0, at least {domain.singularity_fraction:g} is"
+            " needed."
+        )
+    return values, message
+
+
+def _keep_finite(values: dict[str, float]) -> dict[str, float]:
+    """JSON has no word for NaN: a value that is not finite is left out."""
+    return {name: value for name, value in values.items() if abs(value) < float("inf")}

@@ -1,0 +1,94 @@
+"""The paper's experiments as data: Figures 4A, 4B and 5 simulated, 6A, 6B and 7 on a bench."""
+
+from typing import NamedTuple
+
+from svsa.errors import ParameterError, Violation
+from svsa.runs.configuration import Configuration, Design, load_prototype
+from svsa.simulation.plant.loads import PAPER_TORQUE_NM, ConstantLoad, Load, PaperLoad
+from svsa.simulation.reference.paper import FIGURE_REFERENCES, ON_BENCH
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+
+LOAD_TIME_S = 5.0
+DURATION_S = 20.0
+BEFORE_S = (1.0, 5.0)
+PEAK_S = (5.0, 7.0)
+STEADY_S = (8.0, 20.0)
+
+
+class Figure(NamedTuple):
+    """One figure: its key, title, references, load, and what the paper claims of it."""
+
+    key: str
+    title: str
+    position: PositionReference
+    stiffness: StiffnessReference
+    claim: str
+    hung: Load = PaperLoad(start_s=LOAD_TIME_S)
+
+    def build_configuration(
+        self, law: str = "ndobc", load: bool = True, design: Design | None = None
+    ) -> Configuration:
+        """The run behind the figure; load: with the paper's 3 kg at 5 s.
+
+        design: parameters, gains and limits; the paper's if left out.
+        """
+        loads = (self.hung,) if load else ()
+        return Configuration(
+            **dict(design or load_prototype()),
+            law=law,
+            position=self.position,
+            stiffness=self.stiffness,
+            loads=loads,
+        )
+
+
+_CLAIM_FIXED = (
+    "Both laws track alike for the first 5 s; after the load FL tracks poorly and NDOBC goes"
+    " on; the stiffness has little effect."
+)
+
+FIGURES = {
+    key: Figure(key, title, *FIGURE_REFERENCES[key], claim)
+    for key, title, claim in (
+        ("4a", "Figure 4A: low stiffness, 15 N·m/rad", _CLAIM_FIXED),
+        ("4b", "Figure 4B: high stiffness, 60 N·m/rad", _CLAIM_FIXED),
+        (
+            "5",
+            "Figure 5: variable stiffness, 35 + sin N·m/rad",
+            "Both errors are small without the load; after it both grow with FL, and NDOBC"
+            " stays better.",
+        ),
+    )
+}
+
+# 3 kg on a cable over a pulley of 68 mm: a torque on the link alone, from one moment on.
+CABLE_PULL = ConstantLoad(start_s=LOAD_TIME_S, torque_nm=(PAPER_TORQUE_NM, 0.0, 0.0))
+
+_CLAIM_BENCH = (
+    "After the load NDOBC goes on tracking and FL does not; the load moves the link less where"
+    " it is stiff."
+)
+
+BENCH_FIGURES = {
+    ON_BENCH[key]: FIGURES[key]._replace(
+        key=ON_BENCH[key], title=title, claim=claim, hung=CABLE_PULL
+    )
+    for key, title, claim in (
+        ("4a", "Figure 6A: bench, low stiffness, 15 N·m/rad", _CLAIM_BENCH),
+        ("4b", "Figure 6B: bench, high stiffness, 60 N·m/rad", _CLAIM_BENCH),
+        (
+            "5",
+            "Figure 7: bench, variable stiffness, 35 + sin N·m/rad",
+            "The stiffness shows no change at the load with NDOBC, and an error with FL.",
+        ),
+    )
+}
+
+
+def get_figure(key: str) -> Figure:
+    """A figure of the paper by its key ("4a" … "7"); raises `ParameterError`."""
+    figures = FIGURES | BENCH_FIGURES
+    figure = figures.get(str(key).lower())
+    if figure is None:
+        raise ParameterError(Violation("figure", key, "", "one of " + ", ".join(figures)))
+    return figure

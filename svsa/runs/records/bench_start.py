@@ -1,0 +1,58 @@
+"""What a run of a bench began from: a file of its own in the record, where there is one.
+
+With it, and the samples as they were measured and sent, every other number of the run can be worked
+out again.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+
+from svsa.runs.records.header import RecordError, replace_file
+
+START_FILE = "bench-start.json"
+
+
+@dataclass(frozen=True)
+class BenchStart:
+    """What of a bench's run is in none of its samples.
+
+    mu0: lever ratio at the zero marks. latency_s, lag_s: from a torque that is decided to one that
+    acts. torque_step_nm: of both motors, of the least step of current that their drives know.
+    motion: what the first tick found, as `BenchLoop.read_motion` tells it. commands: how many of
+    the record's commands were given before it began.
+    """
+
+    mu0: float
+    latency_s: float
+    lag_s: float
+    torque_step_nm: tuple[float, float]
+    motion: dict[str, list[float]]
+    commands: int
+
+
+_START = TypeAdapter(BenchStart)
+
+
+def write_start(folder: Path, start: BenchStart) -> None:
+    """Say what the run began from; raises `OSError`."""
+    replace_file(folder / START_FILE, dump_start(start))
+
+
+def dump_start(start: BenchStart) -> bytes:
+    """The start as JSON."""
+    return _START.dump_json(start)
+
+
+def read_start(folder: Path) -> BenchStart | None:
+    """What the run began from; None for a simulated one, and where nobody wrote it.
+
+    Raises `RecordError` where the file is damaged.
+    """
+    try:
+        return _START.validate_json((folder / START_FILE).read_bytes())
+    except FileNotFoundError:
+        return None
+    except (OSError, ValidationError) as error:
+        raise RecordError(f"{START_FILE} of record {folder.name} is damaged: {error}") from None

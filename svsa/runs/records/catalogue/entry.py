@@ -1,0 +1,221 @@
+"""A run as the catalogue knows it, and what may be asked of the list."""
+
+import hashlib
+import json
+import unicodedata
+from dataclasses import dataclass, replace
+from typing import Any, Literal, NamedTuple
+
+import msgspec
+
+from svsa.errors import Fault, ParameterError, SvsaError, Violation
+from svsa.runs.metrics import Metrics
+from svsa.runs.records.header import BranchPoint, PlantKind
+from svsa.runs.records.measured_window import MeasuredWindow
+from svsa.runs.records.settings import RunSettings, name_figure
+
+RunState = Literal["recording", "complete", "failed", "damaged", "missing"]
+SORTS = (
+    "created",
+    "name",
+    "figure",
+    "laws",
+    "stiffness_nm_per_rad",
+    "load",
+    "realism",
+    "plant",
+    "peak_position_error_rad",
+    "settled_position_error_rad",
+    "rms_position_error_rad",
+    "duration_s",
+    "bytes",
+    "session",
+)
+FACETS = ("tag", "law", "load", "figure", "plant")
+MAX_PAGE_SIZE = 200
+MAX_PAGES = 1_000_000
+LONGEST_SEARCH = 200
+
+
+class CatalogueError(SvsaError):
+    """The folder or the database of the runs cannot be used; no run is lost by it."""
+
+
+class UnknownRunError(SvsaError):
+    """A run was named that the catalogue does not have."""
+
+
+class ChangedRunError(SvsaError):
+    """A run's name, tags or notes are no longer those that were to be changed."""
+
+
+@dataclass(frozen=True)
+class RunEntry:
+    """A run in the list. created, deleted: UTC, ISO 8601; deleted is None outside the trash.
+
+    state: complete, or still recording, or failed (it ended early, `message` says why; what
+    was recorded is there), damaged (it cannot be read) or missing (its folder is gone).
+    metrics: per lane, of `window`; None where there are none, or no finite ones. fault: what the
+    run ended in.
+    settings: None while it is recorded, and where they cannot be read. branch_of: where it
+    went on from. owner: id of who recorded it, in a class.
+    """
+
+    id: str
+    created: str
+    name: str = ""
+    tags: tuple[str, ...] = ()
+    notes: str = ""
+    session: str = ""
+    version: str = ""
+    plant: PlantKind = "simulated"
+    state: RunState = "recording"
+    message: str = ""
+    lanes: tuple[str, ...] = ()
+    period_s: float = 0.0
+    first_tick: int = 0
+    ticks: int = 0
+    duration_s: float = 0.0
+    bytes: int = 0
+    metrics: tuple[Metrics, ...] | None = None
+    window: MeasuredWindow | None = None
+    fault: Fault | None = None
+    deleted: str | None = None
+    settings: RunSettings | None = None
+    branch_of: BranchPoint | None = None
+    owner: str = ""
+
+    @property
+    def title(self) -> str:
+        """What it is called: by people, or by its settings, or by its id."""
+        return self.name or (self.settings.name if self.settings else "") or self.id
+
+    @property
+    def revision(self) -> str:
+        """Another one for every other name, tags and notes."""
+        written = json.dumps([self.name, self.tags, self.notes])
+        return hashlib.sha256(written.encode()).hexdigest()[:16]
+
+    @property
+    def figure(self) -> str:
+        """The figure as the list shows it; "" for none."""
+        return name_figure(self.settings) if self.settings else ""
+
+    @property
+    def facets(self) -> list[tuple[str, str]]:
+        """By what it is filtered: (facet, value)."""
+        known = self.settings
+        values = {
+            "tag": self.tags,
+            "law": known.law_kinds if known else (),
+            "load": known.load_kinds if known else (),
+            "figure": (known.figure,) if known and known.figure else (),
+            "plant": (self.plant,),
+        }
+        return [(facet, value) for facet in FACETS for value in values[facet]]
+
+
+@dataclass(frozen=True)
+class RunPage:
+    """A page of the list; total counts the runs of all pages."""
+
+    runs: tuple[RunEntry, ...]
+    total: int
+    page: int
+    page_size: int
+
+
+class Reader(NamedTuple):
+    """For whom a list is, in a class: runs of theirs, of nobody, and of the session open to all."""
+
+    person: str
+    open_session: str
+
+
+@dataclass(frozen=True)
+class Query:
+    """What of the list is asked for; raises `ParameterError` for what cannot be.
+
+    search: every word in it must stand, as it is written but for its case, in what a row of the
+    list shows of a run besides numbers and times: name, settings, tags, notes, the run it
+    branched from; or be its id. tag, law, load, figure, plant: only runs with this one; a law
+    that controlled any lane, a kind of load that was on or "none", a key of a figure. sort: a
+    column of `SORTS`, with - before it from the greatest down; what is not known comes last.
+    trash: what was deleted instead. reader: for whom it is; None for somebody who sees all.
+    """
+
+    search: str = ""
+    tag: str | None = None
+    law: str | None = None
+    load: str | None = None
+    figure: str | None = None
+    plant: str | None = None
+    sort: str = "-created"
+    page: int = 1
+    page_size: int = 50
+    trash: bool = False
+    reader: Reader | None = None
+
+    def __post_init__(self) -> None:
+        if self.sort.removeprefix("-") not in SORTS:
+            bound = "one of " + ", ".join(SORTS) + ", or one of them after -"
+            raise ParameterError(Violation("sort", self.sort, "", bound))
+        for name, most in (("page", MAX_PAGES), ("page_size", MAX_PAGE_SIZE)):
+            value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
+                bound = f"a whole number from 1 to {most}"
+                raise ParameterError(Violation(name, value, "", bound))
+        if len(self.search) > LONGEST_SEARCH:
+            bound = f"a text of at most {LONGEST_SEARCH} characters"
+            raise ParameterError(Violation("search", self.search, "", bound))
+
+    @property
+    def words(self) -> list[str]:
+        """What is searched for, so that the case of no alphabet matters."""
+        return fold(self.search).split()
+
+    @property
+    def facets(self) -> list[tuple[str, str]]:
+        """The filters that are given: (facet, value)."""
+        given = [(facet, getattr(self, facet)) for facet in FACETS]
+        return [(facet, make_storable(value)) for facet, value in given if value is not None]
+
+
+def write_entry(entry: RunEntry) -> str:
+    """An entry as JSON."""
+    return msgspec.json.encode(replace(entry, message=make_storable(entry.message))).decode()
+
+
+def read_entry(text: str) -> RunEntry:
+    """An entry from `write_entry`; without metrics of a window that nobody wrote down."""
+    written = json.loads(text)
+    for name in ("tags", "lanes"):
+        written[name] = tuple(written[name])
+    written["settings"] = _read(RunSettings, written.get("settings"))
+    written["window"] = _read(MeasuredWindow, written.get("window"))
+    written["fault"] = _read(Fault, written.get("fault"))
+    written["metrics"] = _read(tuple[Metrics, ...], written["metrics"])
+    if written["window"] is None:
+        written["metrics"] = None
+    if branch := written.get("branch_of"):
+        written["branch_of"] = BranchPoint(**branch)
+    return RunEntry(**written)
+
+
+def _read(kind: Any, written: Any) -> Any:
+    if written is None:
+        return None
+    try:
+        return msgspec.convert(written, kind)
+    except msgspec.ValidationError:
+        return None
+
+
+def fold(text: str) -> str:
+    """The text for a search in which neither case nor the way an accent is stored matters."""
+    return unicodedata.normalize("NFC", make_storable(text)).casefold()
+
+
+def make_storable(text: str) -> str:
+    """The text with halves of characters, which no database stores, replaced."""
+    return text.encode("utf-8", "replace").decode()

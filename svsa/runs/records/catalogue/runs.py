@@ -1,0 +1,239 @@
+"""The runs on this machine: find, name, tag, delete and take back.
+
+SVSA_DATA holds runs/<id> (see `recorder`), trash/<id>, and catalogue.sqlite, which is only
+an index: what is in it is in the folders too, and `recover` builds it anew from them.
+"""
+
+import dataclasses
+import os
+import secrets
+import shutil
+from collections.abc import Iterable
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from svsa.errors import StateError
+from svsa.runs.records.catalogue.database import Database
+from svsa.runs.records.catalogue.entry import (
+    CatalogueError,
+    ChangedRunError,
+    Query,
+    Reader,
+    RunEntry,
+    RunPage,
+    UnknownRunError,
+)
+from svsa.runs.records.catalogue.recovery import (
+    Recovery,
+    build_entry,
+    describe,
+    describe_older,
+    recover_runs,
+)
+from svsa.runs.records.header import (
+    RecordError,
+    RecordHeader,
+    check_texts,
+    is_run_id,
+    read_header,
+    write_header,
+)
+from svsa.runs.records.parquet import measure_bytes
+from svsa.runs.records.reader import Record, open_record
+from svsa.runs.records.recorder import Recorder, RecordStatus
+
+DATA_VARIABLE = "SVSA_DATA"
+
+
+class Catalogue:
+    """The runs in a folder; safe to use from many threads and processes.
+
+    folder: where runs are kept; left out, `find_data_folder`. Raises `CatalogueError` where
+    it cannot be used. Methods that take a run's id raise `UnknownRunError`.
+    """
+
+    def __init__(self, folder: Path | str | None = None) -> None:
+        self.folder = find_data_folder() if folder is None else Path(folder)
+        self._runs, self._trash = self.folder / "runs", self.folder / "trash"
+        try:
+            self._runs.mkdir(parents=True, exist_ok=True)
+            self._trash.mkdir(exist_ok=True)
+        except OSError as error:
+            raise CatalogueError(f"Runs cannot be kept in {self.folder}: {error}.") from None
+        self._database = Database(self.folder / "catalogue.sqlite")
+
+    def record(self, header: RecordHeader) -> Recorder:
+        """Begin to record a run and put it into the list; raises `RecordError`."""
+        recorder = Recorder(self._runs / header.run_id, header)
+        try:
+            self.register(header)
+        except CatalogueError:
+            recorder.close()
+            raise
+        return recorder
+
+    def register(self, header: RecordHeader) -> RunEntry:
+        """Put a run whose folder is there into the list."""
+        self._database.add(build_entry(self._runs / header.run_id))
+        return self._database.get(header.run_id)
+
+    def finish(self, run_id: str, status: RecordStatus | None = None) -> RunEntry:
+        """A recording has ended: measure what it holds. status: what its recorder says last.
+
+        Reads the whole record: not for the thread of the loop. A record whose file is not
+        finished yet stays "recording" until it is, or until the next `recover`.
+        """
+        if status is not None and status.state == "recording":
+            return self.get(run_id)
+        changes = describe(self.find_folder(run_id))
+        if status is not None and status.state == "failed" and changes["state"] == "complete":
+            changes |= {"state": "failed", "message": status.message}
+        return self._database.change(run_id, changes)
+
+    def get(self, run_id: str) -> RunEntry:
+        """What the list says of a run, in the trash or not."""
+        if not is_run_id(run_id):
+            raise UnknownRunError(f"There is no run {run_id!r:.80}.")
+        return self._database.get(run_id)
+
+    def open(self, run_id: str) -> Record:
+        """The record of a run; raises `RecordError` where it cannot be read."""
+        return open_record(self.find_folder(run_id))
+
+    def update(
+        self,
+        run_id: str,
+        *,
+        name: str | None = None,
+        tags: tuple[str, ...] | None = None,
+        notes: str | None = None,
+        expected: str | None = None,
+    ) -> RunEntry:
+        """Change what is given; raises `ParameterError` for a wrong value.
+
+        expected: the revision that is to be changed; raises `ChangedRunError` where it has
+        changed meanwhile.
+        """
+        self.get(run_id)
+        given = {"name": name, "tags": tags, "notes": notes}
+        changes: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
+        if tags is not None:
+            changes["tags"] = tuple(tags)
+
+        def write(entry: RunEntry) -> dict[str, Any]:
+            if expected is not None and expected != entry.revision:
+                raise ChangedRunError(
+                    f"Run {run_id} was changed meanwhile: its name, tags or notes are others now."
+                )
+            changed = dataclasses.replace(entry, **changes)
+            check_texts(changed.name, changed.tags, changed.notes)
+            if entry.state in ("damaged", "missing"):
+                return changes
+            folder = self._locate(entry)
+            try:
+                write_header(folder, read_header(folder).changed(**changes))
+            except OSError as error:
+                raise RecordError(f"Run {run_id} cannot be changed: {error}.") from None
+            return changes | {"bytes": measure_bytes(folder)}
+
+        return self._database.revise(run_id, write)
+
+    def query(self, query: Query) -> RunPage:
+        """The page of the list that `query` asks for."""
+        return self._database.query(query)
+
+    def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
+        """What the list can be filtered by: facet, value, on how many runs (see `Query`)."""
+        return self._database.list_facets(reader)
+
+    def measure_bytes(self, owner: str) -> int:
+        """What the runs of one owner take on the disk, those in the trash too."""
+        return self._database.measure_bytes(owner)
+
+    def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
+        """Those of these runs that the list has, in the trash or not, by id."""
+        return self._database.find(run_ids)
+
+    def delete(self, run_id: str) -> RunEntry:
+        """Put a run into the trash; raises `StateError` while it is recorded."""
+        self.get(run_id)
+
+        def throw_away(entry: RunEntry) -> dict[str, Any]:
+            if entry.state == "recording":
+                raise StateError(f"Run {run_id} is being recorded: stop the recording first.")
+            if entry.deleted is not None:
+                return {}
+            _move(self._runs / run_id, self._trash / run_id)
+            return {"deleted": _tell_time()}
+
+        return self._database.revise(run_id, throw_away)
+
+    def restore(self, run_id: str) -> RunEntry:
+        """Take a run out of the trash."""
+        self.get(run_id)
+
+        def take_back(entry: RunEntry) -> dict[str, Any]:
+            if entry.deleted is not None:
+                _move(self._trash / run_id, self._runs / run_id)
+            return {"deleted": None}
+
+        return self._database.revise(run_id, take_back)
+
+    def purge(self, run_id: str) -> None:
+        """Delete a run in the trash for good; raises `StateError` for one that is not there."""
+        if self.get(run_id).deleted is None:
+            raise StateError(f"Run {run_id} is not in the trash: delete it first.")
+        try:
+            shutil.rmtree(self._trash / run_id)
+        except FileNotFoundError:
+            pass
+        except OSError as error:
+            raise RecordError(f"Run {run_id} cannot be deleted: {error}.") from None
+        self._database.forget(run_id)
+
+    def recover(self) -> Recovery:
+        """Finish what a crash cut off and put back what the database lost; for every start."""
+        return recover_runs(self._database, self._runs, self._trash)
+
+    def describe_older(self) -> None:
+        """Read of older runs what the version that entered them did not; once for each.
+
+        It takes some milliseconds a run, and is harmless beside everything else.
+        """
+        describe_older(self._database, (self._runs, self._trash))
+
+    def find_folder(self, run_id: str) -> Path:
+        """The folder that a run is in, in the trash or not."""
+        return self._locate(self.get(run_id))
+
+    def list(self, search: str = "", **wanted: Any) -> RunPage:
+        """A page of the list, by the fields of `Query`; raises `ParameterError` as it does."""
+        return self.query(Query(search, **wanted))
+
+    def _locate(self, entry: RunEntry) -> Path:
+        return (self._runs if entry.deleted is None else self._trash) / entry.id
+
+
+def find_data_folder() -> Path:
+    """Where runs are kept: SVSA_DATA, or .local/share/svsa in the user's home."""
+    given = os.environ.get(DATA_VARIABLE)
+    return Path(given).expanduser() if given else Path.home() / ".local" / "share" / "svsa"
+
+
+def build_run_id() -> str:
+    """An id for a new run: the time in UTC, and enough chance that no two are the same."""
+    return f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{secrets.token_hex(4)}"
+
+
+def _move(source: Path, target: Path) -> None:
+    try:
+        source.replace(target)
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise RecordError(f"Run {source.name} cannot be moved: {error}.") from None
+
+
+def _tell_time() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")

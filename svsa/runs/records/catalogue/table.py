@@ -1,0 +1,180 @@
+"""The tables of the catalogue: columns to sort and filter by, and the entries as they are.
+
+Format 4. A catalogue of format 1, which knew no settings, of 2, whose metrics were of whole
+records, or of 3, which knew no owners, is written anew from its entries; `describe_older` then
+reads the rest from the folders.
+"""
+
+import re
+import sqlite3
+from typing import Any
+
+from svsa.runs.fault_labels import label_fault
+from svsa.runs.records.catalogue.entry import (
+    SORTS,
+    CatalogueError,
+    RunEntry,
+    UnknownRunError,
+    fold,
+    read_entry,
+    write_entry,
+)
+
+VERSION = 4
+_REBUILT = (0, 1, 2, 3)
+_COLUMNS = {
+    "id": "TEXT PRIMARY KEY",
+    "created": "TEXT NOT NULL",
+    "name": "TEXT NOT NULL",
+    "session": "TEXT NOT NULL",
+    "duration_s": "REAL NOT NULL",
+    "bytes": "INTEGER NOT NULL",
+    "state": "TEXT NOT NULL",
+    "trash": "INTEGER NOT NULL",
+    "described": "INTEGER NOT NULL",
+    "figure": "TEXT",
+    "laws": "TEXT",
+    "stiffness_nm_per_rad": "REAL",
+    "load": "TEXT",
+    "realism": "TEXT",
+    "plant": "TEXT NOT NULL",
+    "peak_position_error_rad": "REAL",
+    "settled_position_error_rad": "REAL",
+    "rms_position_error_rad": "REAL",
+    "branch_run": "TEXT",
+    "owner": "TEXT NOT NULL",
+    "search": "TEXT NOT NULL",
+}
+_SCHEMA = (
+    f"CREATE TABLE runs ({', '.join(f'{name} {kind}' for name, kind in _COLUMNS.items())})",
+    *(f"CREATE INDEX runs_by_{column} ON runs (trash, {column}, id)" for column in SORTS),
+    "CREATE INDEX runs_by_origin ON runs (branch_run)",
+    "CREATE INDEX runs_by_owner ON runs (owner)",
+    "CREATE TABLE IF NOT EXISTS entries (id TEXT PRIMARY KEY, entry TEXT)",
+    "CREATE TABLE facets (facet TEXT, value TEXT, run TEXT, trash INTEGER,"
+    " PRIMARY KEY (facet, value, run)) WITHOUT ROWID",
+    "CREATE INDEX facets_by_run ON facets (run)",
+    "CREATE TABLE counts (facet TEXT, value TEXT, runs INTEGER, PRIMARY KEY (facet, value))"
+    " WITHOUT ROWID",
+    "CREATE TRIGGER count_in AFTER INSERT ON facets WHEN new.trash = 0 BEGIN"
+    " INSERT INTO counts VALUES (new.facet, new.value, 1)"
+    " ON CONFLICT DO UPDATE SET runs = runs + 1; END",
+    "CREATE TRIGGER count_out AFTER DELETE ON facets WHEN old.trash = 0 BEGIN"
+    " UPDATE counts SET runs = runs - 1 WHERE facet = old.facet AND value = old.value; END",
+)
+_NUMBER = re.compile(r"\d+", re.ASCII)
+_DIGITS = 20
+
+
+def prepare(connection: sqlite3.Connection) -> None:
+    """Make the tables, or those of an older format anew; raises `CatalogueError` for a newer."""
+    connection.execute("PRAGMA journal_mode = WAL")
+    if _read_version(connection) == VERSION:
+        return
+    with connection:
+        connection.execute("BEGIN IMMEDIATE")
+        version = _read_version(connection)
+        if version in _REBUILT:
+            _build(connection)
+        elif version != VERSION:
+            known = f"this version of svsa reads format {VERSION}"
+            raise CatalogueError(f"It is of format {version}; {known}")
+
+
+def _read_version(connection: sqlite3.Connection) -> int:
+    (version,) = connection.execute("PRAGMA user_version").fetchone()
+    return version
+
+
+def _build(connection: sqlite3.Connection) -> None:
+    for table in ("runs", "tags", "facets", "counts"):
+        connection.execute(f"DROP TABLE IF EXISTS {table}")
+    for statement in _SCHEMA:
+        connection.execute(statement)
+    for (text,) in connection.execute("SELECT entry FROM entries").fetchall():
+        put(connection, read_entry(text))
+    connection.execute(f"PRAGMA user_version = {VERSION}")
+
+
+def put(connection: sqlite3.Connection, entry: RunEntry) -> None:
+    """Write a run, known or new, into every table."""
+    trash = int(entry.deleted is not None)
+    row = _build_row(entry, trash) | {"search": _build_search(connection, entry)}
+    columns, places = ", ".join(row), ", ".join("?" * len(row))
+    replace = f"REPLACE INTO runs ({columns}) VALUES ({places})"  # noqa: S608
+    connection.execute(replace, list(row.values()))
+    connection.execute("REPLACE INTO entries VALUES (?, ?)", (entry.id, write_entry(entry)))
+    connection.execute("DELETE FROM facets WHERE run = ?", (entry.id,))
+    rows = [(facet, value, entry.id, trash) for facet, value in entry.facets]
+    connection.executemany("INSERT INTO facets VALUES (?, ?, ?, ?)", rows)
+
+
+def put_branches(connection: sqlite3.Connection, run_id: str) -> None:
+    """Write the runs anew that branched from this one, whose name they show."""
+    select = "SELECT id FROM runs WHERE branch_run = ?"
+    for (branch,) in connection.execute(select, (run_id,)).fetchall():
+        put(connection, get(connection, branch))
+
+
+def get(connection: sqlite3.Connection, run_id: str) -> RunEntry:
+    """The run of this id; raises `UnknownRunError`."""
+    found = _find(connection, run_id)
+    if found is None:
+        raise UnknownRunError(f"There is no run {run_id!r:.80}.")
+    return read_entry(found)
+
+
+def has(connection: sqlite3.Connection, run_id: str) -> bool:
+    """Whether there is a run of this id."""
+    return _find(connection, run_id) is not None
+
+
+def _find(connection: sqlite3.Connection, run_id: str) -> str | None:
+    found = connection.execute("SELECT entry FROM entries WHERE id = ?", (run_id,)).fetchone()
+    return None if found is None else found[0]
+
+
+def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
+    settings, metrics = entry.settings, entry.metrics
+    first = metrics[0] if metrics else None
+    return {
+        "id": entry.id,
+        "created": entry.created,
+        "name": _order(entry.title) or "",
+        "session": _order(entry.session) or "",
+        "duration_s": entry.duration_s,
+        "bytes": entry.bytes,
+        "state": entry.state,
+        "trash": trash,
+        "described": int(settings is not None and entry.window is not None),
+        "figure": _order(settings.figure) if settings else None,
+        "laws": _order(settings.laws) if settings else None,
+        "stiffness_nm_per_rad": settings.stiffness_nm_per_rad if settings else None,
+        "load": _order(settings.load) if settings else None,
+        "realism": _order(settings.realism) if settings else None,
+        "plant": entry.plant,
+        "peak_position_error_rad": first.peak_position_error_rad if first else None,
+        "settled_position_error_rad": first.settled_position_error_rad if first else None,
+        "rms_position_error_rad": first.rms_position_error_rad if first else None,
+        "branch_run": entry.branch_of.run_id if entry.branch_of else None,
+        "owner": entry.owner,
+    }
+
+
+def _order(text: str) -> str | None:
+    """A text so that the alphabet has "Group 9" before "Group 10"; None for an empty one."""
+    return _NUMBER.sub(lambda digits: digits[0].zfill(_DIGITS), fold(text)) or None
+
+
+def _build_search(connection: sqlite3.Connection, entry: RunEntry) -> str:
+    """What a row of the list shows of the run, a line each, so that no word spans two."""
+    texts = [entry.title, *entry.tags, entry.notes, entry.message]
+    texts += [label_fault(entry.fault.code)] if entry.fault else []
+    if settings := entry.settings:
+        stiffness = f"σ {settings.stiffness}" if settings.stiffness else ""
+        texts += [entry.figure or settings.motion, settings.laws, stiffness, settings.load]
+        texts += [settings.realism, f"own {settings.own}" if settings.own else ""]
+    if entry.branch_of is not None:
+        found = _find(connection, entry.branch_of.run_id)
+        texts.append(entry.branch_of.run_id if found is None else read_entry(found).title)
+    return fold("\n".join(texts))

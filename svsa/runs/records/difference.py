@@ -1,0 +1,218 @@
+"""What of the settings differs between recorded runs, in names and units that people know."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel
+
+from svsa.control.gains import Gains
+from svsa.control.parameters import LawParameters
+from svsa.runs.records.acting import SETTINGS, Acting, read_acting
+from svsa.runs.records.reader import Record
+from svsa.runs.records.settings import NO_LOAD
+from svsa.runs.records.wording import (
+    UNKNOWN,
+    describe_effects,
+    describe_lanes,
+    describe_load,
+    describe_motion,
+    describe_stiffness,
+    tell_law,
+)
+
+Value = str | float | bool | None
+Rows = dict[tuple[str, str, str], Value]
+
+_GROUPS = {
+    "position": "Motion",
+    "stiffness": "Stiffness",
+    "law": "Controller",
+    "rivals": "Controller",
+    "gains": "Controller",
+    "parameters": "Controller",
+    "observer": "Controller",
+    "effects": "Realism",
+    "actuator": "Plant",
+    "nominal": "Model of the controller",
+    "limits": "Limits",
+    "sampling": "Sampling",
+}
+_LOADS, _CHANGED, _RECORD = "Loads", "Changed while it was recorded", "Record"
+_ANGULAR = "rad/s"
+_SAME_POLE = 0.01
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A setting that is not the same in every run.
+
+    group, name: as people say it. unit: SI, of a value that is a number, else "". values: run
+    by run; None where a run has no such setting.
+    """
+
+    group: str
+    name: str
+    unit: str
+    values: tuple[Value, ...]
+
+
+def compare_settings(records: Sequence[Record]) -> tuple[Difference, ...]:
+    """What differs between these records, group by group; nothing where all were set alike.
+
+    Compared are the settings at the first sample of each, the loads that were on, and what was
+    changed in between, with times from the first sample on.
+    """
+    tables = [_list_rows(record) for record in records]
+    keys = dict.fromkeys(key for table in tables for key in table)
+    order = [*dict.fromkeys(_GROUPS.values()), _LOADS, _CHANGED, _RECORD]
+    found = [Difference(*key, tuple(table.get(key) for table in tables)) for key in keys]
+    differing = [one for one in found if any(value != one.values[0] for value in one.values)]
+    return tuple(sorted(differing, key=lambda one: order.index(one.group)))
+
+
+def _list_rows(record: Record) -> Rows:
+    header = record.header
+    acting = read_acting(header, record.commands, record.first_tick, record.tick_count)
+    rows: Rows = {}
+    for setting in SETTINGS:
+        for (name, unit), value in _flatten(setting, acting.get_values(setting)[0]):
+            rows[_GROUPS[setting], name, unit] = value
+    effects = acting.get_values("effects")[0]
+    if effects is not None and effects.noise is not None:
+        rows[_GROUPS["effects"], "Seed of the noise", ""] = str(header.seed)
+    rows[_LOADS, "Loads", ""] = _tell_loads(acting, record)
+    for setting in SETTINGS:
+        if changes := acting.settings[setting][1:]:
+            told = [_tell_change(setting, value, tick, record) for tick, value in changes]
+            rows[_CHANGED, _TITLES[setting], ""] = "; ".join(told)
+    rows[_RECORD, "Recorded on", ""] = header.plant
+    rows[_RECORD, "Version of svsa", ""] = header.version
+    return rows
+
+
+def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]]:
+    """Names, units and values of a setting, down to its last number."""
+    if value is None:
+        yield (_TITLES[setting], ""), UNKNOWN
+    elif setting == "law":
+        yield ("Law", ""), tell_law(value)
+    elif setting == "rivals":
+        yield ("Beside it", ""), describe_lanes(value) or "nothing"
+        for number, lane in enumerate(value, 2):
+            if lane.gains is not None:
+                yield from _flatten_gains(lane.gains, f"lane {number}, ")
+            if lane.parameters is not None:
+                yield from _flatten_parameters(lane.law, lane.parameters, f"lane {number}, ")
+            if lane.observer is not None:
+                yield from _flatten_observer(lane.observer, f"lane {number}, ")
+    elif setting == "gains":
+        yield from _flatten_gains(value, "")
+    elif setting == "parameters":
+        for law, parameters in value.items():
+            yield from _flatten_parameters(law, parameters, "")
+    elif setting == "observer":
+        yield from _flatten_observer(value, "")
+    else:
+        yield from _flatten_model(value)
+
+
+def _flatten_gains(gains: Gains, lane: str) -> Iterator[tuple[tuple[str, str], Value]]:
+    for axis, roots in (("position", gains.position_roots), ("stiffness", gains.stiffness_roots)):
+        name = f"{lane}{axis} poles, {_ANGULAR}"
+        yield (name[:1].upper() + name[1:], ""), tell_poles(roots)
+
+
+def _flatten_parameters(
+    law: str, parameters: LawParameters, lane: str
+) -> Iterator[tuple[tuple[str, str], Value]]:
+    for symbol, told in parameters.describe().items():
+        name = f"{lane}{tell_law(law)} {symbol}"
+        yield (name[:1].upper() + name[1:], ""), told
+
+
+def _flatten_observer(observer: Any, lane: str) -> Iterator[tuple[tuple[str, str], Value]]:
+    name = f"{lane}observer β of link, motor 1, motor 2, {_ANGULAR}"
+    told = ", ".join(f"{beta:g}" for beta in observer.bandwidth_rad_per_s)
+    yield (name[:1].upper() + name[1:], ""), told
+
+
+def tell_poles(roots: Sequence[complex]) -> str:
+    """Poles to three digits, one of four at one place as "−60 (4×)"."""
+    texts: list[str] = []
+    for root in roots:
+        real = f"{root.real:.3g}".replace("-", "−")
+        if abs(root.imag) <= _SAME_POLE * abs(root):
+            texts.append(real)
+        elif root.imag > 0:
+            texts.append(f"{real} ± {root.imag:.3g}j")
+    counts = {text: texts.count(text) for text in texts}
+    return ", ".join(f"{text} ({n}×)" if n > 1 else text for text, n in counts.items())
+
+
+def _flatten_model(model: BaseModel) -> Iterator[tuple[tuple[str, str], Value]]:
+    for field, about in type(model).model_fields.items():
+        value = getattr(model, field)
+        extra = about.json_schema_extra
+        unit = str(extra.get("unit", "")) if isinstance(extra, dict) else ""
+        name = (about.description or "Form").removesuffix(f", {unit}")
+        is_part = isinstance(value, BaseModel)
+        if value is None or is_part:
+            yield (name, ""), "on" if is_part else "off"
+        if is_part:
+            yield from _flatten_model(value)
+        elif value is not None:
+            is_plain = isinstance(value, str | bool | int | float)
+            told = value if is_plain else ", ".join(map(str, value))
+            yield (name, "" if unit == "1" else unit), told
+
+
+def _tell_loads(acting: Acting, record: Record) -> str:
+    if acting.loads is None:
+        return UNKNOWN
+    told = [f"{describe_load(on.load)} {_tell_time(on.start_tick, record)}" for on in acting.loads]
+    return "; ".join(told) or NO_LOAD
+
+
+def _tell_change(setting: str, value: Any, tick: int, record: Record) -> str:
+    told = UNKNOWN if value is None else _TELL[setting](value)
+    return f"{told} {_tell_time(tick, record)}"
+
+
+def _tell_time(tick: int, record: Record) -> str:
+    since = (tick - record.first_tick) * record.header.period_s
+    return f"after {since:.6g} s" if since > 0 else "from the start"
+
+
+def _tell_model(value: BaseModel) -> str:
+    return ", ".join(f"{name}: {told}" for (name, _), told in _flatten_model(value))
+
+
+_TITLES = {
+    "position": "Motion",
+    "stiffness": "Stiffness, N·m/rad",
+    "law": "Law",
+    "rivals": "Lanes",
+    "gains": "Gains",
+    "parameters": "Parameters of laws",
+    "observer": "Observer",
+    "effects": "Realism",
+    "actuator": "Plant",
+    "nominal": "Model of the controller",
+    "limits": "Limits",
+    "sampling": "Sampling",
+}
+_TELL: dict[str, Callable[[Any], str]] = {
+    "position": describe_motion,
+    "stiffness": describe_stiffness,
+    "law": tell_law,
+    "rivals": describe_lanes,
+    "gains": lambda gains: ", ".join(str(told) for _, told in _flatten_gains(gains, "")),
+    "parameters": lambda value: ", ".join(
+        f"{name} {told}" for (name, _), told in _flatten("parameters", value)
+    ),
+    "observer": lambda observer: ", ".join(f"{b:g}" for b in observer.bandwidth_rad_per_s),
+    "effects": describe_effects,
+    "actuator": _tell_model,
+    "nominal": _tell_model,
+}

@@ -1,0 +1,78 @@
+"""A record in the formats of other programs: CSV, Parquet, MAT (MATLAB, Octave), MCAP."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO, NamedTuple
+
+from svsa.errors import ParameterError, Violation
+from svsa.runs.records.export.csv import write_csv
+from svsa.runs.records.export.mat import write_mat
+from svsa.runs.records.export.mcap import write_mcap
+from svsa.runs.records.header import RecordError
+from svsa.runs.records.parquet import write_parquet
+from svsa.runs.records.reader import Record
+
+LONGEST_FILE_NAME = 80
+
+
+class ExportKind(NamedTuple):
+    """A format: ending of its files, media type, and what writes a record into a stream."""
+
+    ending: str
+    media_type: str
+    write: Callable[[Record, IO[bytes]], None]
+
+
+def _write_parquet(record: Record, stream: IO[bytes]) -> None:
+    batches = record.iterate_batches()
+    told = record.fault, record.start, record.events
+    write_parquet(stream, record.header, record.commands, batches, *told)
+
+
+EXPORT_KINDS: dict[str, ExportKind] = {
+    "csv": ExportKind("csv", "text/csv; charset=utf-8", write_csv),
+    "parquet": ExportKind("parquet", "application/vnd.apache.parquet", _write_parquet),
+    "mat": ExportKind("mat", "application/x-matlab-data", write_mat),
+    "mcap": ExportKind("mcap", "application/octet-stream", write_mcap),
+}
+
+
+def export(record: Record, kind: str, target: Path | str | IO[bytes]) -> None:
+    """Write a record as `kind` of `EXPORT_KINDS` to a path or a binary stream.
+
+    Raises `ParameterError` for an unknown kind, and `RecordError` where the record cannot
+    be read, is too long for the format, or the disk is full; no half file is left at a path.
+    """
+    write = get_kind(kind).write
+    try:
+        if isinstance(target, Path | str):
+            _write_file(record, write, Path(target))
+        else:
+            write(record, target)
+    except OSError as error:
+        raise RecordError(f"Run {record.header.run_id} cannot be exported: {error}.") from None
+
+
+def get_kind(kind: str) -> ExportKind:
+    """The format of this name; raises `ParameterError` with those there are."""
+    if kind not in EXPORT_KINDS:
+        raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(EXPORT_KINDS)))
+    return EXPORT_KINDS[kind]
+
+
+def build_file_name(record: Record, kind: str) -> str:
+    """A file name that every system takes: from the run's name, and its id."""
+    name = record.header.name
+    plain = "".join(letter if letter.isascii() and letter.isalnum() else "_" for letter in name)
+    words = "_".join(word for word in plain.split("_") if word)[:LONGEST_FILE_NAME].strip("_")
+    return "_".join(filter(None, (words, record.header.run_id))) + "." + get_kind(kind).ending
+
+
+def _write_file(record: Record, write: Callable[[Record, IO[bytes]], None], path: Path) -> None:
+    draft = path.with_name(path.name + ".tmp")
+    try:
+        with draft.open("wb") as stream:
+            write(record, stream)
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)

@@ -1,0 +1,180 @@
+"""What a record says of itself before its first sample: version, run, lanes, channels, design."""
+
+import json
+import os
+import re
+import threading
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any, Literal, Self
+
+from pydantic import model_validator
+
+from svsa.actuators.signals import Channel
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+
+FORMAT = 1
+LONGEST_NAME = 200
+LONGEST_NOTES = 10_000
+LONGEST_TAG = 50
+MAX_TAGS = 20
+LONGEST_LANE = 60
+
+HEADER_FILE = "header.json"
+COMMANDS_FILE = "commands.jsonl"
+STREAM_FILE = "samples.arrows"
+PARQUET_FILE = "samples.parquet"
+
+PlantKind = Literal["simulated", "emulated", "bench"]
+
+_RUN_ID = re.compile(r"[0-9A-Za-z][0-9A-Za-z_-]{0,63}", re.ASCII)
+_CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}", re.ASCII)
+
+
+class RecordError(SvsaError):
+    """A record that cannot be written, found or read; what is on the disk stays as it is."""
+
+
+@dataclass(frozen=True)
+class BranchPoint:
+    """Where a branch left another run: that run's id, and the tick from which it goes on."""
+
+    run_id: str
+    tick: int
+
+
+class RecordHeader(Checked):
+    """Everything about a record but its commands and samples; JSON in `header.json`.
+
+    With `configuration` (which holds the seed) and the commands, a simulated run can be
+    simulated again. Raises `ParameterError` for a wrong value.
+    """
+
+    format: Whole = quantity("", "Version of this layout", ge=1, default=FORMAT)
+    version: str = quantity("", "Version of svsa that recorded")
+    run_id: str = quantity("", "Identity of the run: letters, digits, - and _")
+    created: str = quantity("", "When recording began, UTC, ISO 8601")
+    session: str = quantity("", "Session that was recorded")
+    plant: PlantKind = quantity("", "What lane 1 was", default="simulated")
+    name: str = quantity("", "What people call the run", default="")
+    tags: tuple[str, ...] = quantity("", "Words to find the run by", default=())
+    notes: str = quantity("", "What people wrote about the run", default="")
+    owner: str = quantity("", "Id of who recorded it, in a class; empty elsewhere", default="")
+    branch_of: BranchPoint | None = quantity(
+        "", "Run and tick from which this one went on", default=None
+    )
+    lanes: tuple[str, ...] = quantity("", "Name of every lane, in the order of the samples")
+    configuration: dict[str, Any] = quantity("", "The run's configuration at tick 0")
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1)
+    period_s: Number = quantity("s", "Control period T", gt=0, le=10)
+    channels: tuple[Channel, ...] = quantity("", "Name, unit and label of every channel")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not is_run_id(self.run_id):
+            bound = "1 to 64 letters, digits, - or _, the first no sign"
+            raise ParameterError(Violation("run_id", self.run_id, "", bound))
+        if not _is_time(self.created):
+            bound = "a time of ISO 8601 with its zone, as 2026-01-02T03:04:05+00:00"
+            raise ParameterError(Violation("created", self.created, "", bound))
+        check_texts(self.name, self.tags, self.notes)
+        if not self.lanes or len(set(self.lanes)) < len(self.lanes):
+            raise ParameterError(Violation("lanes", list(self.lanes), "", "names, each once"))
+        for lane in self.lanes:
+            check_text("lanes", lane, LONGEST_LANE, least=1)
+        names = self.channel_names
+        if not names or len(set(names)) < len(names) or not all(map(_CHANNEL.fullmatch, names)):
+            bound = "names of letters, digits and _, each once"
+            raise ParameterError(Violation("channels", list(names), "", bound))
+        return self
+
+    @property
+    def channel_names(self) -> tuple[str, ...]:
+        """The names of the channels, in the order of the samples."""
+        return tuple(channel.name for channel in self.channels)
+
+    def to_json(self) -> str:
+        """The header as a JSON object."""
+        return self.model_dump_json()
+
+
+def read_header(folder: Path) -> RecordHeader:
+    """The header in a record's folder; raises `RecordError` where there is none to read."""
+    path = folder / HEADER_FILE
+    try:
+        return parse_header(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise RecordError(f"Record {folder.name} has no {HEADER_FILE}.") from None
+    except (OSError, UnicodeDecodeError, RecordError) as error:
+        raise RecordError(f"{HEADER_FILE} of record {folder.name} is damaged: {error}") from None
+
+
+def parse_header(text: str) -> RecordHeader:
+    """A header from its JSON; raises `RecordError` for anything else."""
+    try:
+        written = json.loads(text)
+    except ValueError as error:
+        raise RecordError(f"not JSON ({error})") from None
+    if not isinstance(written, dict):
+        raise RecordError("not a JSON object")
+    if written.get("format") != FORMAT:
+        known = f"this version of svsa reads format {FORMAT}"
+        raise RecordError(f"format {str(written.get('format'))[:40]}, but {known}")
+    try:
+        return RecordHeader(**written)
+    except ParameterError as error:
+        raise RecordError(str(error)) from None
+
+
+def write_header(folder: Path, header: RecordHeader) -> None:
+    """Write or replace the header as a whole, so that a crash leaves the old or the new one."""
+    replace_file(folder / HEADER_FILE, header.to_json().encode())
+
+
+def replace_file(path: Path, content: bytes) -> None:
+    """Put `content` at `path` in one step; raises `OSError` with the old file in place."""
+    draft = path.with_name(f"{path.name}.{os.getpid()}-{threading.get_ident()}.tmp")
+    try:
+        with draft.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def is_run_id(text: str) -> bool:
+    """Whether `text` may name a run's folder."""
+    return _RUN_ID.fullmatch(text) is not None
+
+
+def _is_time(text: str) -> bool:
+    try:
+        return datetime.fromisoformat(text).tzinfo is not None
+    except ValueError:
+        return False
+
+
+def check_texts(name: str, tags: tuple[str, ...], notes: str) -> None:
+    """Raise `ParameterError` where a name, tag or note is too long or no text at all."""
+    check_text("name", name, LONGEST_NAME)
+    check_text("notes", notes, LONGEST_NOTES)
+    if len(tags) > MAX_TAGS or len(set(tags)) < len(tags):
+        raise ParameterError(Violation("tags", list(tags), "", f"at most {MAX_TAGS}, each once"))
+    for tag in tags:
+        check_text("tags", tag, LONGEST_TAG, least=1)
+
+
+def check_text(name: str, text: str, longest: int, least: int = 0) -> None:
+    """Raise `ParameterError` unless `text` has `least` to `longest` characters of Unicode."""
+    if not least <= len(text) <= longest:
+        bound = f"a text of {least} to {longest} characters ({len(text)} were given)"
+        raise ParameterError(Violation(name, text, "", bound))
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        bound = "a text without halves of characters (surrogates)"
+        raise ParameterError(Violation(name, text, "", bound)) from None

@@ -1,0 +1,101 @@
+"""Which window of a recorded run its numbers are of: one law a lane, and nothing changed in it."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from svsa.errors import SvsaError
+from svsa.runs.metrics import Metrics, RunningMetrics
+from svsa.runs.records.reader import Record
+from svsa.runs.records.resimulation import read_origin
+from svsa.runs.replay import list_loads
+from svsa.runs.timeline import Timeline, Window, WindowKind, read_timeline
+
+
+@dataclass(frozen=True)
+class MeasuredWindow:
+    """Ticks first … end − 1 of a recorded run, as far as they are in the record.
+
+    kind, label: what began it, as of a `Window`. is_whole: nothing was changed in all of the
+    record, and no load came on. lanes: who controlled each lane. load_ended: the load that began
+    it ended by itself, so that what is left of the error in the end is not that under the load.
+    """
+
+    kind: WindowKind
+    label: str
+    first_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    is_whole: bool
+    lanes: tuple[str, ...]
+    load_ended: bool = False
+
+
+def trace_record(record: Record) -> Timeline | None:
+    """The timeline of a recorded run; None where its commands do not tell its lanes."""
+    try:
+        configuration, commands = read_origin(record)
+        ticks = record.first_tick, record.first_tick + record.tick_count
+        is_bench = record.header.plant != "simulated"
+        timeline = read_timeline(configuration, commands, ticks, is_bench)
+    except SvsaError:
+        return None
+    return timeline if len(timeline.lanes) == len(record.header.lanes) else None
+
+
+def find_measured_window(record: Record) -> MeasuredWindow | None:
+    """The window of the last load that came on in the record; without one, the last window.
+
+    A bench's ramp to zero torque is measured only where there is nothing else: no law asked for it.
+    Where this version cannot read what was changed, the whole record if that was nothing, else
+    None. None also for a record without samples.
+    """
+    if not record.tick_count:
+        return None
+    timeline = trace_record(record)
+    if timeline is None:
+        whole = Window("start", "", 0)
+        return None if record.commands else _build(record, whole, record.header.lanes)
+    first, end = record.first_tick, record.first_tick + record.tick_count
+    there = timeline.list_windows(first, end)
+    loads = [window for window in there if window.kind == "load" and window.first_tick >= first]
+    controlled = [window for window in there if window.kind != "stop"]
+    window = (loads or controlled or there)[-1]
+    found = _build(record, window, _name_lanes(timeline, max(first, window.first_tick)))
+    ends = [load.end_tick for load in list_loads(*read_origin(record))]
+    load_ended = any(found.first_tick < tick < found.end_tick for tick in ends)
+    return replace(found, load_ended=window.kind == "load" and load_ended)
+
+
+def summarize(
+    lanes: Iterable[RunningMetrics], window: MeasuredWindow
+) -> tuple[Metrics, ...] | None:
+    """The metrics of every lane, which has taken in the window; None where they are no numbers.
+
+    There is no settled error under a load that ended by itself.
+    """
+    found = tuple(metrics for lane in lanes if (metrics := lane.summarize()) is not None)
+    if window.load_ended:
+        found = tuple(replace(metrics, settled_position_error_rad=None) for metrics in found)
+    numbers = [value for lane in found for value in vars(lane).values() if value is not None]
+    return found if all(map(math.isfinite, numbers)) else None
+
+
+def _build(record: Record, window: Window, lanes: tuple[str, ...]) -> MeasuredWindow:
+    begin, end = record.first_tick, record.first_tick + record.tick_count
+    first = max(begin, window.first_tick)
+    last = end if window.end_tick is None else min(end, window.end_tick)
+    period_s = record.header.period_s
+    is_whole = window.kind == "start" and (first, last) == (begin, end)
+    return MeasuredWindow(
+        window.kind, window.label, first, last, first * period_s, last * period_s, is_whole, lanes
+    )
+
+
+def _name_lanes(timeline: Timeline, tick: int) -> tuple[str, ...]:
+    """Who controlled each lane at a tick."""
+    lanes = timeline.list_stretches()
+    names = timeline.name_stretches(lanes)
+    present = [[one for one in lane if one.first_tick <= tick] or lane for lane in lanes]
+    return tuple(names[lane[-1].number] for lane in present)

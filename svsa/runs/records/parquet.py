@@ -1,0 +1,211 @@
+"""The finished samples: one Parquet file that says by itself what it holds."""
+
+import contextlib
+import io
+import json
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import IO, Any, NamedTuple
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from svsa.errors import Fault
+from svsa.runs.events import Event
+from svsa.runs.records.bench_start import START_FILE, BenchStart, dump_start
+from svsa.runs.records.fault import FAULT_FILE, dump_fault
+from svsa.runs.records.header import (
+    COMMANDS_FILE,
+    PARQUET_FILE,
+    STREAM_FILE,
+    RecordError,
+    RecordHeader,
+    parse_header,
+    read_header,
+    write_header,
+)
+from svsa.runs.records.stream import HEADER_KEY, build_schema, read_stream
+from svsa.runs.records.told import EVENTS_FILE, dump_events
+
+COMMANDS_KEY = b"svsa.commands"
+FAULT_KEY = b"svsa.fault"
+START_KEY = b"svsa.bench_start"
+EVENTS_KEY = b"svsa.events"
+ROWS_A_GROUP = 65_536
+
+FORMER_KINDS = {"controller": "law"}
+"""Kinds of commands as older records name them, and what they are called today."""
+
+Commands = list[tuple[int, dict[str, Any]]]
+Batches = Iterable[pa.RecordBatch]
+
+
+class Finished(NamedTuple):
+    """A record whose samples are all in one Parquet file."""
+
+    header: RecordHeader
+    ticks: int
+    bytes: int
+
+
+def finish(folder: Path) -> Finished:
+    """Turn the stream of an ended recording into Parquet; harmless where that is done.
+
+    Samples and commands that were cut off by a crash are left out. Raises `RecordError`
+    where header, commands or samples are damaged or the disk is full: nothing is lost then.
+    """
+    header, path, stream = read_header(folder), folder / PARQUET_FILE, folder / STREAM_FILE
+    commands = cut_commands(folder)
+    if not path.exists():
+        if not stream.exists():
+            raise RecordError(f"Record {folder.name} has no samples: their file is missing.")
+        draft = path.with_name(path.name + ".tmp")
+        try:
+            with draft.open("wb") as file:
+                write_parquet(file, header, commands, read_stream(stream, header))
+                file.flush()
+                os.fsync(file.fileno())
+            draft.replace(path)
+        except (OSError, pa.ArrowException) as error:
+            raise RecordError(f"Record {folder.name} cannot be finished: {error}") from None
+        finally:
+            with contextlib.suppress(OSError):
+                draft.unlink(missing_ok=True)
+    with open_parquet(folder) as file:
+        ticks = file.metadata.num_rows
+    with contextlib.suppress(OSError):
+        stream.unlink(missing_ok=True)
+    return Finished(header, ticks, measure_bytes(folder))
+
+
+def write_parquet(
+    sink: IO[bytes],
+    header: RecordHeader,
+    commands: Commands,
+    batches: Batches,
+    fault: Fault | None = None,
+    start: BenchStart | None = None,
+    events: Sequence[Event] = (),
+) -> None:
+    """Write samples as Parquet: float64 exact, zstd, checksums; all else of the record inside."""
+    schema = build_schema(header)
+    lines = [{"tick": tick, "command": command} for tick, command in commands]
+    inside = {**schema.metadata, COMMANDS_KEY: json.dumps(lines).encode()}
+    if fault is not None:
+        inside[FAULT_KEY] = dump_fault(fault)
+    if start is not None:
+        inside[START_KEY] = dump_start(start)
+    if events:
+        inside[EVENTS_KEY] = dump_events(events)
+    schema = schema.with_metadata(inside)
+    with pq.ParquetWriter(
+        sink, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
+    ) as writer:
+        for group in _group(batches):
+            writer.write_table(pa.Table.from_batches(group, schema), row_group_size=ROWS_A_GROUP)
+
+
+def unpack_parquet(content: bytes, folder: Path) -> None:
+    """Make a record's folder from a file of `write_parquet`, such as an export.
+
+    Raises `RecordError` where it is none; the folder is there only when it is whole.
+    """
+    try:
+        inside = pq.read_metadata(io.BytesIO(content)).metadata or {}
+        header = parse_header(inside[HEADER_KEY].decode())
+        lines = json.loads(inside[COMMANDS_KEY])
+        commands = b"".join(write_command(line["tick"], line["command"]) for line in lines)
+    except (pa.ArrowException, KeyError, TypeError, ValueError, OSError) as error:
+        raise RecordError(f"The file is no recorded run of svsa: {error!r}.") from None
+    draft = folder.with_name(folder.name + ".tmp")
+    draft.mkdir(parents=True, exist_ok=True)
+    write_header(draft, header)
+    (draft / COMMANDS_FILE).write_bytes(commands)
+    (draft / PARQUET_FILE).write_bytes(content)
+    names = {FAULT_KEY: FAULT_FILE, START_KEY: START_FILE, EVENTS_KEY: EVENTS_FILE}
+    for key, name in names.items():
+        if key in inside:
+            (draft / name).write_bytes(inside[key])
+    draft.rename(folder)
+
+
+def open_parquet(folder: Path) -> pq.ParquetFile:
+    """The finished file of a record; raises `RecordError` where it is damaged or missing."""
+    try:
+        return pq.ParquetFile(folder / PARQUET_FILE, page_checksum_verification=True)
+    except FileNotFoundError:
+        raise RecordError(f"Record {folder.name} has no {PARQUET_FILE}.") from None
+    except (OSError, pa.ArrowException, ValueError) as error:
+        raise RecordError(f"{PARQUET_FILE} of record {folder.name} is damaged: {error}") from None
+
+
+def read_commands(folder: Path) -> tuple[Commands, int]:
+    """The commands and how many bytes of their file are whole lines.
+
+    A last line without its end is what a crash leaves, and left out. Raises `RecordError`.
+    """
+    path = folder / COMMANDS_FILE
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError:
+        return [], 0
+    except OSError as error:
+        raise RecordError(f"{COMMANDS_FILE} of record {folder.name}: {error}") from None
+    whole = content.rfind(b"\n") + 1
+    commands: Commands = []
+    for number, line in enumerate(content[:whole].splitlines(), 1):
+        try:
+            written = json.loads(line)
+            command = _check(written["command"], dict)
+            kind = command.get("kind")
+            named = command | {"kind": FORMER_KINDS[kind]} if kind in FORMER_KINDS else command
+            commands.append((_check(written["tick"], int), named))
+        except (ValueError, KeyError, TypeError) as error:
+            text = f"{COMMANDS_FILE} of record {folder.name} is damaged in line {number}: {error}"
+            raise RecordError(text) from None
+    return commands, whole
+
+
+def write_command(tick: int, command: dict[str, Any]) -> bytes:
+    """A command as a line of the file; raises `TypeError` or `ValueError` if JSON cannot."""
+    return json.dumps({"tick": int(tick), "command": command}).encode() + b"\n"
+
+
+def cut_commands(folder: Path) -> Commands:
+    """The commands; a last line that was cut off is cut from the file too."""
+    commands, whole = read_commands(folder)
+    path = folder / COMMANDS_FILE
+    with contextlib.suppress(OSError):
+        if path.stat().st_size > whole:
+            os.truncate(path, whole)
+    return commands
+
+
+def measure_bytes(folder: Path) -> int:
+    """How much of the disk a record takes."""
+    total = 0
+    for path in folder.iterdir():
+        with contextlib.suppress(FileNotFoundError):  # a draft that took its place meanwhile
+            total += path.stat().st_size
+    return total
+
+
+def _check(value: Any, kind: Callable[..., Any]) -> Any:
+    if type(value) is not kind:
+        raise TypeError(f"{value!r:.40} is no {kind.__name__}")
+    return value
+
+
+def _group(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
+    """Batches in groups of at least `ROWS_A_GROUP` rows, but for the last."""
+    group: list[pa.RecordBatch] = []
+    rows = 0
+    for batch in batches:
+        group.append(batch)
+        rows += batch.num_rows
+        if rows >= ROWS_A_GROUP:
+            yield group
+            group, rows = [], 0
+    if group:
+        yield group

@@ -1,0 +1,210 @@
+"""A record read back: finished, still growing, or cut off; whole or a stretch at a time."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+
+from svsa.errors import Fault
+from svsa.runs.events import Event
+from svsa.runs.records.bench_start import BenchStart, read_start
+from svsa.runs.records.fault import read_fault
+from svsa.runs.records.header import (
+    PARQUET_FILE,
+    STREAM_FILE,
+    RecordError,
+    RecordHeader,
+    read_header,
+)
+from svsa.runs.records.lock import claim
+from svsa.runs.records.parquet import (
+    ROWS_A_GROUP,
+    Commands,
+    Finished,
+    finish,
+    open_parquet,
+    read_commands,
+)
+from svsa.runs.records.stream import (
+    TIME,
+    build_batch,
+    build_schema,
+    get_values,
+    read_batch,
+    read_stream,
+)
+from svsa.runs.records.told import read_events
+
+ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator[pa.RecordBatch]]
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """A recorded run. Sample k is that of tick `first_tick` + k.
+
+    commands: (tick, command) in the order they were given. fault: what the run ended in; None
+    where it ended otherwise, and where an older version recorded. start: what a bench's run began
+    from; None where it was simulated, or recorded from later on. events: those that a bench told
+    and no command explains, in the order of time. Samples are read when asked for; reading them
+    raises `RecordError` where they are damaged.
+    """
+
+    header: RecordHeader
+    commands: Commands
+    first_tick: int
+    tick_count: int
+    _read: ReadBatches = field(repr=False)
+    fault: Fault | None = None
+    start: BenchStart | None = None
+    events: tuple[Event, ...] = ()
+
+    @cached_property
+    def samples(self) -> np.ndarray:
+        """All samples, (ticks, lanes, channels), float64, as they were recorded bit for bit."""
+        parts = [samples for _, samples in self.iterate()]
+        shape = (0, len(self.header.lanes), len(self.header.channels))
+        return np.concatenate(parts) if parts else np.empty(shape)
+
+    @property
+    def duration_s(self) -> float:
+        """How long the record is, s."""
+        return self.tick_count * self.header.period_s
+
+    def iterate(self) -> Iterator[tuple[int, np.ndarray]]:
+        """Stretches of the samples in order: first tick and (ticks, lanes, channels)."""
+        tick = self.first_tick
+        for batch in self.iterate_batches():
+            yield tick, read_batch(self.header, batch)
+            tick += batch.num_rows
+
+    def iterate_batches(
+        self, columns: Sequence[str] | None = None, start: int = 0, stop: int | None = None
+    ) -> Iterator[pa.RecordBatch]:
+        """Rows start … stop of some columns of the file (see `stream`) or of all."""
+        stop = self.tick_count if stop is None else min(stop, self.tick_count)
+        return self._read(columns, start, stop)
+
+    def read_channels(
+        self, channels: Sequence[str], start: int = 0, stop: int | None = None
+    ) -> np.ndarray:
+        """Rows start … stop of some channels, (ticks, lanes, channels)."""
+        lanes = self.header.lanes
+        names = [[name_column(lane, channel) for channel in channels] for lane in lanes]
+        wanted = list(dict.fromkeys(name for row in names for name in row))
+        parts = [np.empty((0, len(lanes), len(channels)))]
+        for batch in self.iterate_batches(wanted, start, stop):
+            columns = {name: get_values(batch, name) for name in wanted}
+            parts.append(np.stack([np.stack([columns[n] for n in row], 1) for row in names], 1))
+        return np.concatenate(parts)
+
+
+def name_column(lane: str, channel: str) -> str:
+    """The column of the file that holds a channel of a lane."""
+    return TIME if channel == TIME else f"{lane}.{channel}"
+
+
+def build_record(
+    header: RecordHeader, commands: Commands, first_tick: int, samples: np.ndarray
+) -> Record:
+    """A record of samples (ticks, lanes, channels) in memory, to export as one from a disk."""
+    batch = build_batch(header, build_schema(header), first_tick, samples)
+    parts = [batch.slice(row, ROWS_A_GROUP) for row in range(0, len(samples), ROWS_A_GROUP)]
+    return Record(header, list(commands), first_tick, len(samples), _read_from(parts))
+
+
+def read_record(folder: Path) -> Record:
+    """The record in a folder, all its samples read; raises `RecordError`."""
+    record = open_record(folder)
+    _ = record.samples
+    return record
+
+
+def open_record(folder: Path) -> Record:
+    """The record in a folder, its samples read only when asked for; raises `RecordError`.
+
+    Of one that is being recorded, or was cut off, everything that is whole.
+    """
+    if not folder.is_dir():
+        raise RecordError(f"There is no record {folder.name}.")
+    header, (commands, _) = read_header(folder), read_commands(folder)
+    told = read_fault(folder), read_start(folder), read_events(folder)
+    if (batches := _read_unfinished(folder, header)) is not None:
+        first = batches[0].column("tick")[0].as_py() if batches else 0
+        count = sum(batch.num_rows for batch in batches)
+        return Record(header, commands, first, count, _read_from(batches), *told)
+    with open_parquet(folder) as file:
+        count = file.metadata.num_rows
+        if not file.schema_arrow.equals(build_schema(header)):
+            raise RecordError(f"{PARQUET_FILE} of record {folder.name} has other columns.")
+    read = _read_from_parquet(folder)
+    ticks = [batch.column("tick")[0].as_py() for batch in read(["tick"], 0, min(1, count))]
+    return Record(header, commands, ticks[0] if ticks else 0, count, read, *told)
+
+
+def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch] | None:
+    """What is whole in the stream of a record; None where its Parquet file has taken its place."""
+    if (folder / PARQUET_FILE).exists() or not (folder / STREAM_FILE).exists():
+        return None
+    try:
+        return list(_explain(read_stream(folder / STREAM_FILE, header), folder))
+    except RecordError:
+        if (folder / PARQUET_FILE).exists():
+            return None  # it was finished between the look and the reading
+        raise
+
+
+def recover(folder: Path) -> Finished | None:
+    """Finish a record that a crash left; None where somebody is recording it right now.
+
+    Raises `RecordError` where it is damaged; its files are left as they are then.
+    """
+    with claim(folder) as mine:
+        return finish(folder) if mine else None
+
+
+def _read_from(batches: Sequence[pa.RecordBatch]) -> ReadBatches:
+    def read(columns: Sequence[str] | None, start: int, stop: int) -> Iterator[pa.RecordBatch]:
+        row = 0
+        for batch in batches:
+            part = _slice(batch, row, start, stop)
+            row += batch.num_rows
+            if part.num_rows:
+                yield part if columns is None else part.select(list(columns))
+
+    return read
+
+
+def _read_from_parquet(folder: Path) -> ReadBatches:
+    def read(columns: Sequence[str] | None, start: int, stop: int) -> Iterator[pa.RecordBatch]:
+        names = None if columns is None else list(columns)
+        with open_parquet(folder) as file:
+            sizes = [file.metadata.row_group(i).num_rows for i in range(file.num_row_groups)]
+            begins = [sum(sizes[:i]) for i in range(len(sizes))]
+            within = zip(range(len(sizes)), begins, sizes, strict=True)
+            groups = [i for i, begin, size in within if begin < stop and begin + size > start]
+            if not groups:
+                return
+            row = begins[groups[0]]
+            for batch in _explain(file.iter_batches(ROWS_A_GROUP, groups, names), folder):
+                part = _slice(batch, row, start, stop)
+                row += batch.num_rows
+                if part.num_rows:
+                    yield part
+
+    return read
+
+
+def _slice(batch: pa.RecordBatch, row: int, start: int, stop: int) -> pa.RecordBatch:
+    """The rows start … stop of a batch whose first row is `row`."""
+    first = max(0, start - row)
+    return batch.slice(first, max(0, min(batch.num_rows, stop - row) - first))
+
+
+def _explain(batches: Iterator[pa.RecordBatch], folder: Path) -> Iterator[pa.RecordBatch]:
+    try:
+        yield from batches
+    except (OSError, pa.ArrowException, ValueError) as error:
+        raise RecordError(f"The samples of record {folder.name} are damaged: {error}") from None

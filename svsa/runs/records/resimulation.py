@@ -1,0 +1,79 @@
+"""A record held against its own simulation: the same configuration, seed and commands."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from svsa.runs.command import Command, read_command
+from svsa.runs.configuration import Configuration
+from svsa.runs.records.header import RecordError
+from svsa.runs.records.reader import Record
+from svsa.runs.replay import simulate_again
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Whether a record is its run, bit for bit.
+
+    identical: every sample of every lane. ticks: how many were compared. first_difference:
+    the tick and the channel ("lane.channel") of the first sample that differs, or None.
+    """
+
+    identical: bool
+    ticks: int
+    first_difference: tuple[int, str] | None
+
+
+def read_origin(record: Record) -> tuple[Configuration, list[Command]]:
+    """The configuration at tick 0 and the commands of a record.
+
+    Raises `ParameterError` where this version does not know them.
+    """
+    commands = [read_command(written) for _, written in record.commands]
+    return Configuration(**record.header.configuration), commands
+
+
+def check_simulated(record: Record) -> None:
+    """Raise `RecordError` for a run of a bench, which nothing can simulate again."""
+    header = record.header
+    if header.plant != "simulated":
+        raise RecordError(
+            f"Run {header.run_id} was recorded on a bench (plant: {header.plant}): only a"
+            " simulated run can be simulated again."
+        )
+
+
+def compare_with_simulation(record: Record) -> Comparison:
+    """Simulate a recorded run again from its record alone and compare every bit.
+
+    Raises `RecordError` for a run of a bench, and where it was recorded with other channels
+    than this version has.
+    """
+    check_simulated(record)
+    configuration, commands = read_origin(record)
+    again = _iterate_rows(
+        simulate_again(configuration, commands, record.first_tick, record.tick_count)
+    )
+    compared = 0
+    for tick, rows in record.iterate():
+        for offset, row in enumerate(rows):
+            simulated = next(again, None)
+            if simulated is None:
+                return Comparison(False, compared, (tick + offset, "the simulation ended"))
+            if simulated.shape != row.shape:
+                raise RecordError(f"Record {record.header.run_id} has other lanes or channels.")
+            if simulated.tobytes() != row.tobytes():
+                return Comparison(False, compared, (tick + offset, _name(record, simulated, row)))
+            compared += 1
+    return Comparison(True, compared, None)
+
+
+def _iterate_rows(stretches: Iterator[np.ndarray]) -> Iterator[np.ndarray]:
+    for samples in stretches:
+        yield from samples.transpose(1, 0, 2)
+
+
+def _name(record: Record, simulated: np.ndarray, row: np.ndarray) -> str:
+    lane, channel = np.argwhere(simulated.view(np.uint64) != row.view(np.uint64))[0]
+    return f"{record.header.lanes[lane]}.{record.header.channel_names[channel]}"

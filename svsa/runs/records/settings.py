@@ -1,0 +1,185 @@
+"""The settings of a recorded run in a few words: the columns of a list of runs, and a name.
+
+Everything is said of the samples that were recorded and of nothing else: a law that was
+switched to before the first sample, or a load planned for after the last, is not named.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from svsa.runs.configuration import load_prototype
+from svsa.runs.records.acting import Acting, read_acting
+from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.parquet import Commands
+from svsa.runs.records.wording import (
+    MAX_STEPS,
+    UNKNOWN,
+    VERSUS,
+    compute_mean,
+    describe_effects,
+    describe_lanes,
+    describe_load,
+    describe_motion,
+    describe_stiffness,
+    follow,
+    tell_law,
+)
+from svsa.simulation.reference.paper import References, find_figure
+
+NO_LOAD = "no load"
+_DOT = " · "
+_PLANTS = {"bench": "bench", "emulated": "emulated bench"}
+_OWN = {
+    "gains": "gains",
+    "parameters": "parameters of laws",
+    "observer": "observer",
+    "actuator": "plant",
+    "nominal": "model",
+    "limits": "limits",
+    "sampling": "sampling",
+}
+
+
+@dataclass(frozen=True)
+class RunSettings:
+    """What a run was set to while it was recorded, as people say it; "" where it is not known.
+
+    name: all that matters, joined, for a run that nobody named. figure: key of the paper's
+    figure with its references, from the first sample on; figure_held: to the last one too.
+    laws: lane by lane; law_kinds: every law that controlled a lane at some time. stiffness: σ_d,
+    N·m/rad; stiffness_nm_per_rad: its mean at the first sample. loads that were on; load_kinds:
+    their kinds, or "none". realism: effects of the simulation, or the bench. own: what of the
+    design is not the paper's prototype with this lab's gains. An arrow stands between what came
+    after one another.
+    """
+
+    name: str
+    figure: str
+    figure_held: bool
+    motion: str
+    laws: str
+    law_kinds: tuple[str, ...]
+    stiffness: str
+    stiffness_nm_per_rad: float | None
+    load: str
+    load_kinds: tuple[str, ...]
+    realism: str
+    own: str
+
+
+def describe_settings(
+    header: RecordHeader, commands: Commands, first_tick: int, ticks: int
+) -> RunSettings:
+    """The settings of the record of `ticks` samples from `first_tick` on.
+
+    Never raises: what this version cannot read is left out, and "?" where it was changed to that.
+    """
+    acting = read_acting(header, commands, first_tick, ticks)
+    on_bench = header.plant != "simulated"
+    figure, is_held = _find_figure(acting, on_bench)
+    first = acting.get_values("stiffness")[0]
+    settings = RunSettings(
+        name="",
+        figure=figure,
+        figure_held=is_held,
+        motion=follow(map(describe_motion, acting.get_values("position"))),
+        laws=_describe_laws(acting, header),
+        law_kinds=_list_laws(acting),
+        stiffness=follow(map(describe_stiffness, acting.get_values("stiffness"))),
+        stiffness_nm_per_rad=compute_mean(first),
+        load=_describe_loads(acting),
+        load_kinds=_list_load_kinds(acting),
+        realism=_PLANTS.get(header.plant, "")
+        or follow(map(describe_effects, acting.get_values("effects"))),
+        own="" if on_bench else ", ".join(_find_own(acting)),
+    )
+    return replace(settings, name=_build_name(settings))
+
+
+def name_figure(settings: RunSettings) -> str:
+    """The figure as it is shown: "Fig. 4A", or "from Fig. 4A" where the run left it."""
+    if not settings.figure:
+        return ""
+    return f"{'' if settings.figure_held else 'from '}Fig. {settings.figure.upper()}"
+
+
+def _build_name(settings: RunSettings) -> str:
+    parts = [
+        name_figure(settings) or settings.motion,
+        settings.laws,
+        f"σ {settings.stiffness}" if settings.stiffness else "",
+        settings.load,
+        "" if settings.realism == "ideal" else settings.realism,
+        f"own {settings.own}" if settings.own else "",
+    ]
+    name = _DOT.join(part for part in parts if part)
+    return name[:1].upper() + name[1:]
+
+
+def _find_figure(acting: Acting, on_bench: bool) -> tuple[str, bool]:
+    positions, stiffnesses = acting.get_values("position"), acting.get_values("stiffness")
+    if positions[0] is None or stiffnesses[0] is None:
+        return "", False
+    figure = find_figure(References(positions[0], stiffnesses[0]), on_bench)
+    if figure is None:
+        return "", False
+    asked = [(positions[0], stiffness) for stiffness in stiffnesses[1:]]
+    asked += [(position, stiffnesses[0]) for position in positions[1:]]
+    is_held = all(
+        None not in pair and find_figure(References(*pair), on_bench) == figure for pair in asked
+    )
+    return figure, is_held
+
+
+def _describe_laws(acting: Acting, header: RecordHeader) -> str:
+    """Lane by lane, with every law that it had; a bench's second lane is its twin."""
+    every = [lanes or () for lanes in acting.get_values("rivals")]
+    if any(1 + len(lanes) != len(header.lanes) for lanes in every):
+        every = [()]
+    first = follow(UNKNOWN if law is None else tell_law(law) for law in acting.get_values("law"))
+    is_twin = header.plant != "simulated" and bool(every[0])
+    beside = follow(describe_lanes(lanes[1:] if is_twin else lanes) for lanes in every)
+    others = ["twin", beside] if is_twin else [beside]
+    return VERSUS.join(part for part in (first, *others) if part)
+
+
+def _list_laws(acting: Acting) -> tuple[str, ...]:
+    laws = [law for law in acting.get_values("law") if law is not None]
+    laws += [lane.law for lanes in acting.get_values("rivals") for lane in lanes or ()]
+    return tuple(dict.fromkeys(laws))
+
+
+def _describe_loads(acting: Acting) -> str:
+    if acting.loads is None:
+        return ""
+    texts = [describe_load(scheduled.load) for scheduled in acting.loads]
+    kinds = list(dict.fromkeys(texts))
+    counted = [_count(text, texts) for text in kinds]
+    if len(counted) > MAX_STEPS:
+        rest = len(kinds) - MAX_STEPS + 1
+        counted = [*counted[: MAX_STEPS - 1], f"{rest} other loads"]
+    return " + ".join(counted) or NO_LOAD
+
+
+def _count(text: str, texts: Sequence[str]) -> str:
+    """Two pushes are "pulse (2×)", so that no one reads the sum of two that came in turn."""
+    return f"{text} ({texts.count(text)}×)" if texts.count(text) > 1 else text
+
+
+def _list_load_kinds(acting: Acting) -> tuple[str, ...]:
+    if acting.loads is None:
+        return ()
+    kinds = dict.fromkeys(scheduled.load.kind for scheduled in acting.loads)
+    return tuple(kinds) or ("none",)
+
+
+def _find_own(acting: Acting) -> list[str]:
+    prototype = load_prototype()
+    return [
+        title
+        for name, title in _OWN.items()
+        if any(
+            value is not None and value != getattr(prototype, name, {})
+            for value in acting.get_values(name)
+        )
+    ]

@@ -1,0 +1,172 @@
+"""Whether a run is another within tolerances: channel by channel, in value and in time."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, Number, quantity
+from svsa.runs.records.header import RecordError
+from svsa.runs.records.reader import Record
+from svsa.runs.records.stream import TIME
+
+
+class Tolerance(Checked):
+    """By how much a channel may differ: |a − b| ≤ absolute + relative · |b|.
+
+    b: any value that the other run has within `time_s` of that moment, and all between them.
+    """
+
+    absolute: Number = quantity("", "In the unit of the channel", ge=0, default=0.0)
+    relative: Number = quantity("1", "As a share of the other run's value", ge=0, default=0.0)
+    time_s: Number = quantity("s", "How much earlier or later", ge=0, le=60, default=0.0)
+
+
+EXACT = Tolerance()
+MAX_OUTSIDE = 500
+FROM_THE_FIRST = (0, 0)
+
+
+@dataclass(frozen=True)
+class ChannelVerdict:
+    """How a channel of a lane was judged. worst_s: the moment at which it leaves the band furthest,
+    or comes nearest to leaving it; there `value`, and the band from `low` to `high`. excess: how
+    far it is outside then, negative inside; NaN where one of both is not known. outside: from when
+    to when it is outside, s, in order; stretches nearer to each other than a `MAX_OUTSIDE`-th of
+    what is compared are one. outside_s: how long it is outside in all, every tick counted.
+    """
+
+    lane: str
+    channel: str
+    unit: str
+    held: bool
+    worst_s: float
+    value: float
+    low: float
+    high: float
+    excess: float
+    outside: tuple[tuple[float, float], ...]
+    outside_s: float
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A run judged against another. held: every channel, and both are as long. ticks: compared;
+    own_ticks, other_ticks: how long they are.
+    """
+
+    held: bool
+    ticks: int
+    own_ticks: int
+    other_ticks: int
+    channels: tuple[ChannelVerdict, ...]
+
+
+def judge(
+    run: Record,
+    other: Record,
+    tolerances: Mapping[str, Tolerance],
+    rest: Tolerance | None = EXACT,
+    begins: tuple[int, int] = FROM_THE_FIRST,
+) -> Verdict:
+    """Judge a run against another, lane by lane.
+
+    tolerances: by channel. rest: of channels that are not among them; None leaves those out.
+    begins: the samples of both that are laid over each other first, and compared from then on.
+    They are as long where as many are left. Raises `ParameterError` for a channel that is not
+    there, `RecordError` for runs of other lanes or periods, and where nothing can be compared.
+    """
+    own, others = run.header, other.header
+    if own.period_s != others.period_s or len(own.lanes) != len(others.lanes):
+        raise RecordError(
+            f"Runs {own.run_id} and {others.run_id} cannot be compared: {len(own.lanes)} lanes at"
+            f" {own.period_s:g} s, and {len(others.lanes)} at {others.period_s:g} s."
+        )
+    names = [name for name in own.channel_names if name in others.channel_names and name != TIME]
+    for name in tolerances:
+        if name not in names:
+            bound = "a channel of both runs: " + ", ".join(names)
+            raise ParameterError(Violation("channel", name, "", bound))
+    left, others_left = run.tick_count - begins[0], other.tick_count - begins[1]
+    ticks = max(0, min(left, others_left))
+    chosen = {name: tolerances.get(name, rest) for name in names}
+    asked = {name: tolerance for name, tolerance in chosen.items() if tolerance is not None}
+    if not ticks or not asked:
+        raise RecordError(f"Of runs {own.run_id} and {others.run_id} there is nothing to compare.")
+    channels = tuple(_judge_channels(run, other, asked, ticks, begins))
+    held = left == others_left and all(one.held for one in channels)
+    return Verdict(held, ticks, run.tick_count, other.tick_count, channels)
+
+
+def _judge_channels(
+    run: Record,
+    other: Record,
+    asked: Mapping[str, Tolerance],
+    ticks: int,
+    begins: tuple[int, int],
+) -> Iterator[ChannelVerdict]:
+    header, first = run.header, run.first_tick + begins[0]
+    units = {channel.name: channel.unit for channel in header.channels}
+    for name, tolerance in asked.items():
+        values = read_channel(run, name, begins[0], ticks)
+        wanted = read_channel(other, name, begins[1], ticks)
+        low, high = build_band(wanted, tolerance, round(tolerance.time_s / header.period_s))
+        unknown = np.isnan(values) & np.isnan(wanted)
+        excesses = np.where(unknown, -np.inf, np.maximum(low - values, values - high))
+        for number, lane in enumerate(header.lanes):
+            excess = excesses[:, number]
+            missing = np.flatnonzero(np.isnan(excess))
+            worst = int(missing[0]) if len(missing) else int(np.argmax(excess))
+            is_outside = ~(excess <= 0.0)
+            yield ChannelVerdict(
+                lane=lane,
+                channel=name,
+                unit=units[name],
+                held=bool(excess[worst] <= 0.0),
+                worst_s=(first + worst) * header.period_s,
+                value=float(values[worst, number]),
+                low=float(low[worst, number]),
+                high=float(high[worst, number]),
+                excess=float(excess[worst]),
+                outside=tuple(
+                    ((first + begin) * header.period_s, (first + end) * header.period_s)
+                    for begin, end in _find_stretches(is_outside)
+                ),
+                outside_s=float(is_outside.sum() * header.period_s),
+            )
+
+
+def _find_stretches(is_outside: np.ndarray) -> list[tuple[int, int]]:
+    """First and last tick of each stretch; see `ChannelVerdict.outside`."""
+    ticks = np.flatnonzero(is_outside)
+    if not len(ticks):
+        return []
+    apart = np.flatnonzero(np.diff(ticks) > max(1, len(is_outside) // MAX_OUTSIDE))
+    begins, ends = ticks[[0, *(apart + 1)]], ticks[[*apart, -1]]
+    return list(zip(begins.tolist(), ends.tolist(), strict=True))
+
+
+def read_channel(run: Record, name: str, begin: int, ticks: int) -> np.ndarray:
+    """So many samples of a channel from the sample `begin` on, (ticks, lanes)."""
+    return run.read_channels([name], begin, begin + ticks)[:, :, 0]
+
+
+def build_band(
+    values: np.ndarray, tolerance: Tolerance, reach: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest value that a run may have beside one of these (ticks, …).
+
+    reach: of the tolerance in time, in samples. NaN where within reach nothing is known.
+    """
+    room = tolerance.absolute + tolerance.relative * np.abs(values)
+    low, high = values - room, values + room
+    if not reach:
+        return low, high
+    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # late: it takes a while
+
+    is_unknown, size = np.isnan(values), 2 * reach + 1
+    low, high = np.where(is_unknown, np.inf, low), np.where(is_unknown, -np.inf, high)
+    low = minimum_filter1d(low, size, axis=0, mode="nearest")
+    high = maximum_filter1d(high, size, axis=0, mode="nearest")
+    return np.where(low <= high, low, np.nan), np.where(low <= high, high, np.nan)

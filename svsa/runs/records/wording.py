@@ -1,0 +1,147 @@
+"""References, loads and effects of a run in a few words, as they stand in a list of runs."""
+
+import math
+from collections.abc import Iterable, Sequence
+
+from svsa.control.installed import get_law, is_usable
+from svsa.runs.configuration import Lane
+from svsa.simulation.plant.effects import IDEAL, RIG, Effects
+from svsa.simulation.plant.loads import (
+    PAPER_ARM_M,
+    ConstantLoad,
+    Load,
+    MassLoad,
+    PaperLoad,
+    PulseLoad,
+    PushLoad,
+    SineLoad,
+)
+from svsa.simulation.reference.trajectories import (
+    ConstantPosition,
+    ConstantStiffness,
+    PositionReference,
+    SinePosition,
+    SineStiffness,
+    StiffnessReference,
+)
+
+UNKNOWN = "?"
+MAX_STEPS = 3
+VERSUS = " vs "
+_ARROW = " → "
+_EFFECTS = {
+    "encoders": "encoders",
+    "estimation": "estimated velocities",
+    "friction": "friction",
+    "current_lag": "current lag",
+    "noise": "noise",
+    "gravity": "link weight",
+}
+_FULL = {*_EFFECTS}
+
+
+def follow(texts: Iterable[str]) -> str:
+    """Texts that followed one another; of many the first and the last."""
+    steps: list[str] = []
+    for text in texts:
+        if not steps or steps[-1] != text:
+            steps.append(text)
+    if len(steps) > MAX_STEPS:
+        steps = [steps[0], "…", steps[-1]]
+    return "" if steps == [UNKNOWN] else _ARROW.join(steps)
+
+
+def describe_motion(reference: PositionReference | None) -> str:
+    """q_d: "60° 0.2 Hz", "held at 20°"."""
+    match reference:
+        case None:
+            return UNKNOWN
+        case ConstantPosition():
+            return f"held at {_tell_degrees(reference.position_rad)}"
+        case SinePosition():
+            mean = f"{_tell_degrees(reference.offset_rad)} ± " if reference.offset_rad else ""
+            return f"{mean}{_tell_degrees(reference.amplitude_rad)} {reference.frequency_hz:g} Hz"
+    return str(reference.kind).replace("_", " ")
+
+
+def describe_stiffness(reference: StiffnessReference | None) -> str:
+    """σ_d in N·m/rad: "60", "35 ± 1"."""
+    match reference:
+        case None:
+            return UNKNOWN
+        case ConstantStiffness():
+            return f"{reference.stiffness_nm_per_rad:g}"
+        case SineStiffness():
+            return f"{reference.offset_nm_per_rad:g} ± {reference.amplitude_nm_per_rad:g}"
+    return str(reference.kind).replace("_", " ")
+
+
+def describe_lanes(lanes: Sequence[Lane]) -> str:
+    """Controllers side by side: "FL", "FL vs NDOBC (own gains)"."""
+    return VERSUS.join(f"{tell_law(lane.law)}{_tell_own(lane)}" for lane in lanes)
+
+
+def tell_law(name: str) -> str:
+    """The title of a law, or the name of one that cannot be used here."""
+    return get_law(name).title if is_usable(name) else name
+
+
+def _tell_own(lane: Lane) -> str:
+    return " (own gains)" if lane.gains or lane.observer or lane.parameters else ""
+
+
+def compute_mean(reference: StiffnessReference | None) -> float | None:
+    """The mean of σ_d, N·m/rad; None where it has none of its own."""
+    match reference:
+        case ConstantStiffness():
+            return reference.stiffness_nm_per_rad
+        case SineStiffness():
+            return reference.offset_nm_per_rad
+    return None
+
+
+def _tell_degrees(angle_rad: float) -> str:
+    return f"{math.degrees(angle_rad):.4g}°"
+
+
+def describe_load(load: Load) -> str:
+    """A load: "3 kg" as the paper prints it, "3 kg mass", "5 N·m", "pulse 5 N·m", "push"."""
+    match load:
+        case PaperLoad():
+            return "3 kg"
+        case MassLoad():
+            arm = "" if load.arm_m == PAPER_ARM_M else f" at {1000 * load.arm_m:g} mm"
+            return f"{load.mass_kg:g} kg mass{arm}"
+        case ConstantLoad():
+            return _tell_torque(load.torque_nm)
+        case PushLoad():
+            return "push"
+        case PulseLoad():
+            return f"pulse {_tell_torque(load.torque_nm)}"
+        case SineLoad():
+            return f"sine {_tell_torque(load.torque_nm)} {load.frequency_hz:g} Hz"
+    return "torque series"
+
+
+def _tell_torque(torque_nm: Sequence[float]) -> str:
+    link, *motors = (f"{value:.3g}" for value in torque_nm)
+    return f"{link} N·m" if not any(torque_nm[1:]) else f"{', '.join((link, *motors))} N·m"
+
+
+def describe_effects(effects: Effects | None) -> str:
+    """ideal, rig or full as on the page; else what is switched on."""
+    if effects is None:
+        return UNKNOWN
+    if effects == IDEAL:
+        return "ideal"
+    on = {name for name in _EFFECTS if getattr(effects, name) is not None}
+    for title, names in (("rig", {"encoders", "estimation"}), ("full", _FULL)):
+        if on == names and effects.delay_samples == RIG.delay_samples and effects.torque_limits:
+            plain = all(getattr(effects, name) == type(getattr(effects, name))() for name in on)
+            return title if plain else f"{title}, own values"
+    parts = [_EFFECTS[name] for name in _EFFECTS if name in on]
+    if effects.delay_samples:
+        parts.append(f"delay {effects.delay_samples}")
+    if not effects.torque_limits:
+        parts.append("no torque limits")
+    return ", ".join(parts)

@@ -1,0 +1,100 @@
+"""The files of a growing record, written by one thread, and a finished record in one call."""
+
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+
+from svsa.inputs.file_lock import take_lock
+from svsa.runs.records.header import (
+    COMMANDS_FILE,
+    STREAM_FILE,
+    RecordError,
+    RecordHeader,
+    write_header,
+)
+from svsa.runs.records.parquet import ROWS_A_GROUP, Commands, Finished, finish, write_command
+from svsa.runs.records.stream import END_OF_STREAM, TIME, build_batch, build_schema, write_all
+
+_FLAGS = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_BINARY", 0)
+
+
+class RecordWriter:
+    """A new folder with header, commands and samples; raises `RecordError` if it cannot be.
+
+    Whatever a method returned from is with the operating system and outlives the process.
+    Methods raise `OSError` where the disk fails; then all that was whole before is still.
+    """
+
+    def __init__(self, folder: Path, header: RecordHeader) -> None:
+        self.folder, self.header, self._schema = folder, header, build_schema(header)
+        self._descriptors: list[int] = []
+        try:
+            folder.mkdir(parents=True)
+        except FileExistsError:
+            raise RecordError(f"There is a record {folder.name} already.") from None
+        except (OSError, ValueError) as error:
+            raise RecordError(f"Cannot record into {folder}: {error}.") from None
+        try:
+            self._stream = self._create(STREAM_FILE)
+            take_lock(self._stream)
+            self._commands = self._create(COMMANDS_FILE)
+            write_header(folder, header)
+            write_all(self._stream, memoryview(self._schema.serialize()))
+        except OSError as error:
+            self.release()
+            shutil.rmtree(folder, ignore_errors=True)
+            raise RecordError(f"Cannot record into {folder}: {error}.") from None
+
+    def write_lines(self, lines: bytes) -> int:
+        """Append lines of `write_command`; returns their bytes."""
+        write_all(self._commands, lines)
+        return len(lines)
+
+    def write_samples(self, first_tick: int, samples: np.ndarray) -> int:
+        """Append samples (ticks, lanes, channels); returns the bytes they took."""
+        if TIME in self.header.channel_names:
+            times = samples[:, :, self.header.channel_names.index(TIME)]
+            if not np.array_equal(times, times[:, :1].repeat(times.shape[1], 1), equal_nan=True):
+                raise RecordError("the lanes are not at the same time.")
+        batch = build_batch(self.header, self._schema, first_tick, samples)
+        content = memoryview(batch.serialize())
+        write_all(self._stream, content)
+        return len(content)
+
+    def finish(self) -> Finished:
+        """Close the files and make the Parquet file; raises `RecordError` if it cannot be."""
+        try:
+            write_all(self._stream, END_OF_STREAM)
+        except OSError as error:
+            raise RecordError(f"Record {self.folder.name} cannot be finished: {error}.") from None
+        else:
+            return finish(self.folder)
+        finally:
+            self.release()
+
+    def _create(self, name: str) -> int:
+        self._descriptors.append(os.open(self.folder / name, _FLAGS, 0o644))
+        return self._descriptors[-1]
+
+    def release(self) -> None:
+        """Let go of the files as they are."""
+        for descriptor in self._descriptors:
+            os.close(descriptor)
+        self._descriptors.clear()
+
+
+def write_record(
+    folder: Path, header: RecordHeader, commands: Commands, first_tick: int, samples: np.ndarray
+) -> Finished:
+    """Write a record of a run that was not live, (ticks, lanes, channels), in one call."""
+    writer = RecordWriter(folder, header)
+    try:
+        writer.write_lines(b"".join(write_command(*command) for command in commands))
+        for row in range(0, len(samples), ROWS_A_GROUP):
+            writer.write_samples(first_tick + row, samples[row : row + ROWS_A_GROUP])
+    except OSError as error:
+        writer.release()
+        raise RecordError(f"Record {folder.name} cannot be written: {error}.") from None
+    return writer.finish()

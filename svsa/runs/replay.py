@@ -1,0 +1,83 @@
+"""What a configuration and the commands given say of a run: every sample again, and its loads."""
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNELS
+from svsa.errors import StateError
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad
+from svsa.runs.configuration import Configuration
+from svsa.runs.loads import Loads, follow_loads
+from svsa.runs.run import Run
+
+STRETCH_TICKS = 10_000
+
+
+def replay(
+    configuration: Configuration, commands: Iterable[Command], end_tick: int
+) -> Iterator[tuple[Run, np.ndarray]]:
+    """Simulate a run again from its start; see `play`."""
+    return play(Run(configuration), commands, end_tick)
+
+
+def play(
+    run: Run,
+    commands: Iterable[Command],
+    end_tick: int,
+    room: np.ndarray | None = None,
+    stretch_ticks: int = STRETCH_TICKS,
+) -> Iterator[tuple[Run, np.ndarray]]:
+    """Go on with a run, each command given at its tick.
+
+    Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
+    until `end_tick` or the run's fault. Same configuration and commands: same bits. room:
+    (lanes, ticks, channels), where the samples are to stand one after the other. stretch_ticks: at
+    most, of a stretch.
+    """
+    later, first = list(commands), run.tick
+    while True:
+        while later and later[0].tick <= run.tick:
+            later.pop(0).apply(run)
+        end = min([end_tick, run.tick + stretch_ticks, *(command.tick for command in later[:1])])
+        if run.fault is not None or run.tick >= end:
+            return
+        if room is None:
+            samples = np.empty((len(run.lanes), end - run.tick, len(CHANNELS)))
+        else:
+            samples = room[:, run.tick - first : end - first]
+        yield run, samples[:, : run.advance(samples)]
+
+
+def build_run_at(configuration: Configuration, commands: Iterable[Command], tick: int) -> Run:
+    """The run as it stood at the beginning of `tick`, commands of that tick not yet given.
+
+    Raises `StateError` where the run ended before.
+    """
+    run = Run(configuration)
+    for reached, _ in replay(configuration, [c for c in commands if c.tick < tick], tick):
+        run = reached
+    if run.tick < tick:
+        raise StateError(f"The run ended before tick {tick}, at tick {run.tick}.")
+    return run
+
+
+def simulate_again(
+    configuration: Configuration, commands: Iterable[Command], first_tick: int, ticks: int
+) -> Iterator[np.ndarray]:
+    """The samples of a recorded run once more, bit for bit: stretches (lanes, ticks, channels).
+
+    first_tick: where the record begins. ticks: how many it holds.
+    """
+    for run, samples in replay(configuration, commands, first_tick + ticks):
+        skipped = max(0, first_tick - (run.tick - samples.shape[1]))
+        if skipped < samples.shape[1]:
+            yield samples[:, skipped:]
+
+
+def list_loads(configuration: Configuration, commands: Iterable[Command]) -> Loads:
+    """Every load of a run, with the ticks at which it came and went."""
+    changes = [
+        (one.tick, one.argument) for one in commands if isinstance(one, ApplyLoad | RemoveLoad)
+    ]
+    return follow_loads(configuration.loads, changes, configuration.sampling.period_s)

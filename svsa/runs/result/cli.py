@@ -1,0 +1,100 @@
+"""`svsa compare`: whether a recorded run is another within tolerances."""
+
+import json
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.inputs.toml_file import read_toml, tell_place
+
+if TYPE_CHECKING:
+    from svsa.runs.records.verdict import Tolerance, Verdict
+
+NOT_HELD, REFUSED = 1, 2
+_messages = Console(stderr=True)
+
+
+def compare(
+    run: Annotated[str, typer.Argument(help="The run that is judged: its id, or its folder.")],
+    other: Annotated[str, typer.Argument(help="The run that it should be.")],
+    absolute: Annotated[float, typer.Option(help="Tolerance in each channel's unit.")] = 0.0,
+    relative: Annotated[float, typer.Option(help="As a share of the other run's value.")] = 0.0,
+    time_s: Annotated[float, typer.Option("--time", help="How much earlier or later, s.")] = 0.0,
+    channel: Annotated[
+        list[str] | None, typer.Option(help="Only this channel; may be given again.")
+    ] = None,
+    tolerances: Annotated[
+        Path | None, typer.Option(help="TOML: a table a channel (absolute, relative, time_s).")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Judge a run against another. Exit code 0: held; 1: not; 2: they cannot be compared."""
+    from svsa.runs.records.verdict import Tolerance, judge
+    from svsa.runs.result.recorded import find_record
+
+    try:
+        rest = Tolerance(absolute=absolute, relative=relative, time_s=time_s)
+        given = read_tolerances(tolerances) if tolerances else {}
+        given |= {name: given.get(name, rest) for name in channel or ()}
+        verdict = judge(find_record(run), find_record(other), given, None if channel else rest)
+    except (SvsaError, OSError) as error:
+        _messages.print(f"Error: {error}", style="bold red", highlight=False, markup=False)
+        raise typer.Exit(REFUSED) from None
+    if as_json:
+        print(json.dumps(_plain(asdict(verdict)), indent=2))
+    else:
+        Console().print(*build_verdict_table(verdict))
+    raise typer.Exit(0 if verdict.held else NOT_HELD)
+
+
+def read_tolerances(path: Path) -> "dict[str, Tolerance]":
+    """Tolerances by channel from a TOML file; raises `ParameterError` with its name and lines."""
+    from svsa.runs.records.verdict import Tolerance
+
+    read: dict[str, Tolerance] = {}
+    violations: list[Violation] = []
+    for name, table in read_toml(path, "tolerance file").items():
+        if not isinstance(table, dict):
+            violations.append(Violation(name, table, "", "a table: absolute, relative, time_s"))
+            continue
+        try:
+            read[name] = Tolerance(**table)
+        except ParameterError as error:
+            violations += error.within(name).violations
+    if violations:
+        names = [violation.name for violation in violations]
+        place = tell_place(str(path), path.read_text(encoding="utf-8"), names)
+        raise ParameterError(*violations, file=place)
+    return read
+
+
+def build_verdict_table(verdict: "Verdict") -> list[Table | str]:
+    """A row a channel with its worst moment, and the verdict in a line."""
+    table = Table("lane", "channel", "unit", "held", "worst at", "value", "band")
+    for one in verdict.channels:
+        held = "yes" if one.held else "NO"
+        band = f"{one.low:.6g} to {one.high:.6g}"
+        cells = f"{one.worst_s:.6g} s", f"{one.value:.6g}", band
+        table.add_row(one.lane, one.channel, one.unit, held, *cells)
+    failed = sum(not one.held for one in verdict.channels)
+    told = f"{failed} of {len(verdict.channels)} channels not held" if failed else "All held"
+    told += f" over {verdict.ticks} ticks"
+    if verdict.own_ticks != verdict.other_ticks:
+        lengths = f"not as long: {verdict.own_ticks} and {verdict.other_ticks} ticks"
+        told = f"Not held: {lengths}. {told}"
+    return [table, f"{told}."]
+
+
+def _plain(value: Any) -> Any:
+    """Of numbers that are not finite null, as JSON knows no such number."""
+    if isinstance(value, dict):
+        return {key: _plain(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(inner) for inner in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,195 @@
+"""A run as one holds it in hand: its samples by name, numbers, tables and pictures."""
+
+import base64
+import html
+import io
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from svsa.actuators.signals import CHANNELS
+from svsa.errors import Fault, ParameterError, Violation
+from svsa.inputs.checked import check_number
+from svsa.inputs.extras import list_missing, require_extra
+from svsa.runs.command import Command, SetLaw, SetLaws
+from svsa.runs.configuration import Configuration
+from svsa.runs.metrics import Metrics, compute_metrics
+from svsa.runs.records.header import PlantKind
+from svsa.runs.result.channels import Channels
+from svsa.runs.result.law_style import name_law
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.figure import Figure as Picture
+
+PICTURE_DPI = 80
+
+
+@dataclass(frozen=True, repr=False)
+class Result(Channels):
+    """A finished run, one lane of it.
+
+    configuration: at tick 0. samples: (ticks, channels), float64, SI, columns as
+    `svsa.actuators.signals.CHANNELS`. A channel is also an attribute: `result.position_error_rad`.
+    fault: why the run ended early, or None. rivals: the results of the controllers that ran beside
+    this one. law: what controlled first, "own" for a function of one's own. commands: what was
+    changed of this lane on the way. name: what a recorded run is called. plant: what the first lane
+    was.
+    """
+
+    configuration: Configuration
+    samples: np.ndarray = field(repr=False)
+    fault: Fault | None = None
+    rivals: "tuple[Result, ...]" = field(default=(), repr=False)
+    law: str = "ndobc"
+    commands: tuple[Command, ...] = ()
+    name: str = ""
+    plant: PlantKind = "simulated"
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of every channel."""
+        return {channel.name: channel.unit for channel in CHANNELS}
+
+    @property
+    def metrics(self) -> Metrics:
+        """The metrics of the whole run, whichever laws controlled; see `measure`.
+
+        Raises `StateError` where it has no samples.
+        """
+        return compute_metrics(self.samples, self.configuration.sampling.period_s)
+
+    def measure(self, start_s: float, end_s: float) -> Metrics:
+        """The metrics between two times of the run, s; raises `ParameterError` if empty."""
+        period = self.configuration.sampling.period_s
+        first = round(float(self.time_s[0]) / period) if len(self.samples) else 0
+        begin, end = first * period, (first + len(self.samples)) * period
+        check_number("start_s", start_s, "s", begin, end)
+        check_number("end_s", end_s, "s", start_s, end)
+        rows = self.samples[round(start_s / period) - first : round(end_s / period) - first]
+        if not len(rows):
+            bound = f"a stretch with samples between {begin:g} and {end:g} s"
+            raise ParameterError(Violation("(start_s, end_s)", (start_s, end_s), "s", bound))
+        return compute_metrics(rows, period)
+
+    def list_stretches(self) -> list[tuple[str, slice]]:
+        """The laws that controlled, one after the other, each with its rows of the samples."""
+        period, rows = self.configuration.sampling.period_s, len(self.samples)
+        first = round(float(self.time_s[0]) / period) if rows else 0
+        begins = [(0, self.law)]
+        for command in self.commands:
+            match command:
+                case SetLaw(argument=law) | SetLaws(argument=(law, *_)):
+                    row = command.tick - first
+                    if 0 < row < rows and law != begins[-1][1]:
+                        begins.append((row, law))
+        ends = [begin for begin, _ in begins[1:]] + [rows]
+        return [(law, slice(at, end)) for (at, law), end in zip(begins, ends, strict=True)]
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """All channels as a pandas DataFrame, one row a tick; its `attrs` have the units."""
+        from svsa.runs.result.tables import build_dataframe
+
+        return build_dataframe(self.samples, self._tell())
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """All channels along `time_s`, each with its units; needs the extra `xarray`."""
+        from svsa.runs.result.tables import build_dataset
+
+        return build_dataset(self.samples, self._tell())
+
+    def to_csv(self, path: Path | str) -> None:
+        """Write all channels as CSV; the first row names each with its unit."""
+        names = ",".join(f"{channel.name} [{channel.unit}]" for channel in CHANNELS)
+        np.savetxt(path, self.samples, fmt="%.9g", delimiter=",", header=names, comments="")
+
+    def plot(self) -> "Picture":
+        """Position, its error, stiffness, torques and disturbances as a matplotlib figure.
+
+        Raises `MissingExtraError` where matplotlib, of the extra `plot`, is not installed.
+        """
+        require_extra("plot")
+        from svsa.runs.result.plot import plot_run
+
+        period = self.configuration.sampling.period_s
+        changes_s = {command.tick * period for command in self.commands}
+        return plot_run(self, self.list_stretches(), changes_s)
+
+    def __repr__(self) -> str:
+        return "\n".join(self._describe())
+
+    def _repr_html_(self) -> str:
+        lines = "<br>".join(html.escape(line) for line in self._describe())
+        if self._picture is None:
+            return f"<p>{lines}</p>"
+        picture = base64.b64encode(self._picture).decode()
+        return f'<p>{lines}</p><img alt="The run" src="data:image/png;base64,{picture}">'
+
+    def _repr_png_(self) -> bytes | None:
+        return self._picture
+
+    @cached_property
+    def _picture(self) -> bytes | None:
+        """None where there is nothing to draw, or nothing to draw with."""
+        stream = io.BytesIO()
+        if not len(self.samples) or list_missing("plot"):
+            return None
+        self.plot().savefig(stream, format="png", dpi=PICTURE_DPI)
+        return stream.getvalue()
+
+    def _tell(self) -> dict[str, str]:
+        """What the run was, as attributes that every format of a file can hold."""
+        told = {"law": self.law, "configuration": self.configuration.model_dump_json()}
+        if self.name:
+            told["name"] = self.name
+        if self.fault is not None:
+            told["fault"] = self.fault.message
+        return told
+
+    def _describe(self) -> tuple[str, str]:
+        """The run in two lines: what it is, and how it went."""
+        period = self.configuration.sampling.period_s
+        beside = f" beside {', '.join(name_law(r.law) for r in self.rivals)}" if self.rivals else ""
+        stretches = self.list_stretches()
+        laws = " → ".join(name_law(law) for law, _ in stretches)
+        called = f"{self.name}: " if self.name else ""
+        first = (
+            f"{called}{laws}{beside}, {len(self.samples) * period:g} s at"
+            f" {1.0 / period:g} Hz ({len(self.samples)} samples of {len(CHANNELS)} channels)"
+        )
+        if not len(self.samples):
+            second = "no samples"
+        else:
+            law, rows = stretches[-1]
+            m = compute_metrics(self.samples[rows], period)
+            since = f"{name_law(law)} since {self.time_s[rows.start]:g} s: " if rows.start else ""
+            second = (
+                f"{since}position error {math.degrees(m.rms_position_error_rad):.4g}° rms,"
+                f" {math.degrees(m.peak_position_error_rad):.4g}° peak; stiffness error"
+                f" {m.rms_stiffness_error_nm_per_rad:.4g} N·m/rad rms; |u| up to"
+                f" {m.peak_torque1_nm:.4g} and {m.peak_torque2_nm:.4g} N·m"
+            )
+        ended = f"; ended early: {self.fault.message}" if self.fault is not None else ""
+        return first, second + ended
+
+
+def build_results(
+    configuration: Configuration,
+    samples: np.ndarray,
+    laws: Iterable[str],
+    fault: Fault | None = None,
+    commands: tuple[Command, ...] = (),
+    name: str = "",
+    plant: PlantKind = "simulated",
+) -> Result:
+    """The first lane's result with those of its rivals. samples: (lanes, ticks, channels)."""
+    of_all = tuple(command for command in commands if command.kind != "law")
+    (rows, law), *others = zip(samples, laws, strict=True)
+    rivals = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)
+    return Result(configuration, rows, fault, rivals, law, commands, name, plant)

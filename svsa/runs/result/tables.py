@@ -1,0 +1,39 @@
+"""Samples as a table of pandas and as a dataset of xarray, with units in the attributes."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas
+
+from svsa.actuators.signals import CHANNEL_NAMES, CHANNELS
+from svsa.inputs.extras import require_extra
+
+if TYPE_CHECKING:
+    import xarray
+
+TIME = "time_s"
+
+
+def build_dataframe(samples: np.ndarray, told: Mapping[str, str]) -> pandas.DataFrame:
+    """A row a tick, a column a channel; `attrs` has the units and what is told of the run."""
+    table = pandas.DataFrame(samples, columns=list(CHANNEL_NAMES))
+    table.attrs.update(told, units={channel.name: channel.unit for channel in CHANNELS})
+    return table
+
+
+def build_dataset(samples: np.ndarray, told: Mapping[str, str]) -> "xarray.Dataset":
+    """A variable a channel along `time_s`, each with `units` and `long_name`.
+
+    Raises `MissingExtraError` where xarray, of the extra of that name, is not installed.
+    """
+    require_extra("xarray")
+    import xarray
+
+    columns = zip(CHANNELS, samples.T, strict=True)
+    variables = {
+        channel.name: ((TIME,), values, {"units": channel.unit, "long_name": channel.label})
+        for channel, values in columns
+    }
+    time = variables.pop(TIME)
+    return xarray.Dataset(variables, coords={TIME: time}, attrs=dict(told))

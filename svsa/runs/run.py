@@ -1,0 +1,300 @@
+"""One run: a configuration, the state it has reached, and the changes made on the way."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.domain import INSIDE
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.signals import State
+from svsa.actuators.spring import compute_stiffness
+from svsa.control.gains import Gains
+from svsa.control.installed import check_installed, get_law
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.parameters import LawParameters
+from svsa.errors import Fault, ParameterError, StateError
+from svsa.runs.blocks import Bind, bind_law, build_blocks, compute_start_ratio
+from svsa.runs.configuration import MAX_LOADS, Configuration, Lane, LaneSetting
+from svsa.runs.fault import build_fault
+from svsa.runs.loads import Loads, give_load
+from svsa.simulation.loop.lane import AT_REST, Inputs, LaneState, build_lane_state
+from svsa.simulation.loop.loop import advance
+from svsa.simulation.loop.slices import advance_in_slices
+from svsa.simulation.loop.stepwise import Controller, advance_stepwise
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.loads import Load, ScheduledLoad, build_load_table
+from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference, get_range
+from svsa.simulation.reference.transition import Stack, build_stack, push_trajectory
+
+
+class Start(NamedTuple):
+    """Where a run begins that finds the actuator as it is.
+
+    mu0: lever ratio at θ2 = 0, a fact of how the actuator was assembled. x: `State` at t = 0.
+    """
+
+    mu0: float
+    x: State
+
+
+class Run:
+    """A simulated run from t = 0, tick by tick, in one to four lanes.
+
+    `configuration` is the present one; a change takes effect at the next tick. The run
+    starts at x = 0 with the μ0 that makes σ(0) = σ_d(0); with a `start`, from there, and the
+    references fade in from q and σ as they are. steps: Runge–Kutta steps a period.
+    controller: one's own in plain Python, in place of the first lane's law. bind: binds the law of
+    a lane. `blocks`, `laws` (one a lane) and `inputs` are what the compiled loop is given.
+    """
+
+    def __init__(
+        self,
+        configuration: Configuration,
+        steps: int = 1,
+        controller: Controller | None = None,
+        start: Start | None = None,
+        bind: Bind = bind_law,
+    ) -> None:
+        check_laws(configuration)
+        self.configuration = configuration
+        self.steps = steps
+        self._bind = bind
+        self._controller = controller
+        self.tick = 0
+        self.fault: Fault | None = None
+        self._load_count = 0
+        self.loads: Loads = ()
+        if start is None:
+            self.mu0 = compute_start_ratio(configuration)
+            x = AT_REST
+            self._position = build_stack(configuration.position)
+            self._stiffness = build_stack(configuration.stiffness)
+        else:
+            self.mu0 = start.mu0
+            x = start.x
+            self._position, self._stiffness = _build_stacks(configuration, start)
+        self.lanes = [
+            build_lane_state(get_law(lane.law).start_memory(), x) for lane in configuration.lanes
+        ]
+        self._connect(self.configuration)
+        for load in configuration.loads:
+            self.add_load(load)
+
+    @property
+    def period_s(self) -> float:
+        """T, s."""
+        return self.configuration.sampling.period_s
+
+    @property
+    def time_s(self) -> float:
+        """The time of the next tick, s."""
+        return self.tick * self.period_s
+
+    def advance(self, samples: np.ndarray) -> int:
+        """Run so many ticks as `samples` (lanes, ticks, channels) has; how many were done.
+
+        Fewer than asked means that the run has ended: `fault` says why. All lanes end with
+        the first of them that leaves the domain of the model.
+        """
+        if self.fault is not None:
+            return 0
+        done, reached = samples.shape[1], list(self.lanes)
+        ticks = [0] * len(self.lanes)
+        for number in reversed(range(len(self.lanes))):
+            rows = samples[number, :done]
+            reached[number], ticks[number], code = self._advance_lane(number, rows)
+            if code != INSIDE:
+                done, x = ticks[number], reached[number].x
+                name = self._name_lane(number)
+                self.fault = build_fault(
+                    code, number, self.tick + done, self.blocks[number], x, name
+                )
+        for number in range(len(self.lanes)):
+            if ticks[number] > done:
+                reached[number], _, _ = self._advance_lane(number, samples[number, :done])
+        self.lanes = reached
+        self.tick += done
+        return done
+
+    def _name_lane(self, number: int) -> str:
+        """The law of a lane, with its number where another has the same; "" where it is alone."""
+        laws = [get_law(lane.law).title for lane in self.configuration.lanes]
+        if len(laws) == 1:
+            return ""
+        law = laws[number]
+        return f"{law} ({number + 1})" if laws.count(law) > 1 else law
+
+    def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
+        """One lane from the present tick on; the first comes last, so that it is asked once."""
+        blocks, inputs, law = self.blocks[number], self.inputs, self.laws[number]
+        own = None if number else self._controller
+        kind = law.function if own is None else "own", blocks.steps
+
+        def run(lane: LaneState, first: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
+            if own is None:
+                return advance(blocks, law, inputs, lane, first, rows)
+            return advance_stepwise(blocks, inputs, lane, first, rows, own)
+
+        return advance_in_slices(run, kind, self.lanes[number], self.tick, rows)
+
+    def set_position(self, reference: PositionReference) -> None:
+        """Fade over to this position reference, from now on."""
+        self._position = push_trajectory(self._position, reference, self.time_s)
+        self._configure(position=reference)
+
+    def set_stiffness(self, reference: StiffnessReference) -> None:
+        """Fade over to this stiffness reference; raises `ParameterError` outside the range."""
+        self.configuration.limits.check_stiffness("stiffness", *get_range(reference))
+        self._stiffness = push_trajectory(self._stiffness, reference, self.time_s)
+        self._configure(stiffness=reference)
+
+    def set_law(self, law: str) -> None:
+        """Control the first lane with this law from now on."""
+        self.set_laws((law,))
+
+    def set_laws(self, laws: tuple[str, ...]) -> None:
+        """Control the first lanes with these laws from now on; their plants stay as they are.
+
+        A law that comes remembers nothing. Raises `ParameterError` where there are fewer lanes
+        than laws.
+        """
+        self._control(self.configuration.controlled_by(laws))
+
+    def set_lane(self, setting: LaneSetting) -> None:
+        """Control one lane beside the first otherwise from now on; its plant stays as it is.
+
+        The same law remembers, another one remembers nothing. Raises `ParameterError` where
+        there is no such lane.
+        """
+        self._control(self.configuration.with_lane(setting))
+
+    def _control(self, configuration: Configuration) -> None:
+        """The same lanes under these controllers."""
+        check_laws(configuration)
+        before = self.configuration.lanes
+        self._connect(configuration)
+        self.lanes = [
+            _follow_law(lane, old.law, new.law)
+            for lane, old, new in zip(self.lanes, before, configuration.lanes, strict=True)
+        ]
+
+    def set_gains(self, gains: Gains) -> None:
+        """Use these gains from now on."""
+        self._configure(gains=gains)
+
+    def set_parameters(self, parameters: dict[str, LawParameters]) -> None:
+        """Use these parameters of laws, by the law's name, from now on; memories stay."""
+        self._configure(parameters=parameters)
+
+    def set_observer(self, observer: ObserverBandwidth) -> None:
+        """Use these observer bandwidths from now on."""
+        self._configure(observer=observer)
+
+    def set_actuator(self, actuator: ActuatorParameters) -> None:
+        """Change the true plant; μ0, a fact of how it was assembled, stays."""
+        self._configure(actuator=actuator)
+
+    def set_nominal(self, nominal: ActuatorParameters) -> None:
+        """Change the model that controller and observer believe in."""
+        self._configure(nominal=nominal)
+
+    def set_effects(self, effects: Effects) -> None:
+        """Switch effects on and off."""
+        self._configure(effects=effects)
+
+    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
+        """Run these controllers beside the first, in this order.
+
+        A rival that ran before goes on; a new one begins where the first lane is.
+        """
+        before, configuration = self.configuration, self.configuration.changed(rivals=rivals)
+        check_laws(configuration)
+        origins = find_origins(before.rivals, rivals)
+        self._connect(configuration)
+        self.lanes = [
+            _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
+            for origin, lane in zip(origins, configuration.lanes, strict=True)
+        ]
+
+    def add_load(self, load: Load) -> ScheduledLoad:
+        """Apply a load now or at its `start_s`; raises `StateError` when there are too many.
+
+        A push told while one is on changes that one, which is returned. Each command counts,
+        so that a load's number is that of its command.
+        """
+        lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
+        given, loads = give_load(lasting, self._load_count + 1, load, self.tick, self.period_s)
+        if len(loads) > MAX_LOADS:
+            raise StateError(f"{MAX_LOADS} loads are applied or planned: clear one first.")
+        self._load_count += 1
+        self._set_loads(loads)
+        return given
+
+    def remove_load(self, number: int) -> ScheduledLoad:
+        """Take a load off; raises `StateError` when there is none of that number."""
+        for load in self.loads:
+            if load.number == number:
+                self._set_loads(tuple(kept for kept in self.loads if kept is not load))
+                return load
+        numbers = ", ".join(str(load.number) for load in self.loads) or "none"
+        raise StateError(f"There is no load {number}; loads here: {numbers}.")
+
+    def _set_loads(self, loads: Loads) -> None:
+        self.loads = loads
+        self._connect(self.configuration)
+
+    def _configure(self, **changes: object) -> None:
+        self._connect(self.configuration.changed(**changes))
+
+    def _connect(self, c: Configuration) -> None:
+        """What the loop is given under a configuration; a law that fails at it changes nothing."""
+        blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
+        self.laws = [self._bind(c, lane, own) for lane, own in zip(c.lanes, blocks, strict=True)]
+        self.configuration, self.blocks = c, blocks
+        self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
+
+
+def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | None]:
+    """For each lane the number of the lane that it continues, 0 being the first; None is new.
+
+    before, after: the rivals of a run.
+    """
+    left: list[Lane | None] = [None, *before]
+    origins: list[int | None] = [0]
+    for rival in after:
+        origin = left.index(rival) if rival in left else None
+        if origin is not None:
+            left[origin] = None
+        origins.append(origin)
+    return origins
+
+
+def check_laws(configuration: Configuration) -> None:
+    """Raise `ParameterError` where a lane's law is not installed."""
+    for number, lane in enumerate(configuration.lanes):
+        try:
+            check_installed(lane.law)
+        except ParameterError as error:
+            raise error.within(f"rivals[{number - 1}].law" if number else "law") from None
+
+
+def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:
+    """The lane under a law: what the law before remembered is no other law's."""
+    return lane if law == before else lane._replace(memory=get_law(law).start_memory())
+
+
+def _build_stacks(configuration: Configuration, start: Start) -> tuple[Stack, Stack]:
+    """Both references, faded in from where the actuator stands; σ from inside its range."""
+    c, x = configuration, start.x
+    mu = compute_lever_ratio(x.theta2, start.mu0, c.actuator.spiral_reduction)
+    sigma = compute_stiffness(mu, x.q - x.theta1, c.actuator.rotational_stiffness_nm_per_rad)
+    sigma = min(max(sigma, c.limits.stiffness_min_nm_per_rad), c.limits.stiffness_max_nm_per_rad)
+    position = build_stack(ConstantPosition(position_rad=x.q))
+    stiffness = build_stack(ConstantStiffness(stiffness_nm_per_rad=sigma))
+    return (
+        push_trajectory(position, c.position, 0.0),
+        push_trajectory(stiffness, c.stiffness, 0.0),
+    )

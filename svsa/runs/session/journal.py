@@ -1,0 +1,207 @@
+"""The run that a session is on, and what is kept of it: samples, events, lanes, metrics, record."""
+
+import math
+from collections import deque
+from collections.abc import Callable
+
+from svsa.errors import Fault, StateError
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, SetRivals, Stop
+from svsa.runs.configuration import MAX_LANES, Configuration
+from svsa.runs.events import Event, describe_change, describe_end, describe_onset
+from svsa.runs.fault_labels import label_fault
+from svsa.runs.records.header import BranchPoint
+from svsa.runs.records.recorder import Recorder
+from svsa.runs.run import Run
+from svsa.runs.session.history import History
+from svsa.runs.timeline import Timeline
+from svsa.runs.window_metrics import WindowMetrics
+from svsa.simulation.plant.loads import Load, ScheduledLoad
+
+HISTORY_TICKS = 32_768
+KEPT_S = 60.0
+MAX_EVENTS = 200
+MAX_COMMANDS = 100_000
+
+HangLoads = Callable[[tuple[Load, ...]], None]
+"""Told of the loads that are on whenever they change."""
+
+
+def hang_nothing(loads: tuple[Load, ...]) -> None:
+    """A simulation needs nobody to hang its loads."""
+
+
+class Journal:
+    """The present run of a session, advanced and changed here alone, and what is kept of it.
+
+    `initial` and `commands` say everything that decides the run's samples. `version` grows
+    with every change, not with time. `timeline` says who controlled which lane from when on, and
+    which window this is, `metrics` how well the lanes do. `on_recorded` is told of every recording
+    that ends. `branch_of` is the recorded run that this one goes on from.
+    """
+
+    def __init__(self, run: Run, is_bench: bool = False, hang: HangLoads = hang_nothing) -> None:
+        self.recorder: Recorder | None = None
+        self.on_recorded: Callable[[Recorder], None] = lambda _: None
+        self.run_number = 0
+        self.version = 0
+        self.history = History(MAX_LANES, HISTORY_TICKS)
+        self._is_bench, self._hang = is_bench, hang
+        self.begin(run)
+
+    def begin(self, run: Run) -> None:
+        """Keep this run from now on, from its first tick."""
+        self.initial = run.configuration
+        self.commands: list[Command] = []
+        self.branch_of: BranchPoint | None = None
+        self.run = run
+        self.run_number += 1
+        self.history.clear()
+        self.events: deque[Event] = deque(maxlen=MAX_EVENTS)
+        self._told: deque[Event] = deque(maxlen=MAX_EVENTS)
+        self.timeline = Timeline(run.configuration, self._is_bench, KEPT_S / run.period_s)
+        self.metrics = WindowMetrics(len(run.lanes), run.period_s)
+        self.version += 1
+
+    def build_restart(self) -> Configuration:
+        """Everything as it is set now, and no load but those planned at first."""
+        return self.run.configuration.changed(loads=self.initial.loads)
+
+    def check_recordable(self) -> None:
+        """Raise `StateError` where it is being recorded already."""
+        if self.recorder is not None:
+            raise StateError("The session is being recorded already: stop that recording first.")
+
+    def start_recording(self, recorder: Recorder) -> None:
+        """Give the recorder all commands and what was told so far, and every sample from now on."""
+        self.check_recordable()
+        for command in self.commands:
+            recorder.write_command(command.tick, command.to_json())
+        for event in self._told:
+            recorder.write_event(event)
+        self.recorder = recorder
+        self.version += 1
+
+    def stop_recording(self) -> None:
+        """End the recording, if there is one; its file is finished in the background."""
+        if self.recorder is not None:
+            recorder, self.recorder = self.recorder, None
+            recorder.close(wait_s=0.0)
+            self.on_recorded(recorder)
+            self.version += 1
+
+    def check(self, command: Command) -> None:
+        """Raise `StateError` where the command may not be given now."""
+        if len(self.commands) >= MAX_COMMANDS:
+            raise StateError(f"{MAX_COMMANDS} changes were made to this run: reset it first.")
+        if isinstance(command, SetRivals) and self.recorder is not None:
+            raise StateError("A recording has the same lanes throughout: stop it first.")
+
+    def enter(self, command: Command) -> None:
+        """Give the run a command at its tick; refused as the run does, it changes nothing."""
+        loads = {load.number: load for load in self.run.loads}
+        before = self.run.configuration
+        answer = command.apply(self.run)
+        self.commands.append(command)
+        if self.recorder is not None:
+            self.recorder.write_command(command.tick, command.to_json())
+        self._follow(command)
+        match command:
+            case ApplyLoad():
+                if isinstance(answer, ScheduledLoad) and answer.start_tick < self.run.tick:
+                    self._hang_loads()
+                self.version += 1
+            case RemoveLoad():
+                taken = loads[command.argument]
+                if taken.is_on(self.run.tick - 1):
+                    self._end_load(taken.load)
+                    self.timeline.take_off(taken.load, self.run.tick)
+                    self.metrics.begin_window(self.run.tick)
+                self.version += 1
+            case _:
+                self.log(command.kind, describe_change(command, before.law))
+
+    def _follow(self, command: Command) -> None:
+        """Lanes have the past of those that they continue; in a new window metrics begin anew."""
+        window = self.timeline.window
+        origins = self.timeline.take(command)
+        if origins is not None:
+            self.history.rearrange(origins)
+            self.metrics.rearrange(origins, is_fresh=self.run.tick == 0)
+        if self.timeline.window is not window:
+            self.metrics.begin_window(self.run.tick)
+
+    def log(self, kind: str, label: str) -> None:
+        """Enter an event at the present tick."""
+        self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
+        self.version += 1
+
+    def tell(self, kind: str, label: str) -> None:
+        """Enter what a bench says of itself at the present tick: a record keeps it too."""
+        self.log(kind, label)
+        self._told.append(self.events[-1])
+        if self.recorder is not None:
+            self.recorder.write_event(self.events[-1])
+
+    def begin_stop(self) -> None:
+        """A bench ramps to zero torque: its error from now on is none of the window before."""
+        if self.timeline.window.kind != "stop":
+            self.enter(Stop(tick=self.run.tick))
+
+    def log_fault(self, fault: Fault, ends_run: bool = True) -> None:
+        """A fault is an event, and the end of the recording of a run that it ends."""
+        if ends_run and self.recorder is not None:
+            self.recorder.write_fault(fault)
+        self.log("fault", label_fault(fault.code))
+
+    def refine_fault(self, fault: Fault) -> None:
+        """More has come to be known of the fault that was told; a record that has it says so."""
+        written = self.recorder.fault if self.recorder is not None else None
+        if self.recorder is not None and written is not None and written.code == fault.code:
+            self.recorder.write_fault(fault)
+        self.version += 1
+
+    def advance(self, ticks: int) -> None:
+        """Run `ticks` ticks, in stretches that end where a load comes or goes.
+
+        A bench may have fewer samples than expected: the run then stays at its last one.
+        """
+        end = self.run.tick + ticks
+        while self.run.tick < end and self.run.fault is None:
+            self._log_loads()
+            stretch = min(self._find_next_edge(), end) - self.run.tick
+            samples = self.history.get_free_rows(len(self.run.lanes), stretch)
+            first, done = self.run.tick, self.run.advance(samples)
+            if not done and self.run.fault is None:
+                return
+            self.history.commit(done)
+            if self.recorder is not None:
+                self.recorder.write_samples(first, samples[:, :done].transpose(1, 0, 2))
+            self.metrics.update(samples[:, :done])
+            if self.run.fault is not None:
+                self.log_fault(self.run.fault)
+
+    def _log_loads(self) -> None:
+        for _, load, start, end in self.run.loads:
+            if start == self.run.tick:
+                self._begin_load(load)
+            if end == self.run.tick:
+                self._end_load(load)
+
+    def _begin_load(self, load: Load) -> None:
+        self.log("load_on", describe_onset(load))
+        self.timeline.begin_load(load, self.run.tick)
+        self.metrics.begin_load(self.run.tick)
+        self._hang_loads()
+
+    def _end_load(self, load: Load) -> None:
+        self.log("load_off", describe_end(load))
+        self._hang_loads()
+
+    def _hang_loads(self) -> None:
+        on = (held for held in self.run.loads if held.is_on(self.run.tick))
+        self._hang(tuple(held.load for held in on))
+
+    def _find_next_edge(self) -> int:
+        edges = [edge for load in self.run.loads for edge in (load.start_tick, load.end_tick)]
+        later = [int(edge) for edge in edges if self.run.tick < edge < math.inf]
+        return min(later, default=self.run.tick + HISTORY_TICKS)

@@ -1,0 +1,294 @@
+"""What a run was from when on: who controlled its lanes, and between which changes.
+
+A session follows its run with it; of a recorded run the same is read from its configuration and
+its commands.
+"""
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
+
+from svsa.control.installed import list_law_inks
+from svsa.errors import StateError
+from svsa.runs.command import (
+    ApplyLoad,
+    Command,
+    RemoveLoad,
+    SetGains,
+    SetLane,
+    SetLaw,
+    SetLaws,
+    SetObserver,
+    SetParameters,
+    SetRivals,
+    Stop,
+)
+from svsa.runs.configuration import Configuration
+from svsa.runs.controllers import (
+    Controller,
+    complete_laws,
+    list_controllers,
+    name_controllers,
+)
+from svsa.runs.events import describe_change, describe_end, describe_load
+from svsa.runs.replay import list_loads
+from svsa.runs.run import find_origins
+from svsa.simulation.plant.loads import Load
+
+MAX_WINDOWS = 1000
+MAX_STRETCHES = 1000
+LONGEST_LABEL = 200
+_MORE = " …"
+# An ink's colour and dash are those of its remainders.
+INK_COLORS = 5
+INK_DASHES = 4
+
+WindowKind = Literal["start", "load", "unload", "change", "stop"]
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of a run in which nothing was changed; ticks first … end − 1, end None: until now.
+
+    kind: what began it: the run, a load that came on, one that was taken off, or a change of
+    reference, law, gains, observer, effects, plant, model or lanes, or a bench's ramp to zero
+    torque, which no law asked for. label: that in words.
+    """
+
+    kind: WindowKind
+    label: str
+    first_tick: int
+    end_tick: int | None = None
+
+
+class Stretch(NamedTuple):
+    """A controller on a lane, ticks first … end − 1; end None: until now.
+
+    number: of the controller, in the order in which they came, from 1. ink: which look its
+    curves have, from 0; no two controllers that are kept share one.
+    """
+
+    controller: Controller
+    number: int
+    ink: int
+    first_tick: int
+    end_tick: int | None = None
+
+
+class Timeline:
+    """The stretches of every lane and the windows of a run, command by command.
+
+    kept_ticks: how long a stretch that has ended is kept. `load_window`: of the newest load;
+    it ends with the next change, when a load is taken off, or with another one; a load that ends
+    by itself ends no window, so that a push shows after it. `load_numbers`: which controller each
+    lane had when that load came, None for a lane that began later. `lane_ids`: of every lane an
+    identity that it keeps where lanes before it go, and that no other lane of the run ever has.
+    """
+
+    def __init__(
+        self, configuration: Configuration, is_bench: bool = False, kept_ticks: float = math.inf
+    ) -> None:
+        self._configuration, self._is_bench = configuration, is_bench
+        self.kept_ticks = kept_ticks
+        self._numbers: dict[Controller, int] = {}
+        self._names: dict[int, str] = {}
+        self.lanes: list[list[Stretch]] = [[] for _ in configuration.lanes]
+        self._new_lane_ids = itertools.count(1)
+        self.lane_ids = [next(self._new_lane_ids) for _ in self.lanes]
+        self.windows: list[Window] = [Window("start", "", 0)]
+        self.load_window: Window | None = None
+        self.load_numbers: list[int | None] = []
+        self._follow_controllers(0)
+
+    @property
+    def window(self) -> Window:
+        """The present one."""
+        return self.windows[-1]
+
+    def take(self, command: Command) -> list[int | None] | None:
+        """A command was given; for one that changed lanes, what each continues (None: new)."""
+        before, origins = self._configuration, None
+        self._configuration = _configure(before, command, self._is_bench)
+        if isinstance(command, SetRivals):
+            origins = find_origins(before.rivals, self._configuration.rivals)
+            self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
+            self.lane_ids = [
+                next(self._new_lane_ids) if lane is None else self.lane_ids[lane]
+                for lane in origins
+            ]
+            if self.load_numbers:
+                kept = self.load_numbers
+                self.load_numbers = [None if lane is None else kept[lane] for lane in origins]
+        self._follow_controllers(command.tick)
+        if isinstance(command, Stop):
+            self._begin("stop", command.label, command.tick)
+        elif not isinstance(command, ApplyLoad | RemoveLoad) and (
+            origins is None or None in origins
+        ):
+            self._begin("change", describe_change(command, before.law), command.tick)
+        return origins
+
+    def begin_load(self, load: Load, tick: int) -> None:
+        """A load acts from this tick on."""
+        self._begin("load", describe_load(load), tick)
+        self.load_window = self.window
+        self.load_numbers = [lane[-1].number for lane in self.lanes]
+
+    def take_off(self, load: Load, tick: int) -> None:
+        """A load that acted was taken off by hand."""
+        self._begin("unload", describe_end(load), tick)
+
+    def list_stretches(
+        self, first_tick: float = 0, most: int = MAX_STRETCHES
+    ) -> list[list[Stretch]]:
+        """Of every lane those that reach beyond a tick, the newest ones where there are more."""
+        return [
+            [one for one in lane if one.end_tick is None or one.end_tick > first_tick][-most:]
+            for lane in self.lanes
+        ]
+
+    def name_stretches(self, lanes: Sequence[Sequence[Stretch]]) -> dict[int, str]:
+        """By its number, a name for everybody who controlled these lanes in these stretches.
+
+        They are named together, in the order in which they came; kept until others are asked for.
+        """
+        controllers = {one.number: one.controller for lane in lanes for one in lane}
+        if controllers.keys() != self._names.keys():
+            numbers = sorted(controllers)
+            names = name_controllers(controllers[number] for number in numbers)
+            self._names = dict(zip(numbers, names.values(), strict=True))
+        return self._names
+
+    def list_windows(self, first_tick: int, end_tick: int) -> list[Window]:
+        """Those that reach into the ticks first … end − 1."""
+        return [
+            window
+            for window in self.windows
+            if window.first_tick < end_tick
+            and (window.end_tick is None or window.end_tick > first_tick)
+        ]
+
+    def _begin(self, kind: WindowKind, label: str, tick: int) -> None:
+        last = self.window
+        if last.kind == "start" and tick == 0 and kind == "change":
+            return
+        if last.first_tick == tick and last.kind != "start":
+            self.windows.pop()
+            if last.kind == kind:
+                label = _join(last.label, label)
+        else:
+            self.windows[-1] = replace(last, end_tick=tick)
+            if last.kind == "load":
+                self.load_window = self.windows[-1]
+        self.windows.append(Window(kind, label, tick))
+        del self.windows[:-MAX_WINDOWS]
+
+    def _follow_controllers(self, tick: int) -> None:
+        held = [lane[-1].controller if lane else None for lane in self.lanes]
+        present = list_controllers(self._configuration, self._is_bench, held)
+        for lane, controller in zip(self.lanes, present, strict=True):
+            if lane and lane[-1].controller != controller:
+                _end(lane, tick)
+            if lane and lane[-1].controller == controller:
+                lane[-1] = lane[-1]._replace(end_tick=None)
+        self.lanes = [
+            [s for s in lane if s.end_tick is None or s.end_tick > tick - self.kept_ticks]
+            for lane in self.lanes
+        ]
+        for lane, controller in zip(self.lanes, present, strict=True):
+            if not lane or lane[-1].end_tick is not None:
+                number = self._numbers.setdefault(controller, len(self._numbers) + 1)
+                lane.append(Stretch(controller, number, self._find_ink(controller, present), tick))
+
+    def _find_ink(self, controller: Controller, present: Sequence[Controller]) -> int:
+        """The one that it has, its law's own where its colour is free, else the first that is.
+
+        A colour is free where no curve that is kept has it, nor is it that of another law that
+        controls a lane now; where none is, where no lane has it now; then what looks otherwise.
+        """
+        used = {one.controller: one.ink for lane in self.lanes for one in lane}
+        if controller in used:
+            return used[controller]
+        customary = list_law_inks()
+        own = customary.get(controller.law)
+        kept = set(used.values())
+        now = {used[one] for one in present if one in used}
+        owed = {customary[one.law] for one in present if one.law in customary} - {own}
+        for avoided in (kept, now):
+            colors = {ink % INK_COLORS for ink in avoided}
+            if own is not None and own not in kept and own % INK_COLORS not in colors:
+                return own
+            colors |= {ink % INK_COLORS for ink in owed}
+            for ink in range(INK_COLORS * INK_DASHES):
+                if ink not in kept and ink % INK_COLORS not in colors:
+                    return ink
+        return next(ink for ink in itertools.count() if ink not in kept | owed)
+
+
+def read_timeline(
+    configuration: Configuration,
+    commands: Iterable[Command],
+    ticks: tuple[int, int],
+    is_bench: bool = False,
+) -> Timeline:
+    """The timeline of a run that was given these commands.
+
+    ticks: from which tick on stretches are kept, and how far the run went. Raises
+    `ParameterError` or `StateError` for commands that this run cannot have had.
+    """
+    first_tick, end_tick = ticks
+    timeline = Timeline(configuration, is_bench, kept_ticks=0)
+    commands = list(commands)
+    loads = {load.number: load for load in list_loads(configuration, commands)}
+    coming = sorted(
+        (load for load in loads.values() if load.start_tick < load.end_tick),
+        key=lambda load: load.start_tick,
+    )
+    for command in commands:
+        if command.tick > first_tick:
+            timeline.kept_ticks = math.inf
+        while coming and coming[0].start_tick < command.tick:
+            begun = coming.pop(0)
+            timeline.begin_load(begun.load, begun.start_tick)
+        timeline.take(command)
+        if isinstance(command, RemoveLoad):
+            taken = loads.get(command.argument)
+            if taken is None:
+                raise StateError(f"There is no load {command.argument} in this run.")
+            if taken.start_tick < command.tick == taken.end_tick:
+                timeline.take_off(taken.load, command.tick)
+    for load in coming:
+        if load.start_tick < end_tick:
+            timeline.begin_load(load.load, load.start_tick)
+    return timeline
+
+
+def _join(before: str, label: str) -> str:
+    """What happened at one tick in one label, each once; what is too much for one is left out."""
+    if label in before or before.endswith(_MORE):
+        return before
+    if len(before) + len(label) > LONGEST_LABEL:
+        return before + _MORE
+    return f"{before}, {label}"
+
+
+def _end(lane: list[Stretch], tick: int) -> None:
+    """The present stretch ends; one that has only begun was none."""
+    if lane[-1].first_tick == tick:
+        lane.pop()
+    elif lane[-1].end_tick is None:
+        lane[-1] = lane[-1]._replace(end_tick=tick)
+
+
+def _configure(configuration: Configuration, command: Command, is_bench: bool) -> Configuration:
+    """What a command changes of who controls the lanes."""
+    match command:
+        case SetLaw():
+            return configuration.controlled_by(complete_laws((command.argument,), is_bench))
+        case SetLaws():
+            return configuration.controlled_by(complete_laws(command.argument, is_bench))
+        case SetGains() | SetParameters() | SetObserver() | SetRivals() | SetLane():
+            return command.configure(configuration)
+    return configuration

@@ -1,0 +1,1 @@
+"""References, plant, loads and the control loop."""

@@ -1,0 +1,277 @@
+"""Many runs at once: the loop's functions on eight side by side, and of each run a summary.
+
+What one run computes of its samples is summed up as it goes, and nothing is kept. A run has the
+bits of the same run alone, see `svsa.numerics.simd.number`. The law is compiled in, for itself once
+and for which effects are on: what is off in all runs is no part of the machine code.
+"""
+
+import hashlib
+import math
+from collections.abc import Iterator, Sequence
+from functools import cache
+from itertools import count
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from svsa.actuators.domain import INSIDE, NOT_FINITE, check_domain
+from svsa.actuators.dynamics import compute_internal_torque
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.control.call import BoundLaw, is_measuring
+from svsa.control.law import Law
+from svsa.control.limits import limit_torque
+from svsa.errors import ParameterError, Violation
+from svsa.numerics.borrowed import borrow
+from svsa.numerics.compilation import compiled, find_fingerprint, specialize
+from svsa.numerics.packed import pack_all
+from svsa.numerics.simd.choice import choose, some
+from svsa.numerics.simd.memory import load, store
+from svsa.numerics.simd.number import WIDTH
+from svsa.numerics.simd.record import (
+    Column,
+    Shared,
+    Word,
+    build_reader,
+    build_record,
+    lay_out_record,
+)
+from svsa.simulation.loop.batch_inputs import (
+    group,
+    join_inputs,
+    pick_inputs,
+    read_first_reference,
+    slice_inputs,
+)
+from svsa.simulation.loop.batch_law import compute_one_by_one, compute_side_by_side, find_addresses
+from svsa.simulation.loop.lane import Blocks, Inputs, LaneState, build_lane_state
+from svsa.simulation.loop.loop import act, move
+from svsa.simulation.loop.slices import cut
+from svsa.simulation.loop.tally import SUMMARY, Tally, build_window, measure, start_tally
+
+_TALLY = slice(2, 2 + len(Tally._fields))
+"""Where it is in `SUMMARY`."""
+_GROUPS_AT_ONCE = 128
+"""Of which the reached state is kept between two slices."""
+
+
+class Start(NamedTuple):
+    """A `LaneState` without the law's memory."""
+
+    x: State
+    known: State
+    estimate: Disturbance
+    torque: Torque
+    applied: Torque
+    asked: tuple[float, ...]
+
+
+class Beginning(NamedTuple):
+    """What a run is made of. constants: of its law."""
+
+    blocks: Blocks
+    constants: tuple[Any, ...]
+    start: Start
+
+
+class Batch(NamedTuple):
+    """Runs of one law, eight to a group; the last group repeats its last.
+
+    control: of the law, None where it is called for one run after the other. memory: its layout,
+    see `lay_out_record`. layout: a `Beginning` of `svsa.numerics.simd.record`, see `build_reader`.
+    rows: (groups, rows, 8), what it stands for. memories: where the law begins, (groups, numbers,
+    8), or (groups, 8, numbers) without a control. inputs: see `join_inputs`. runs: how many there
+    are. laws: what the addresses in the rows are of.
+    """
+
+    control: Any
+    memory: Any
+    layout: Beginning
+    rows: np.ndarray
+    memories: np.ndarray
+    inputs: Inputs
+    runs: int
+    laws: tuple[BoundLaw, ...] = ()
+
+
+def build_batch(
+    law: Law,
+    blocks: Sequence[Blocks],
+    constants: Sequence[tuple[Any, ...]],
+    laws: Sequence[BoundLaw],
+    inputs: Sequence[Inputs],
+) -> Batch:
+    """Runs of a law with these blocks, constants and inputs, one of each a run.
+
+    laws: the law bound to each, of one that is not `is_for_vectors`, which has no constants then.
+    Raises `ParameterError` where the period or a whole number, but for the seed, is not the same
+    in all of them.
+    """
+    start = Start(*build_lane_state(law.start_memory())[:-1])
+    given = [find_addresses(one) for one in laws] or constants
+    runs = [Beginning(*parts, start) for parts in zip(blocks, given, strict=True)]
+    numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
+    layout = _lay_out(runs[0], "", iter(numbers.view(np.int64).T), count())
+    memories = group(np.tile(law.start_memory(), (len(runs), 1)))
+    if laws:
+        memories = np.ascontiguousarray(memories.transpose(0, 2, 1))
+    control, memory = (None, None) if laws else (law.control, lay_out_record(law.memory()))
+    rows, joined = group(numbers), join_inputs(inputs)
+    return Batch(control, memory, layout, rows, memories, joined, len(runs), tuple(laws))
+
+
+def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:
+    """The layout of one run's numbers. columns: of each number its bits in all runs."""
+    if isinstance(values, tuple):
+        names = getattr(values, "_fields", ("",) * len(values))
+        inner = [f"{name}.{one}" for one in names]
+        parts = [
+            _lay_out(value, one, columns, rows) for value, one in zip(values, inner, strict=True)
+        ]
+        return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
+    row, bits = next(rows), next(columns)
+    if not bits.any() and (".bench" in name or name.endswith(".decay")):
+        return type(values)(0)
+    if name.endswith((".seed", "_address")):
+        return Word(row)
+    is_shared = isinstance(values, int) or name.endswith(".period")
+    if is_shared and np.any(bits != bits[0]):
+        raise ParameterError(Violation(name[1:], values, "", "the same in every run of a batch"))
+    if isinstance(values, int):
+        return values
+    return Shared(row) if is_shared else Column(row)
+
+
+def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
+    """Run so many ticks from the start; an array (runs,) of `SUMMARY`.
+
+    begin: the tick at which measuring begins. Does not hold the GIL, and handles signals between
+    slices.
+    """
+    names = SUMMARY.names or ()
+    results = np.zeros((len(batch.rows), len(names), WIDTH))
+    results[:, 1] = ticks
+    results[:, _TALLY] = np.array(start_tally(0.0))[:, None]
+    advance = _specialize(batch.control, batch.memory, batch.layout)
+    start: Any = batch.layout.start
+    for first in range(0, len(batch.rows), _GROUPS_AT_ONCE):
+        part = slice(first, first + _GROUPS_AT_ONCE)
+        rows, memories = batch.rows[part].copy(), batch.memories[part].copy()
+        given, found = slice_inputs(batch.inputs, part), results[part]
+        for tick, stop in cut((advance, len(rows)), ticks):
+            advance(rows, memories, given, tick, stop, begin, ticks, start.x.q.row, found)
+    columns = results.transpose(1, 0, 2).reshape(len(names), -1)
+    summaries = np.empty(batch.runs, dtype=SUMMARY)
+    for name, column in zip(names, columns, strict=True):
+        summaries[name] = column[: batch.runs]
+    return summaries
+
+
+@cache
+def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
+    """`advance_groups` with this law and this layout."""
+    source = control.py_func if control else compute_one_by_one.py_func
+    text = repr((source.__module__, source.__qualname__, find_fingerprint(source), memory, layout))
+    name = f"advance_groups_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    compute, view = compute_one_by_one, borrow
+    if control:
+        told = is_measuring(control)
+        compute = specialize(compute_side_by_side, f"compute_{name}", law=control, is_told=told)
+        view = build_record(memory)
+    return specialize(advance_groups, name, compute=compute, read=build_reader(layout), view=view)
+
+
+read_tally = build_reader(Tally._make(map(Column, range(_TALLY.start, _TALLY.stop))))
+compute: Any = None
+read: Any = None
+view: Any = None
+"""Of `advance_groups`: the law, and what reads a group's numbers and its memory."""
+
+
+def advance_groups(
+    rows: np.ndarray,
+    memories: np.ndarray,
+    inputs: Inputs,
+    first: int,
+    stop: int,
+    begin: int,
+    end: int,
+    start_row: int,
+    results: np.ndarray,
+) -> None:
+    """Run every group from the tick `first` to before `stop`.
+
+    rows, memories: see `Batch`; written, so that the next call goes on at `stop`. begin, end: of
+    what is measured. start_row: where `Start` begins in the rows. results: (groups, fields, 8), of
+    the ticks before `first`; written.
+    """
+    for i in range(rows.shape[0]):
+        blocks, constants, start = read(rows[i])
+        memory, given = view(memories[i]), pick_inputs(inputs, i)
+        x, known, estimate = start.x, start.known, start.estimate
+        lane = LaneState(x, known, estimate, start.torque, start.applied, start.asked, memory)
+        code, ended = load(results[i], 0), load(results[i], 1)
+        runs, tally = code == 0.0, read_tally(results[i])
+        left = some(code != 0.0)
+        F = compute_internal_torque(blocks.nominal, lane.known)
+        window = build_window(begin, end, blocks.period)
+        for tick in range(first, stop if some(runs) else first):
+            reference = read_first_reference(given, tick * blocks.period)
+            found = check_domain(blocks.domain, blocks.plant, lane.x)
+            asked = compute(
+                runs & (found == INSIDE),
+                blocks.nominal,
+                constants,
+                memory,
+                lane.known,
+                reference,
+                lane.estimate,
+                lane.applied,
+                blocks.period,
+                blocks.bench,
+                lane.x,
+                tick,
+            )
+            torque = limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
+            is_torque = abs(torque.u1 + torque.u2) < math.inf
+            found = choose((found != INSIDE) | is_torque, found, NOT_FINITE)
+            leaves = runs & (found != INSIDE)
+            if some(leaves):
+                left, runs = True, runs & (found == INSIDE)
+                code, ended = choose(leaves, found, code), choose(leaves, tick, ended)
+                if not some(runs):
+                    break
+            action = act(blocks, given, lane, torque, tick)
+            tally = measure(tally, runs, window, blocks, reference, lane.x, action.made, tick)
+            reached, F = move(blocks, given, lane, F, action, tick)
+            lane = hold(runs, reached, lane) if left else reached
+        row = write(results[i], 0, (code, ended))
+        row = write(results[i], row, tally)
+        write(results[i], row, lane.x)
+        row = write(rows[i], start_row, lane.x)
+        row = write(rows[i], row, lane.known)
+        row = write(rows[i], row, lane.estimate)
+        row = write(rows[i], row, lane.torque)
+        row = write(rows[i], row, lane.applied)
+        write(rows[i], row, lane.asked)
+
+
+@compiled
+def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
+    """`LaneState` of those that run, and of those that have ended as they were."""
+    return LaneState(
+        choose(runs, reached.x, lane.x),
+        choose(runs, reached.known, lane.known),
+        choose(runs, reached.estimate, lane.estimate),
+        choose(runs, reached.torque, lane.torque),
+        choose(runs, reached.applied, lane.applied),
+        choose(runs, reached.asked, lane.asked),
+        lane.memory,
+    )
+
+
+@compiled
+def write(rows: np.ndarray, first: int, values: tuple[float, ...]) -> int:
+    """Write a tuple of vectors into rows (n, 8) from `first` on; returns the row after them."""
+    for i in range(len(values)):
+        store(rows, first + i, values[i])
+    return first + len(values)

@@ -1,0 +1,144 @@
+"""The law of eight runs: all at once, or one after the other where it looks at its numbers.
+
+A law with an `if`, or an index, by what differs from run to run does not compile for vectors. It
+is called by its address, as the loop of one run does; the rest of the tick is computed at once.
+"""
+
+from functools import cache
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numba.core.errors import NumbaError
+
+from svsa.actuators.dynamics import Actuator
+from svsa.actuators.signals import Disturbance, Reference, State, Torque
+from svsa.control.call import BoundLaw, Call, compute_law, is_measuring
+from svsa.numerics.compilation import compiled
+from svsa.numerics.simd.choice import choose
+from svsa.numerics.simd.each import put, take
+from svsa.numerics.simd.number import WIDTH
+from svsa.numerics.simd.record import Column, VectorRecord, find_kind
+from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, UNMOVED
+from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.sensors import build_positions, read_positions
+
+
+def is_for_vectors(
+    control: Any, nominal: Actuator, constants: tuple[Any, ...], memory: Any
+) -> bool:
+    """Whether a law's function compiles for vectors; compiled where it has not been before.
+
+    memory: its layout, see `lay_out_record`.
+    """
+    return _compile(control, find_kind(_lay_out(nominal)), find_kind(_lay_out(constants)), memory)
+
+
+def _lay_out(values: Any) -> Any:
+    if isinstance(values, tuple):
+        parts = map(_lay_out, values)
+        return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
+    return values if isinstance(values, int) else Column(0)
+
+
+_SIGNALS = (AT_REST, NO_REFERENCE, UNDISTURBED, NO_TORQUE)
+
+
+@cache
+def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
+    signals = [find_kind(_lay_out(signal)) for signal in _SIGNALS]
+    told = [find_kind(_lay_out(UNMOVED))] if is_measuring(control) else []
+    kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64, *told
+    try:
+        control.get_call_template(kinds, {})
+    except NumbaError:
+        return False
+    return True
+
+
+class Addresses(NamedTuple):
+    """A `BoundLaw` as addresses: valid as long as its arrays live."""
+
+    function_address: int
+    nominal_address: int
+    constants_address: int
+    is_measuring: int
+
+
+def find_addresses(law: BoundLaw) -> Addresses:
+    """`Addresses` of a law whose arrays somebody keeps."""
+    words = law.nominal.ctypes.data, law.constants.ctypes.data
+    return Addresses(law.function, *words, int(law.is_measuring))
+
+
+@compiled
+def compute_one_by_one(
+    runs: bool,
+    nominal: Actuator,
+    constants: Addresses,
+    memories: np.ndarray,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+    bench: Bench,
+    state: State,
+    tick: int,
+) -> Torque:
+    """u of those that run, `Torque`, N·m; 0 of the others, whose law is not called.
+
+    constants: `Addresses` of every run's law, which has the nominal model, too. memories: (8,
+    words), written. bench, state: what is measured is read of, at `tick`. Else as `Law` says.
+    """
+    nothing = Torque(0.0, 0.0)
+    torque = choose(runs, nothing, nothing)
+    measured = read_positions(bench, state, tick) if constants.is_measuring else build_positions(x)
+    for i in range(WIDTH):
+        if take(runs, i):
+            law = take(constants, i)
+            call = Call(
+                law.function_address,
+                law.nominal_address,
+                law.constants_address,
+                memories[i].ctypes.data,
+                0,
+                constants.is_measuring,
+            )
+            asked = compute_law(
+                call,
+                take(x, i),
+                take(reference, i),
+                take(estimate, i),
+                take(applied, i),
+                period,
+                take(measured, i),
+            )
+            torque = put(torque, i, asked)
+    return torque
+
+
+law: Any = None
+is_told: Any = None
+"""Of `compute_side_by_side`: a law's function, and whether it is told what was measured."""
+
+
+def compute_side_by_side(
+    runs: bool,
+    nominal: Actuator,
+    constants: Any,
+    memory: Any,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+    bench: Bench,
+    state: State,
+    tick: int,
+) -> Torque:
+    """u of all eight at once, `Torque`, N·m: `law` compiled for vectors."""
+    if is_told:
+        measured = read_positions(bench, state, tick)
+        return law(nominal, constants, memory, x, reference, estimate, applied, period, measured)
+    return law(nominal, constants, memory, x, reference, estimate, applied, period)

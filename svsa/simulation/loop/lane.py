@@ -1,0 +1,113 @@
+"""What a lane of the loop is made of, what comes in, and what it carries from tick to tick."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.domain import Domain
+from svsa.actuators.dynamics import Actuator, ExternalLoad
+from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
+from svsa.control.call import BoundLaw
+from svsa.numerics.borrowed import borrow
+from svsa.numerics.compilation import compiled
+from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, Bench
+from svsa.simulation.plant.loads import LoadTable
+from svsa.simulation.reference.transition import Stack
+
+AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
+NO_TORQUE = Torque(0.0, 0.0)
+UNMOVED = Positions(0.0, 0.0, 0.0)
+NO_REFERENCE = Reference(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Blocks(NamedTuple):
+    """The blocks of the diagram as constants of the compiled loop.
+
+    plant, nominal: `Actuator`. shares: of the observer, see `compute_shares`. torque1_max,
+    torque2_max: N·m, infinite where not limited. decay: e^(−ωT) of the state estimator, 0 where
+    velocities are known. period: s. steps: Runge–Kutta steps a period.
+    """
+
+    plant: Actuator
+    nominal: Actuator
+    shares: tuple[float, float, float]
+    torque1_max: float
+    torque2_max: float
+    bench: Bench
+    decay: float
+    domain: Domain
+    period: float
+    steps: int
+
+
+class Inputs(NamedTuple):
+    """What comes from outside: the stacks of both references and the table of loads."""
+
+    position: Stack
+    stiffness: Stack
+    loads: LoadTable
+
+
+class LaneState(NamedTuple):
+    """What one lane, a controller and its plant, carries from tick to tick.
+
+    x: the plant's state. known: x̂, what the controller knows of it. estimate: ŵ, N·m.
+    torque: what the motors make now, N·m. applied: the mean of what they made in the last period,
+    N·m. asked: the torques asked for in the last samples, newest first, (u1, u2) one after the
+    other, for the delay. memory: what the law remembers, see `Law.start_memory`.
+    """
+
+    x: State
+    known: State
+    estimate: Disturbance
+    torque: Torque
+    applied: Torque
+    asked: tuple[float, ...]
+    memory: np.ndarray
+
+
+class Action(NamedTuple):
+    """What a torque begins in a tick.
+
+    asked: the delay's queue with it. target: what is due of it now, made: what the motors make
+    of that at once, N·m. load: `ExternalLoad`. rate: ẋ under both.
+    """
+
+    asked: tuple[float, ...]
+    target: Torque
+    made: Torque
+    load: ExternalLoad
+    rate: State
+
+
+def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
+    """A lane at its start. memory: of its law. x: where its plant is, which is known."""
+    asked = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)
+    return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, asked, memory)
+
+
+@compiled
+def borrow_inputs(inputs: Inputs) -> Inputs:
+    """The same `Inputs` without owning their arrays, see `svsa.numerics.borrowed`."""
+    p, s, loads = inputs.position, inputs.stiffness, inputs.loads
+    return Inputs(
+        Stack(borrow(p.rows), borrow(p.breaks), borrow(p.coefficients)),
+        Stack(borrow(s.rows), borrow(s.breaks), borrow(s.coefficients)),
+        LoadTable(borrow(loads.rows), borrow(loads.points), loads.changing),
+    )
+
+
+@compiled
+def borrow_law(law: BoundLaw) -> BoundLaw:
+    """The same `BoundLaw` without owning its arrays."""
+    nominal, constants = borrow(law.nominal), borrow(law.constants)
+    return BoundLaw(law.function, nominal, constants, law.is_own, law.is_measuring)
+
+
+@compiled
+def remember(lane: LaneState, memory: np.ndarray) -> LaneState:
+    """The lane with another memory of its law."""
+    return LaneState(
+        lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, memory
+    )

@@ -1,0 +1,267 @@
+"""The control loop, as the block diagram has it.
+
+                       ┌─────────────────────────── ŵ ───────────────────────────┐
+                       ▼                                                         │
+    reference ──▶ controller ──▶ limits ──▶ plant.write ▸ plant ▸ plant.read ──▶ observer
+                       ▲                                     │
+                       └────────────────── x ────────────────┘      ──▶ publish
+
+`advance` runs many ticks of it in one compiled call that does not hold the GIL. It is compiled
+once: the law is a compiled function that it is given.
+"""
+
+import math
+
+import numpy as np
+
+from svsa.actuators.domain import INSIDE, NOT_FINITE, check_domain
+from svsa.actuators.dynamics import InternalTorque, compute_internal_torque
+from svsa.actuators.signals import Disturbance, Measurement, Positions, Reference, State, Torque
+from svsa.control.call import BoundLaw, Call, build_call, compute_law, read_estimate
+from svsa.control.limits import limit_torque
+from svsa.control.observers.disturbance import (
+    correct_disturbance_estimate,
+    update_disturbance_estimate,
+)
+from svsa.control.observers.state import build_measured_state, update_state_estimate
+from svsa.numerics.borrowed import borrow
+from svsa.numerics.compilation import compiled
+from svsa.numerics.simd.choice import choose, some
+from svsa.simulation.loop.lane import (
+    Action,
+    Blocks,
+    Inputs,
+    LaneState,
+    borrow_inputs,
+    borrow_law,
+    remember,
+)
+from svsa.simulation.loop.publish import publish
+from svsa.simulation.plant.drive import compute_lagged_torque, compute_mean_torque
+from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.integration import compute_plant_rate, integrate_from
+from svsa.simulation.plant.loads import compute_load
+from svsa.simulation.plant.sensors import are_inexact, build_positions, read_positions, read_sensors
+from svsa.simulation.reference.transition import compute_trajectory
+
+
+@compiled
+def read_reference(inputs: Inputs, time: float) -> Reference:
+    """q_d to the 4th derivative and σ_d to the 2nd at `time` (s), as `Reference`."""
+    p = compute_trajectory(inputs.position, time)
+    s = compute_trajectory(inputs.stiffness, time)
+    return Reference(p.d0, p.d1, p.d2, p.d3, p.d4, s.d0, s.d1, s.d2)
+
+
+@compiled
+def compute_control(
+    blocks: Blocks,
+    call: Call,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    measured: Positions,
+) -> Torque:
+    """The torque that the law of this `Call` asks for, after the limits, N·m."""
+    asked = compute_law(call, x, reference, estimate, applied, blocks.period, measured)
+    return limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
+
+
+@compiled
+def delay(
+    bench: Bench, asked: tuple[float, ...], torque: Torque
+) -> tuple[tuple[float, ...], Torque]:
+    """The queue of asked torques with this one in front, and the torque that is due now."""
+    asked = (torque.u1, torque.u2) + asked[:-2]  # noqa: RUF005  numba knows no unpacking here
+    if bench.delay == 0:
+        return asked, torque
+    return asked, Torque(asked[2 * bench.delay], asked[2 * bench.delay + 1])
+
+
+@compiled
+def decide(
+    blocks: Blocks,
+    call: Call,
+    inputs: Inputs,
+    known: State,
+    estimate: Disturbance,
+    applied: Torque,
+    measured: Positions,
+    tick: int,
+) -> tuple[Reference, Torque]:
+    """The first half of a tick: reference and controller.
+
+    call: the law, `Call`. known: x̂, `State`. estimate: ŵ, `Disturbance`. applied: mean `Torque`
+    of the last period. measured: `Positions` of this tick. Returns (`Reference`, `Torque` after
+    the limits, N·m).
+    """
+    reference = read_reference(inputs, tick * blocks.period)
+    torque = compute_control(blocks, call, known, reference, estimate, applied, measured)
+    return reference, torque
+
+
+@compiled
+def observe(
+    blocks: Blocks, known: State, estimate: Disturbance, applied: Torque, measurement: Measurement
+) -> tuple[State, Disturbance]:
+    """The second half of a tick: x̂, estimated where velocities are not measured, and ŵ.
+
+    known, estimate: x̂ and ŵ a period ago. applied: mean `Torque` since, N·m. measurement:
+    `Measurement` now. Returns (`State`, `Disturbance`).
+    """
+    x = observe_state(blocks, known, estimate, applied, measurement)
+    w = update_disturbance_estimate(
+        blocks.nominal, blocks.shares, estimate, known, x, applied, blocks.period
+    )
+    return x, w
+
+
+@compiled
+def observe_state(
+    blocks: Blocks, known: State, estimate: Disturbance, applied: Torque, measurement: Measurement
+) -> State:
+    """x̂ with this `Measurement`. known, estimate, applied: as in `observe`."""
+    measured, estimates = build_measured_state(measurement), blocks.decay > 0.0
+    if not some(estimates):
+        return measured
+    x = update_state_estimate(
+        blocks.nominal, blocks.decay, known, estimate, applied, measurement, blocks.period
+    )
+    return choose(estimates, x, measured)
+
+
+@compiled
+def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int) -> State:
+    """x̂ at `tick`, of the plant's state x: x itself where the sensors are perfect."""
+    differs = (blocks.decay > 0.0) | are_inexact(blocks.bench)
+    if not some(differs):
+        return x
+    measurement = read_sensors(blocks.bench, x, tick)
+    known = observe_state(blocks, lane.known, lane.estimate, applied, measurement)
+    return choose(differs, known, x)
+
+
+@compiled
+def measure(blocks: Blocks, call: Call, x: State, tick: int) -> Positions:
+    """`Positions` that a law is told which takes them; what another one is not told is x itself."""
+    if call.is_measuring:
+        return read_positions(blocks.bench, x, tick)
+    return build_positions(x)
+
+
+@compiled
+def advance_tick(
+    blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, tick: int, sample: np.ndarray
+) -> tuple[LaneState, int]:
+    """One tick of the loop: reference, controller, write, plant, read, observer, publish.
+
+    law: `BoundLaw`. lane: `LaneState` at the start of the tick, whose memory the law writes in.
+    sample: (channels,), written. Returns (lane, code): at a code other than `INSIDE` nothing else
+    was done.
+    """
+    F = compute_internal_torque(blocks.nominal, lane.known)
+    lane, _, code = advance_from(blocks, law, inputs, lane, F, tick, sample)
+    return lane, code
+
+
+@compiled
+def advance_from(
+    blocks: Blocks,
+    law: BoundLaw,
+    inputs: Inputs,
+    lane: LaneState,
+    F: InternalTorque,
+    tick: int,
+    sample: np.ndarray,
+) -> tuple[LaneState, InternalTorque, int]:
+    """`advance_tick` where F = F_n(x̂), `InternalTorque`, N·m, is known; returns it for the next."""
+    code = check_domain(blocks.domain, blocks.plant, lane.x)
+    if code != INSIDE:
+        return lane, F, code
+    call = build_call(law, lane.memory)
+    measured = measure(blocks, call, lane.x, tick)
+    reference, torque = decide(
+        blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, tick
+    )
+    if not math.isfinite(torque.u1 + torque.u2):
+        return lane, F, NOT_FINITE
+    estimate = read_estimate(call, lane.estimate)
+    lane, F = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sample)
+    return lane, F, INSIDE
+
+
+@compiled
+def apply_torque(
+    blocks: Blocks,
+    inputs: Inputs,
+    lane: LaneState,
+    F: InternalTorque,
+    reference: Reference,
+    torque: Torque,
+    estimate: Disturbance,
+    tick: int,
+    sample: np.ndarray,
+) -> tuple[LaneState, InternalTorque]:
+    """The tick from the controller's torque on: write, plant, read, observer, publish.
+
+    lane: `LaneState` at the start of the tick. F: F_n(x̂) then, `InternalTorque`, N·m. reference:
+    `Reference` then. torque: asked for, within the limits, N·m. estimate: the ŵ behind it,
+    `Disturbance`, N·m. sample: (channels,), written. Returns `LaneState` and F at the end.
+    """
+    action = act(blocks, inputs, lane, torque, tick)
+    time = tick * blocks.period
+    publish(blocks, reference, lane, F, estimate, action.made, action.rate, time, sample)
+    return move(blocks, inputs, lane, F, action, tick)
+
+
+@compiled
+def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: int) -> Action:
+    """`Action` of a torque within the limits, N·m: delay, drive, loads and what they do at once."""
+    bench, time = blocks.bench, tick * blocks.period
+    asked, target = delay(bench, lane.asked, torque)
+    load = compute_load(inputs.loads, tick, blocks.period, time)
+    made = compute_lagged_torque(lane.torque, target, bench.lag, 0.0)
+    rate = compute_plant_rate(blocks.plant, bench, lane.x, made, load)
+    return Action(asked, target, made, load, rate)
+
+
+@compiled
+def move(
+    blocks: Blocks, inputs: Inputs, lane: LaneState, F: InternalTorque, action: Action, tick: int
+) -> tuple[LaneState, InternalTorque]:
+    """The rest of the tick: plant, read, observer. Returns `LaneState` and F_n(x̂) at its end."""
+    plant, nominal, bench, period = blocks.plant, blocks.nominal, blocks.bench, blocks.period
+    start, target, load = lane.torque, action.target, action.load
+    table, steps = inputs.loads, blocks.steps
+    x = integrate_from(
+        plant, bench, lane.x, action.rate, start, target, table, load, tick, period, steps
+    )
+    made = compute_lagged_torque(start, target, bench.lag, period)
+    applied = compute_mean_torque(start, target, bench.lag, period)
+    known = sense(blocks, lane, x, applied, tick + 1)
+    F_known = compute_internal_torque(nominal, known)
+    observed = correct_disturbance_estimate(
+        nominal, blocks.shares, lane.estimate, lane.known, F, known, F_known, applied, period
+    )
+    return LaneState(x, known, observed, made, applied, action.asked, lane.memory), F_known
+
+
+@compiled
+def advance(
+    blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, first: int, samples: np.ndarray
+) -> tuple[LaneState, int, int]:
+    """Many ticks in one call that does not hold the GIL: one for each row of `samples`.
+
+    law: `BoundLaw`. lane: `LaneState` at the tick `first`, which stays as it is. samples: (ticks,
+    channels), written. Returns (lane, ticks done, code): a code other than `INSIDE` says why the
+    lane ended at the tick first + ticks done.
+    """
+    memory, rows = lane.memory.copy(), borrow(samples)
+    lane, law, inputs = remember(lane, borrow(memory)), borrow_law(law), borrow_inputs(inputs)
+    F = compute_internal_torque(blocks.nominal, lane.known)
+    done, code = 0, INSIDE
+    while done < rows.shape[0] and code == INSIDE:
+        lane, F, code = advance_from(blocks, law, inputs, lane, F, first + done, rows[done])
+        done += code == INSIDE
+    return remember(lane, memory), done, code

@@ -1,0 +1,238 @@
+"""The loop's pieces where the plant is a bench: what is measured takes the place of x.
+
+A tick on a bench is read → follow → decide → write → publish → predict: the loop of
+`svsa.simulation.loop.loop`, cut open where the bench is read.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.domain import compute_deflection_limit
+from svsa.actuators.dynamics import ExternalLoad, compute_acceleration
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.signals import (
+    Disturbance,
+    Measurement,
+    Positions,
+    Reference,
+    Sample,
+    State,
+    Torque,
+)
+from svsa.actuators.spring import compute_stiffness
+from svsa.control.call import Call, read_estimate
+from svsa.control.observers.state import predict_state
+from svsa.numerics.compilation import compiled
+from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, Blocks
+from svsa.simulation.loop.loop import decide, observe
+from svsa.simulation.loop.publish import write_sample
+from svsa.simulation.plant.drive import compute_late_torque
+
+
+class Actuation(NamedTuple):
+    """From a torque that is decided to one that acts. latency, lag: s (see `plant.drive`)."""
+
+    latency: float
+    lag: float
+
+
+class BenchConstants(NamedTuple):
+    """The constants of a bench's loop. call: its law with the memory of that."""
+
+    blocks: Blocks
+    actuation: Actuation
+    call: Call
+
+
+class Carried(NamedTuple):
+    """The numbers of a bench's loop.
+
+    Carried from tick to tick: known, estimate: x̂ and ŵ. made: what the motors make now, N·m.
+    before, sent: the torques sent last but one and last, N·m. expected: x̂ a period later.
+    Of this tick: measured; ages_s: of motor 1, motor 2, deflection; reference; asked: what the
+    law asks for, N·m; believed: the ŵ that it acts on.
+    """
+
+    known: State = AT_REST
+    estimate: Disturbance = UNDISTURBED
+    made: Torque = NO_TORQUE
+    before: Torque = NO_TORQUE
+    sent: Torque = NO_TORQUE
+    expected: State = AT_REST
+    measured: Measurement = Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    ages_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    reference: Reference = NO_REFERENCE
+    asked: Torque = NO_TORQUE
+    believed: Disturbance = UNDISTURBED
+
+
+@compiled
+def read_state(x: np.record) -> State:
+    """A packed state as `State`."""
+    return State(x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2)
+
+
+@compiled
+def store_state(packed: np.record, x: State) -> None:
+    """`State` into a packed one."""
+    packed.q, packed.dq = x.q, x.dq
+    packed.theta1, packed.dtheta1 = x.theta1, x.dtheta1
+    packed.theta2, packed.dtheta2 = x.theta2, x.dtheta2
+
+
+@compiled
+def read_disturbance(w: np.record) -> Disturbance:
+    """A packed disturbance as `Disturbance`."""
+    return Disturbance(w.w2, w.w4, w.w6)
+
+
+@compiled
+def store_disturbance(packed: np.record, w: Disturbance) -> None:
+    """`Disturbance` into a packed one."""
+    packed.w2, packed.w4, packed.w6 = w.w2, w.w4, w.w6
+
+
+@compiled
+def store_torque(packed: np.record, torque: Torque) -> None:
+    """`Torque`, or a packed one, into a packed one."""
+    packed.u1, packed.u2 = torque.u1, torque.u2
+
+
+@compiled
+def find_late_torque(constants: np.record, carried: np.record) -> tuple[Torque, Torque]:
+    """What the motors make a period later, and what acts until then, as `Torque`s, N·m."""
+    c, actuation = carried, constants.actuation
+    return compute_late_torque(
+        Torque(c.made.u1, c.made.u2),
+        Torque(c.before.u1, c.before.u2),
+        Torque(c.sent.u1, c.sent.u2),
+        actuation.lag,
+        actuation.latency,
+        constants.blocks.period,
+    )
+
+
+@compiled
+def follow_and_decide(
+    constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, tick: int
+) -> None:
+    """A period later: x̂, ŵ and made with what was measured then, reference and asked.
+
+    constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
+    """
+    k, c = constants[0], carried[0]
+    made, applied = find_late_torque(k, c)
+    y = c.measured
+    measured = Measurement(y.theta1, y.theta2, y.phi, y.dq, y.dtheta1, y.dtheta2)
+    known, estimate = read_state(c.known), read_disturbance(c.estimate)
+    x, w = observe(k.blocks, known, estimate, applied, measured)
+    positions = Positions(y.theta1 + y.phi, y.theta1, y.theta2)
+    r, asked = decide(k.blocks, k.call, inputs, x, w, applied, positions, tick)
+    store_state(c.known, x)
+    store_disturbance(c.estimate, w)
+    store_disturbance(c.believed, read_estimate(k.call, w))
+    store_torque(c.made, made)
+    store_torque(c.asked, asked)
+    p = c.reference
+    p.q, p.dq, p.ddq, p.dddq, p.ddddq = r.q, r.dq, r.ddq, r.dddq, r.ddddq
+    p.sigma, p.dsigma, p.ddsigma = r.sigma, r.dsigma, r.ddsigma
+
+
+@compiled
+def publish_and_predict(
+    constants: np.ndarray, carried: np.ndarray, u1: float, u2: float, tick: int, sample: np.ndarray
+) -> None:
+    """What was sent (u1, u2, N·m) is carried on, `publish_measured` into `sample`, `predict`."""
+    k, c = constants[0], carried[0]
+    store_torque(c.before, c.sent)
+    store_torque(c.sent, Torque(u1, u2))
+    publish_measured(k.blocks, c, tick, sample)
+    store_state(c.expected, predict(k, c))
+
+
+@compiled
+def pass_ticks(
+    constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, first: int, count: int
+) -> None:
+    """`count` periods in which the loop did not run: x̂ goes on with ŵ and the torque last sent.
+
+    A state that stood still meanwhile would take all that the axes have moved since for what
+    they moved in one period, and so for a velocity. The law, which may have an observer of its
+    own, is led through these ticks, `first` and on, by the same x̂; what it asks for is not sent.
+    """
+    k, c = constants[0], carried[0]
+    w = read_disturbance(c.estimate)
+    for passed in range(count):
+        made, applied = find_late_torque(k, c)
+        x = predict_state(k.blocks.nominal, read_state(c.known), w, applied, k.blocks.period)
+        store_state(c.known, x)
+        store_torque(c.made, made)
+        store_torque(c.before, c.sent)
+        positions = Positions(x.q, x.theta1, x.theta2)
+        decide(k.blocks, k.call, inputs, x, w, applied, positions, first + passed)
+    store_state(c.expected, predict(k, c))
+
+
+@compiled
+def predict(constants: np.record, carried: np.record) -> State:
+    """x̂ as it is expected a period later, with the velocities of half the ages before.
+
+    A count of age a is then brought to its tick by y + v(t − a/2) a, right to the second
+    order. Returns `State`.
+    """
+    blocks, ages = constants.blocks, carried.ages_s
+    known, w = read_state(carried.known), read_disturbance(carried.estimate)
+    _, applied = find_late_torque(constants, carried)
+    x = predict_state(blocks.nominal, known, w, applied, blocks.period)
+    load = ExternalLoad(w.w2, w.w4, w.w6, 0.0, 0.0)
+    a = compute_acceleration(blocks.nominal, x, applied, load)
+    motor1 = x.dtheta1 - 0.5 * ages[0] * a.ddtheta1
+    motor2 = x.dtheta2 - 0.5 * ages[1] * a.ddtheta2
+    deflection = x.dq - x.dtheta1 - 0.5 * ages[2] * (a.ddq - a.ddtheta1)
+    return State(x.q, motor1 + deflection, x.theta1, motor1, x.theta2, motor2)
+
+
+@compiled
+def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndarray) -> None:
+    """Write one `Sample` of a bench into its row, (channels,).
+
+    The true w is unknown; the residuals are filled in by whoever has the twin.
+    """
+    y, reference, torque = carried.measured, carried.reference, carried.sent
+    known, estimate, nothing = carried.known, carried.believed, math.nan
+    q = y.theta1 + y.phi
+    mu = compute_lever_ratio(y.theta2, blocks.nominal.mu0, blocks.nominal.gamma)
+    sigma = compute_stiffness(mu, y.phi, blocks.nominal.K)
+    values = Sample(
+        time_s=tick * blocks.period,
+        position_reference_rad=reference.q,
+        velocity_reference_rad_per_s=reference.dq,
+        stiffness_reference_nm_per_rad=reference.sigma,
+        position_rad=q,
+        velocity_rad_per_s=known.dq,
+        position_estimate_rad=known.q,
+        velocity_estimate_rad_per_s=known.dq,
+        motor1_position_rad=y.theta1,
+        motor1_velocity_rad_per_s=known.dtheta1,
+        motor2_position_rad=y.theta2,
+        motor2_velocity_rad_per_s=known.dtheta2,
+        deflection_rad=y.phi,
+        deflection_limit_rad=compute_deflection_limit(blocks.domain, mu),
+        lever_ratio=mu,
+        stiffness_nm_per_rad=sigma,
+        position_error_rad=reference.q - q,
+        stiffness_error_nm_per_rad=reference.sigma - sigma,
+        torque1_nm=torque.u1,
+        torque2_nm=torque.u2,
+        disturbance_link_nm=nothing,
+        disturbance_motor1_nm=nothing,
+        disturbance_motor2_nm=nothing,
+        estimate_link_nm=estimate.w2,
+        estimate_motor1_nm=estimate.w4,
+        estimate_motor2_nm=estimate.w6,
+        position_residual_rad=0.0,
+        stiffness_residual_nm_per_rad=0.0,
+    )
+    write_sample(row, values)

@@ -1,0 +1,164 @@
+"""The same loop with a controller that is not compiled: it is asked once a tick, from within.
+
+To the compiled loop the controller is a law as any other, whose memory is what it is told, and
+which calls Python. Hence the samples are the same.
+"""
+
+import ctypes
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba.core import types
+from numba.extending import intrinsic
+
+from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
+from svsa.control.call import BoundLaw, bind
+from svsa.control.plain_law import SIGNATURE, find_named
+from svsa.errors import ParameterError, Violation
+from svsa.numerics.compilation import compiled
+from svsa.numerics.packed import pack
+from svsa.simulation.loop.held_signals import hold_signals
+from svsa.simulation.loop.lane import (
+    AT_REST,
+    NO_REFERENCE,
+    NO_TORQUE,
+    UNDISTURBED,
+    UNMOVED,
+    Blocks,
+    Inputs,
+    LaneState,
+)
+from svsa.simulation.loop.loop import advance
+
+Controller = Callable[..., tuple[float, float]]
+"""Time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`) → (u1, u2), N·m.
+
+By name, where it takes them: `applied`, the mean `Torque` that acted in the last period, and
+`measured`, `Positions`.
+"""
+
+_Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+
+
+class _Told(NamedTuple):
+    """What the controller is told, and its answer."""
+
+    reference: Reference
+    x: State
+    estimate: Disturbance
+    applied: Torque
+    measured: Positions
+    answer: Torque
+
+
+_ZEROS = _Told(NO_REFERENCE, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED, NO_TORQUE)
+_WORDS = sum(map(len, _ZEROS))
+
+
+class _Address(NamedTuple):
+    function: int
+
+
+def _build_ask(typing: Any, address: Any, told: Any) -> Any:
+    """Call the function at an address with that of a record."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        record = ir.IntType(8).as_pointer()
+        function = ir.FunctionType(ir.VoidType(), [record]).as_pointer()
+        asked = builder.inttoptr(arguments[0], function)
+        builder.call(asked, [builder.bitcast(arguments[1], record)])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, told), generate
+
+
+_ask: Any = intrinsic(_build_ask)
+
+
+@compiled
+def _compute_asked(
+    nominal: Any,
+    address: Any,
+    told: Any,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+    measured: Positions,
+) -> Torque:
+    """What the controller answers, as `svsa.control.law.Law.control`."""
+    to = told.reference
+    to.q, to.dq, to.ddq, to.dddq, to.ddddq = reference[:5]
+    to.sigma, to.dsigma, to.ddsigma = reference[5:]
+    at = told.x
+    at.q, at.dq, at.theta1, at.dtheta1, at.theta2, at.dtheta2 = x
+    told.estimate.w2, told.estimate.w4, told.estimate.w6 = estimate
+    told.applied.u1, told.applied.u2 = applied
+    y = told.measured
+    y.q, y.theta1, y.theta2 = measured
+    _ask(address.function, told)
+    return Torque(told.answer.u1, told.answer.u2)
+
+
+def advance_stepwise(
+    blocks: Blocks,
+    inputs: Inputs,
+    lane: LaneState,
+    first: int,
+    samples: np.ndarray,
+    controller: Controller,
+) -> tuple[LaneState, int, int]:
+    """As `svsa.simulation.loop.loop.advance`, with the torque from `controller`.
+
+    What the controller raises is raised. Raises `ParameterError` where it returns anything but two
+    numbers, or takes something that it is not told.
+    """
+    tick, raised, named = first, list[BaseException](), _find_named(controller)
+
+    def ask(address: int) -> None:
+        nonlocal tick
+        words = (ctypes.c_double * _WORDS).from_address(address)
+        try:
+            held.handle()
+            time = tick * blocks.period
+            given = Reference(*words[:8]), State(*words[8:14]), Disturbance(*words[14:17])
+            torque, positions = Torque(*words[17:19]), Positions(*words[19:22])
+            told: dict[str, tuple[float, ...]] = {"applied": torque, "measured": positions}
+            answer = controller(time, *given, **{name: told[name] for name in named})
+            words[22:] = _read_torque(answer)
+        except BaseException as error:
+            raised.append(error)
+            words[22:] = (np.nan, np.nan)
+        tick += 1
+
+    called = _Call(ask)
+    address = ctypes.cast(called, ctypes.c_void_p).value or 0
+    nominal, constants, told = pack(blocks.nominal), pack(_Address(address)), pack(_ZEROS)
+    law: BoundLaw = bind(_compute_asked, nominal, constants, told, False)
+    begun = lane._replace(memory=told.view(np.float64))
+    with hold_signals() as held:
+        ended, done, code = advance(blocks, law, inputs, begun, first, samples)
+    if raised:
+        raise raised[0]
+    return ended._replace(memory=lane.memory), done, code
+
+
+def _find_named(controller: Controller) -> tuple[str, ...]:
+    try:
+        return find_named(controller)
+    except TypeError as error:
+        raise ParameterError(
+            Violation("controller", None, "", SIGNATURE, finding=str(error))
+        ) from None
+
+
+def _read_torque(answer: object) -> Torque:
+    try:
+        u1, u2 = answer  # pyright: ignore[reportGeneralTypeIssues]
+        return Torque(float(u1), float(u2))
+    except (TypeError, ValueError):
+        bound = "two torques (u1, u2) in N·m"
+        raise ParameterError(Violation("the controller's answer", answer, "", bound)) from None

@@ -1,0 +1,143 @@
+"""What is summed up of a run of a batch as it goes, in place of its samples."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.dynamics import compute_deflection
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.signals import CHANNEL_INDEX, Reference, State, Torque
+from svsa.actuators.spring import compute_stiffness
+from svsa.numerics.compilation import compiled
+from svsa.numerics.simd.choice import choose, greatest
+from svsa.simulation.loop.lane import Blocks
+
+RECOVERY_SHARE = 0.02
+SETTLED_S = 0.5
+AT_LIMIT = 0.999
+
+
+class Window(NamedTuple):
+    """Which ticks are measured: from `begin` to before `end`; settled: how many are 0.5 s."""
+
+    begin: int
+    end: int
+    settled: int
+
+
+class Tally(NamedTuple):
+    """Of a run's measured ticks: sums of squares and sizes, peaks and what came last, SI.
+
+    settled_squares: of the position error, of the last 0.5 s. recovered: the measured tick from
+    which on the position error stayed within 2 % of its peak until then for 0.5 s, −1 while it has
+    not; inside: that from which on it is within now. limited: ticks in which a motor made its
+    limit, to 0.1 %.
+    """
+
+    position_squares: float
+    stiffness_squares: float
+    torque1_squares: float
+    torque2_squares: float
+    position_absolute: float
+    position_peak: float
+    stiffness_peak: float
+    torque1_peak: float
+    torque2_peak: float
+    position_last: float
+    stiffness_last: float
+    settled_squares: float
+    inside: float
+    recovered: float
+    limited: float
+
+
+SUMMARY = np.dtype(
+    [("code", np.int64), ("ticks", np.int64)]
+    + [(name, np.float64) for name in (*Tally._fields, *State._fields)]
+)
+"""Of each run: `INSIDE` or why it ended, after how many ticks, `Tally`, and the state reached."""
+
+
+_REFERENCE = CHANNEL_INDEX["position_reference_rad"]
+_SIGMA = CHANNEL_INDEX["stiffness_reference_nm_per_rad"]
+_Q, _DQ = CHANNEL_INDEX["position_rad"], CHANNEL_INDEX["velocity_rad_per_s"]
+_THETA1 = CHANNEL_INDEX["motor1_position_rad"]
+_DTHETA1 = CHANNEL_INDEX["motor1_velocity_rad_per_s"]
+_THETA2 = CHANNEL_INDEX["motor2_position_rad"]
+_DTHETA2 = CHANNEL_INDEX["motor2_velocity_rad_per_s"]
+_U1, _U2 = CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]
+
+
+@compiled
+def build_window(begin: int, end: int, period: float) -> Window:
+    """`Window` of a run of `end` ticks of `period`, s."""
+    return Window(begin, end, math.ceil(SETTLED_S / period - 1e-9))
+
+
+@compiled
+def start_tally(nothing: float) -> Tally:
+    """`Tally` before the first tick. nothing: 0."""
+    n = nothing
+    return Tally(n, n, n, n, n, n, n, n, n, n, n, n, n, n - 1.0, n)
+
+
+@compiled
+def measure(
+    tally: Tally,
+    runs: bool,
+    window: Window,
+    blocks: Blocks,
+    reference: Reference,
+    x: State,
+    torque: Torque,
+    tick: int,
+) -> Tally:
+    """`Tally` with the tick that begins at x, where it `runs`, of each lane.
+
+    torque: what the motors make, N·m.
+    """
+    t, plant = tally, blocks.plant
+    counts = runs & (tick >= window.begin)
+    mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
+    sigma = compute_stiffness(mu, compute_deflection(x), plant.K)
+    position, stiffness = reference.q - x.q, reference.sigma - sigma
+    e, s = choose(counts, abs(position), 0.0), choose(counts, abs(stiffness), 0.0)
+    u1, u2 = choose(counts, abs(torque.u1), 0.0), choose(counts, abs(torque.u2), 0.0)
+    peak, passed = greatest(t.position_peak, e), float(tick - window.begin + 1)
+    inside = choose(counts & (e > RECOVERY_SHARE * peak), passed, t.inside)
+    stayed = counts & (t.recovered < 0.0) & (passed - inside >= float(window.settled))
+    is_limited = (u1 >= AT_LIMIT * blocks.torque1_max) | (u2 >= AT_LIMIT * blocks.torque2_max)
+    late = choose(counts & (tick >= window.end - window.settled), e, 0.0)
+    return Tally(
+        t.position_squares + e * e,
+        t.stiffness_squares + s * s,
+        t.torque1_squares + u1 * u1,
+        t.torque2_squares + u2 * u2,
+        t.position_absolute + e,
+        peak,
+        greatest(t.stiffness_peak, s),
+        greatest(t.torque1_peak, u1),
+        greatest(t.torque2_peak, u2),
+        choose(counts, position, t.position_last),
+        choose(counts, stiffness, t.stiffness_last),
+        t.settled_squares + late * late,
+        inside,
+        choose(stayed, inside, t.recovered),
+        choose(is_limited, t.limited + 1.0, t.limited),
+    )
+
+
+@compiled
+def sum_up(samples: np.ndarray, blocks: Blocks, begin: int, end: int) -> Tally:
+    """`Tally` of the samples (ticks, channels) of one run of `end` ticks, to a batch's bits.
+
+    begin: the tick at which measuring begins. Fewer samples than ticks: the run ended early.
+    """
+    tally, window = start_tally(0.0), build_window(begin, end, blocks.period)
+    for tick in range(samples.shape[0]):
+        s = samples[tick]
+        reference = Reference(s[_REFERENCE], 0.0, 0.0, 0.0, 0.0, s[_SIGMA], 0.0, 0.0)
+        x = State(s[_Q], s[_DQ], s[_THETA1], s[_DTHETA1], s[_THETA2], s[_DTHETA2])
+        tally = measure(tally, True, window, blocks, reference, x, Torque(s[_U1], s[_U2]), tick)
+    return tally

@@ -1,0 +1,64 @@
+"""From rest to rest with the least jerk, as a hand moves (Flash and Hogan 1985)."""
+
+from typing import Literal, Self
+
+from pydantic import model_validator
+
+from svsa.inputs.checked import Checked, Number, quantity
+from svsa.simulation.reference.curve import Curve, build_curve, check_curve
+from svsa.simulation.reference.shape import (
+    FASTEST_POSITION,
+    FULL_TURN_RAD,
+    MAX_NM_PER_RAD,
+    TRANSITION,
+    Shape,
+    build_curve_shape,
+)
+
+
+class _MinimumJerk(Checked):
+    """What the movements of position and stiffness share.
+
+    r = a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵), s = t/T from 0 to 1: the least ∫ r⃛² dt that comes
+    from rest and ends in it. Its jerk jumps by 60 (b − a)/T³ at both ends, which no torque
+    follows at once: a short error there is the reference's, not the law's.
+    """
+
+    kind: Literal["minimum_jerk"] = "minimum_jerk"
+    duration_s: Number = quantity("s", "Duration T of the movement", ge=0.05, le=3600)
+    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+
+    def _build_curve(self, start: float, end: float) -> Curve:
+        way, rate = end - start, 1.0 / self.duration_s
+        powers = (start, 0.0, 0.0, 10.0 * way * rate**3, -15.0 * way * rate**4, 6.0 * way * rate**5)
+        return build_curve([(0.0, powers), (self.duration_s, (end,))])
+
+
+class MinimumJerkPosition(_MinimumJerk):
+    """A movement of q_d: see `_MinimumJerk`."""
+
+    start_rad: Number = quantity(
+        "rad", "Where it begins", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
+    )
+    end_rad: Number = quantity("rad", "Where it ends", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)
+
+    @model_validator(mode="after")
+    def _check_speed(self) -> Self:
+        curve = self._build_curve(self.start_rad, self.end_rad)
+        check_curve("the movement", curve, "rad", 1.0, FASTEST_POSITION)
+        return self
+
+    def get_shape(self) -> Shape:
+        """Its row of the stack."""
+        return build_curve_shape(self._build_curve(self.start_rad, self.end_rad))
+
+
+class MinimumJerkStiffness(_MinimumJerk):
+    """A movement of σ_d, inside the range of the limits: see `_MinimumJerk`."""
+
+    start_nm_per_rad: Number = quantity("N·m/rad", "Where it begins", gt=0, le=MAX_NM_PER_RAD)
+    end_nm_per_rad: Number = quantity("N·m/rad", "Where it ends", gt=0, le=MAX_NM_PER_RAD)
+
+    def get_shape(self) -> Shape:
+        """Its row of the stack."""
+        return build_curve_shape(self._build_curve(self.start_nm_per_rad, self.end_nm_per_rad))

@@ -1,0 +1,52 @@
+"""The references of the paper's figures, and by which of them a pair of references is known.
+
+Figures 4A, 4B and 5 are simulated; 6A, 6B and 7 ask the same of a bench, in this order.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+from svsa.simulation.reference.trajectories import (
+    ConstantStiffness,
+    PositionReference,
+    SinePosition,
+    SineStiffness,
+    StiffnessReference,
+)
+
+
+class References(NamedTuple):
+    """What a run is asked for: q_d and σ_d."""
+
+    position: PositionReference
+    stiffness: StiffnessReference
+
+
+_MOTION = SinePosition(amplitude_rad=math.radians(60.0), frequency_hz=0.2)
+FIGURE_REFERENCES = {
+    "4a": References(_MOTION, ConstantStiffness(stiffness_nm_per_rad=15.0)),
+    "4b": References(_MOTION, ConstantStiffness(stiffness_nm_per_rad=60.0)),
+    "5": References(
+        _MOTION,
+        SineStiffness(
+            offset_nm_per_rad=35.0,
+            amplitude_nm_per_rad=1.0,
+            frequency_hz=0.2,
+            phase_rad=1.5 * math.pi,
+        ),
+    ),
+}
+ON_BENCH = {"4a": "6a", "4b": "6b", "5": "7"}
+
+
+def find_figure(references: References, on_bench: bool = False) -> str | None:
+    """The key of the figure with these references, however they are faded in; None for none."""
+    asked = [_get_course(reference) for reference in references]
+    for key, figure in FIGURE_REFERENCES.items():
+        if asked == [_get_course(reference) for reference in figure]:
+            return ON_BENCH[key] if on_bench else key
+    return None
+
+
+def _get_course(reference: PositionReference | StiffnessReference) -> dict[str, Any]:
+    return reference.model_dump(exclude={"transition_s"})

@@ -1,0 +1,110 @@
+"""A series from a CSV: a column of times and one of angles or of stiffness, named in its head.
+
+time_s,position_deg          or position_rad, or stiffness_nm_per_rad
+0,0
+0.5,30
+"""
+
+import csv
+import io
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+from svsa.errors import ParameterError, Violation
+from svsa.simulation.reference.curve import check_curve
+from svsa.simulation.reference.points import Points
+from svsa.simulation.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness, build_spline
+from svsa.simulation.reference.shape import FASTEST_POSITION, FASTEST_STIFFNESS, FULL_TURN_RAD
+
+TIME = "time_s"
+
+
+class Column(NamedTuple):
+    """A column of values. factor: its unit in that of the reference; least: in the latter."""
+
+    unit: str
+    factor: float
+    least: float
+    bounds: tuple[float, ...]
+
+
+COLUMNS = {
+    "position_rad": Column("rad", 1.0, -FULL_TURN_RAD, FASTEST_POSITION),
+    "position_deg": Column("deg", math.radians(1.0), -FULL_TURN_RAD, FASTEST_POSITION),
+    "stiffness_nm_per_rad": Column("N·m/rad", 1.0, 1e-3, FASTEST_STIFFNESS),
+}
+
+
+def read_series(path: Path | str) -> SeriesPosition | SeriesStiffness:
+    """The reference in a CSV file; see `parse_series`. Raises `ParameterError`."""
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        bound = f"a readable CSV file in UTF-8 ({error})"
+        raise ParameterError(Violation("file", path, "", bound)) from None
+    return parse_series(text)
+
+
+def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
+    """The reference in the text of a CSV; the column's name says the unit.
+
+    Raises `ParameterError` that names the row (the head is row 1), value, unit and bound.
+    """
+    lines = csv.reader(io.StringIO(text.removeprefix("\ufeff"), newline=""))
+    try:
+        rows = [(lines.line_num, row) for row in lines if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        found = f"{error} in row {lines.line_num + 1}"
+        raise ParameterError(
+            Violation("the CSV", text[:80], "", "a table", finding=found)
+        ) from None
+    head = [cell.strip() for cell in rows[0][1]] if rows else []
+    names = [name for name in head if name in COLUMNS]
+    if len(head) != 2 or TIME not in head or len(names) != 1:
+        bound = f"{TIME} and one of " + ", ".join(COLUMNS)
+        raise ParameterError(Violation("the head of the CSV", ",".join(head), "", bound))
+    name, count = names[0], len(rows) - 1
+    if not 2 <= count <= MAX_ROWS:
+        bound = f"from 2 to {MAX_ROWS} below the head"
+        raise ParameterError(Violation("the number of rows", count, "", bound))
+
+    def place(name: str, number: int) -> str:
+        return f"{name} in row {rows[number + 1][0]}"
+
+    times, values = (
+        tuple(
+            _read_cell(row, head.index(key), place(key, number), unit)
+            for number, (_, row) in enumerate(rows[1:])
+        )
+        for key, unit in ((TIME, "s"), (name, COLUMNS[name].unit))
+    )
+    return _build(Points(name, COLUMNS[name].unit, times, values, place))
+
+
+def _build(points: Points) -> SeriesPosition | SeriesStiffness:
+    """The reference, checked first in the words and the unit of the file."""
+    name, unit, times, values, place = points
+    _, factor, lowest, bounds = COLUMNS[name]
+    least, most = lowest / factor, bounds[0] / factor
+    for number, value in enumerate(values):
+        if not least <= value <= most:
+            bound = f"from {least:g} to {most:g} {unit}"
+            raise ParameterError(Violation(place(name, number), value, unit, bound))
+    si = tuple(min(max(value * factor, lowest), bounds[0]) for value in values)
+    check_curve(name, build_spline(points._replace(values=si)), unit, factor, bounds)
+    if name == "stiffness_nm_per_rad":
+        return SeriesStiffness(time_s=times, stiffness_nm_per_rad=si)
+    return SeriesPosition(time_s=times, position_rad=si)
+
+
+def _read_cell(row: list[str], index: int, place: str, unit: str) -> float:
+    if len(row) != 2:
+        raise ParameterError(Violation(place, ",".join(row), "", "one of two cells"))
+    try:
+        value = float(row[index])
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise ParameterError(Violation(place, row[index].strip(), unit, "a finite number"))
+    return value

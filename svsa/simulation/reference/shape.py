@@ -1,0 +1,47 @@
+"""What a reference is for the loop: one row of numbers, and where it needs one a curve."""
+
+import math
+from typing import NamedTuple
+
+from svsa.simulation.reference.curve import Curve
+
+SINE, CHIRP, CURVE = range(3)
+MAX_NUMBERS = 6
+
+FULL_TURN_RAD = 2.0 * math.pi
+FASTEST_HZ = 5.0
+MAX_NM_PER_RAD = 1e4
+FASTEST_POSITION = tuple(FULL_TURN_RAD * (2.0 * math.pi * FASTEST_HZ) ** k for k in range(5))
+FASTEST_STIFFNESS = tuple(MAX_NM_PER_RAD * (2.0 * math.pi * FASTEST_HZ) ** k for k in range(3))
+"""Bounds of a value and its derivatives: those of the fastest sine that can be asked for."""
+TRANSITION = {"ge": 0.05, "le": 60, "default": 1.0}
+
+
+class Derivatives(NamedTuple):
+    """A signal and its first four time derivatives at one instant."""
+
+    d0: float
+    d1: float
+    d2: float
+    d3: float
+    d4: float
+
+
+class Shape(NamedTuple):
+    """A reference in its own unit.
+
+    kind: SINE, which runs on the session's time, or CHIRP or CURVE, which begin at their own
+    t = 0 when they have faded in. numbers: up to `MAX_NUMBERS`, as the kind's function takes
+    them. range: least and greatest value. start: the value at t = 0.
+    """
+
+    kind: int
+    numbers: tuple[float, ...]
+    range: tuple[float, float]
+    start: float
+    curve: Curve | None = None
+
+
+def build_curve_shape(curve: Curve) -> Shape:
+    """The shape of a curve: it holds its first value before, and its last one after."""
+    return Shape(CURVE, (), curve.range, curve.start, curve)

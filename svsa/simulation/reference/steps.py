@@ -1,0 +1,93 @@
+"""Levels one after the other, each reached by the smooth rise of a fade."""
+
+from functools import cached_property
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from svsa.inputs.checked import Checked, Number, quantity
+from svsa.simulation.reference.curve import Curve, build_curve, check_curve
+from svsa.simulation.reference.points import Points, check_points
+from svsa.simulation.reference.shape import (
+    FASTEST_POSITION,
+    FULL_TURN_RAD,
+    MAX_NM_PER_RAD,
+    TRANSITION,
+    Shape,
+    build_curve_shape,
+)
+
+MAX_STEPS = 200
+RISE = (126.0, -420.0, 540.0, -315.0, 70.0)
+"""Coefficients of s⁵ … s⁹ in the weight of `compute_fade`."""
+
+_Times = Annotated[tuple[Number, ...], Field(min_length=1, max_length=MAX_STEPS)]
+_Position = Annotated[Number, Field(ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)]
+_Stiffness = Annotated[Number, Field(gt=0, le=MAX_NM_PER_RAD)]
+
+
+class _Steps(Checked):
+    """What the steps of position and stiffness share.
+
+    The first level holds from the beginning; at each later time the level goes to the next one
+    in `rise_s`, by a polynomial of degree 9 whose first four derivatives are zero at both ends.
+    """
+
+    kind: Literal["steps"] = "steps"
+    time_s: _Times = quantity("s", "When each level begins, growing from ≥ 0")
+    rise_s: Number = quantity("s", "Duration of each rise", ge=0.05, le=60, default=0.2)
+    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+
+    def _build_curve(self, points: Points) -> Curve:
+        check_points(points, least_gap_s=self.rise_s, gap="rise_s")
+        level, rate = points.values[0], 1.0 / self.rise_s
+        pieces = [(points.times[0], (level,))]
+        for time, after in zip(points.times[1:], points.values[1:], strict=True):
+            way = after - level
+            powers = tuple(way * c * rate**k for k, c in enumerate(RISE, 5))
+            pieces += [(time, (level, 0.0, 0.0, 0.0, 0.0, *powers)), (time + self.rise_s, (after,))]
+            level = after
+        return build_curve(pieces)
+
+
+class StepsPosition(_Steps):
+    """Steps of q_d: see `_Steps`."""
+
+    position_rad: Annotated[tuple[_Position, ...], Field(min_length=1, max_length=MAX_STEPS)] = (
+        quantity("rad", "A level for each time")
+    )
+
+    @model_validator(mode="after")
+    def _check_speed(self) -> Self:
+        check_curve("position_rad", self._curve, "rad", 1.0, FASTEST_POSITION)
+        return self
+
+    @cached_property
+    def _curve(self) -> Curve:
+        return self._build_curve(Points("position_rad", "rad", self.time_s, self.position_rad))
+
+    def get_shape(self) -> Shape:
+        """Its row of the stack."""
+        return build_curve_shape(self._curve)
+
+
+class StepsStiffness(_Steps):
+    """Steps of σ_d, inside the range of the limits: see `_Steps`."""
+
+    stiffness_nm_per_rad: Annotated[
+        tuple[_Stiffness, ...], Field(min_length=1, max_length=MAX_STEPS)
+    ] = quantity("N·m/rad", "A level for each time")
+
+    @model_validator(mode="after")
+    def _check_points(self) -> Self:
+        _ = self._curve
+        return self
+
+    @cached_property
+    def _curve(self) -> Curve:
+        name, values = "stiffness_nm_per_rad", self.stiffness_nm_per_rad
+        return self._build_curve(Points(name, "N·m/rad", self.time_s, values))
+
+    def get_shape(self) -> Shape:
+        """Its row of the stack."""
+        return build_curve_shape(self._curve)

@@ -1,0 +1,1 @@
+"""Course, grading, leaderboard and the isolation of submitted code."""

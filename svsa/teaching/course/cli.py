@@ -1,0 +1,40 @@
+"""`svsa course`: list the exercises, and check a file before a class sees it."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+course = typer.Typer(no_args_is_help=True, help="Exercises in the lab: predict, run, explain.")
+_Folder = Annotated[
+    Path | None,
+    typer.Option("--course", help="Folder with exercises of one's own; else SVSA_COURSE's."),
+]
+
+
+@course.command("list")
+def list_command(folder: _Folder = None) -> None:
+    """The exercises of the course, the package's and one's own."""
+    from svsa.teaching.course.file import find_course_folder, read_course
+
+    table = Table("", "exercise", "title", "steps", "points", "min", title_justify="left")
+    table.title = "Exercises"
+    for one in read_course(folder or find_course_folder()):
+        told = one.name, one.title, str(len(one.steps)), f"{one.max_points:g}", str(one.minutes)
+        table.add_row(str(one.number), *told)
+    Console().print(table)
+
+
+@course.command("check")
+def check_command(
+    files: Annotated[list[Path], typer.Argument(metavar="FILE", help="Exercise files (.md).")],
+) -> None:
+    """Read exercise files; a wrong one is refused with file, line and reason."""
+    from svsa.teaching.course.file import read_exercise
+
+    for file in files:
+        one = read_exercise(file)
+        told = f"{len(one.steps)} steps, {one.max_points:g} points"
+        Console().print(f"{file}: {one.title}: {told}, right.", highlight=False, soft_wrap=True)

@@ -1,0 +1,83 @@
+"""An exercise as a value: what it is about, and its steps in their order."""
+
+from typing import Annotated, Self
+
+from pydantic import Field, model_validator
+
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, Whole, quantity
+from svsa.teaching.course.measure import Measure
+from svsa.teaching.course.steps import Experiment, Explain, HandInStep, Predict, Step
+from svsa.teaching.course.submission import MAX_STEPS, StepName
+
+
+class Exercise(Checked):
+    """Predict, experiment, explain, hand in. Raises `ParameterError` where steps do not fit.
+
+    name: that of its file. number: its place in the course. goal: what one can do after it.
+    """
+
+    name: StepName
+    number: Whole = quantity("", "Place in the course", ge=1, le=1000)
+    title: str = quantity("", "What it is called", min_length=1, max_length=120)
+    goal: str = quantity("", "What one can do after it", min_length=1, max_length=400)
+    minutes: Whole = quantity("min", "How long it takes", ge=1, le=600, default=10)
+    text: str = quantity("", "What stands before its first step, in Markdown", default="")
+    steps: Annotated[tuple[Step, ...], Field(min_length=1, max_length=MAX_STEPS)]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        ends = [number for number, step in enumerate(self.steps) if isinstance(step, HandInStep)]
+        if ends != [len(self.steps) - 1]:
+            bound = "one step of kind hand-in, at the end"
+            raise ParameterError(Violation("steps", [step.kind for step in self.steps], "", bound))
+        for number, step in enumerate(self.steps):
+            if isinstance(step, Predict):
+                self._check_prediction(number, step)
+        return self
+
+    def _check_prediction(self, number: int, step: Predict) -> None:
+        wanted, _, name = step.judged_by.partition(".")
+        later = [one for one in self.steps[number + 1 :] if isinstance(one, Experiment)]
+        judge = next((one for one in later if one.name == wanted), None)
+        measure = judge.find_measure(name) if judge is not None else None
+        if measure is None:
+            known = [f"{one.name}.{two.name}" for one in later for two in one.measures]
+            bound = f"one of {', '.join(known) or 'those of an experiment after it'}"
+            raise ParameterError(Violation(f"steps[{number}].judged_by", step.judged_by, "", bound))
+        if measure.shown_unit != step.unit:
+            bound = f"{measure.shown_unit!r}, the unit of {step.judged_by}"
+            raise ParameterError(Violation(f"steps[{number}].unit", step.unit, "", bound))
+
+    def find_step(self, name: str) -> Step:
+        """The step of this name; raises `ParameterError`."""
+        for step in self.steps:
+            if step.name == name:
+                return step
+        bound = f"one of {', '.join(step.name for step in self.steps)}"
+        raise ParameterError(Violation("step", name, "", bound))
+
+    def find_judge(self, step: Predict) -> tuple[Experiment, Measure]:
+        """The experiment and the measure that judge a prediction."""
+        wanted, _, name = step.judged_by.partition(".")
+        judge = self.find_step(wanted)
+        assert isinstance(judge, Experiment)  # noqa: S101
+        measure = judge.find_measure(name)
+        assert measure is not None  # noqa: S101
+        return judge, measure
+
+    @property
+    def takes_law(self) -> bool:
+        """Whether a law's file is handed in with it."""
+        return any(isinstance(step, HandInStep) and step.law for step in self.steps)
+
+    @property
+    def max_points(self) -> float:
+        """Points that there are."""
+        points = 0.0
+        for step in self.steps:
+            if isinstance(step, Experiment):
+                points += sum(criterion.points for criterion in step.criteria)
+            elif isinstance(step, Predict | Explain):
+                points += step.points
+        return points

@@ -1,0 +1,208 @@
+"""How an exercise is judged: pure functions of the answers and the runs."""
+
+import math
+from collections.abc import Callable, Mapping
+
+from svsa.errors import ParameterError, SvsaError, Violation, write_number
+from svsa.runs.result.result import Result
+from svsa.teaching.course.criterion import Criterion
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.judgement import CriterionResult, Judgement
+from svsa.teaching.course.measure import Measure, Measured
+from svsa.teaching.course.steps import Experiment, Explain, Predict, Step
+from svsa.teaching.course.submission import Answer, HandIn
+
+OpenRun = Callable[[str], Result]
+Opened = Result | str
+"""A run, or why it could not be opened."""
+
+
+def judge_hand_in(exercise: Exercise, hand_in: HandIn, open_run: OpenRun) -> Judgement:
+    """All criteria of an exercise.
+
+    open_run: gives the run of an id; where it raises `SvsaError`, the criteria of that step have no
+    points and say why. Raises `ParameterError` for a hand-in of another exercise, or with
+    steps that this one has not.
+    """
+    if hand_in.exercise != exercise.name:
+        bound = f"{exercise.name!r}, the exercise that is judged"
+        raise ParameterError(Violation("exercise", hand_in.exercise, "", bound))
+    for name in (*hand_in.answers, *hand_in.runs):
+        exercise.find_step(name)
+    runs: dict[str, Opened] = {}
+    for name, run in hand_in.runs.items():
+        try:
+            runs[name] = open_run(run)
+        except SvsaError as error:
+            runs[name] = f"Run {run} cannot be opened: {error}"
+    return judge_exercise(exercise, hand_in.answers, runs)
+
+
+def judge_exercise(
+    exercise: Exercise, answers: Mapping[str, Answer], runs: Mapping[str, Opened]
+) -> Judgement:
+    """All criteria of an exercise from answers and runs by step."""
+    results = [judge_step(exercise, step, answers, runs) for step in exercise.steps]
+    return Judgement(exercise.name, tuple(one for step in results for one in step))
+
+
+def judge_step(
+    exercise: Exercise, step: Step, answers: Mapping[str, Answer], runs: Mapping[str, Opened]
+) -> list[CriterionResult]:
+    """The criteria of one step; none of a step that has no points."""
+    match step:
+        case Predict():
+            return [_judge_prediction(exercise, step, answers.get(step.name), runs)]
+        case Experiment():
+            return _judge_experiment(step, runs.get(step.name))
+        case Explain():
+            return [_judge_choice(step, answers.get(step.name))]
+    return []
+
+
+def check_answer(step: Step, answer: Answer) -> None:
+    """Raise `ParameterError` for what is no answer to this step, as a number out of bounds."""
+    match step:
+        case Predict():
+            if isinstance(answer, str | bool) or not step.low <= answer <= step.high:
+                bound = f"a number from {write_number(step.low)} to {write_number(step.high)}"
+                bound += f" {step.unit}" if step.unit else ""
+                limits = {"ge": step.low, "le": step.high}
+                raise ParameterError(Violation(step.name, answer, step.unit, bound, limits))
+        case Explain():
+            names = [option.name for option in step.options]
+            if answer not in names:
+                raise ParameterError(Violation(step.name, answer, "", f"one of {', '.join(names)}"))
+        case _:
+            raise ParameterError(Violation(step.name, answer, "", "left out: nothing is asked"))
+
+
+def read_measures(step: Experiment, result: Result) -> dict[str, Measured]:
+    """Every measure of a step in a run, ratios too."""
+    found: dict[str, Measured] = {}
+    for measure in step.measures:
+        own = measure.read(result)
+        found[measure.name] = own if measure.per is None else _divide(own, found[measure.per])
+    return found
+
+
+def _divide(one: Measured, other: Measured) -> Measured:
+    if one.value is None or other.value is None:
+        return one if one.value is None else other
+    if other.value == 0.0:
+        return Measured(None, one.time_s, "what it is divided by is 0")
+    return one._replace(value=one.value / other.value)
+
+
+def _judge_prediction(
+    exercise: Exercise, step: Predict, answer: Answer | None, runs: Mapping[str, Opened]
+) -> CriterionResult:
+    judge, measure = exercise.find_judge(step)
+    none = CriterionResult(step.name, step.asks, 0.0, step.points, "", measure.channel)
+    if answer is None:
+        return none._replace(feedback="Nothing was predicted.", channel=None)
+    try:
+        check_answer(step, answer)
+    except ParameterError as error:
+        return none._replace(feedback=str(error), channel=None)
+    problem = _find_problem(judge, runs.get(judge.name))
+    run = runs.get(judge.name)
+    if problem is not None or not isinstance(run, Result):
+        feedback, time_s = problem or ("", None)
+        return none._replace(feedback=feedback, time_s=time_s)
+    seen = read_measures(judge, run)[measure.name]
+    if seen.value is None:
+        feedback = f"The run does not tell it: {seen.problem.rstrip('.')}."
+        return none._replace(feedback=feedback, time_s=seen.time_s)
+    off = _measure_off(float(answer), seen.value, step.by_factor)
+    points = 0.0
+    if off <= step.within:
+        points = step.points
+    elif off <= step.half_within:
+        points = step.points / 2.0
+    told = f"You predicted {_write(float(answer), step.unit)}; the run gave"
+    feedback = f"{told} {_write(seen.value, step.unit)}. {step.feedback}".strip()
+    return none._replace(points=points, feedback=feedback, time_s=seen.time_s)
+
+
+def _measure_off(predicted: float, seen: float, by_factor: bool) -> float:
+    """How far off, as a share of what was seen; or how many times larger or smaller, less one."""
+    if predicted == seen:
+        return 0.0
+    if not by_factor:
+        return abs(predicted - seen) / abs(seen) if seen else math.inf
+    if predicted * seen <= 0.0:
+        return math.inf
+    ratio = predicted / seen
+    return max(ratio, 1.0 / ratio) - 1.0
+
+
+def _judge_experiment(step: Experiment, run: Opened | None) -> list[CriterionResult]:
+    problem = _find_problem(step, run)
+    is_bench = isinstance(run, Result) and run.plant != "simulated"
+    criteria = step.list_criteria(is_bench)
+    if problem is not None or not isinstance(run, Result):
+        feedback, time_s = problem or ("", None)
+        return [
+            CriterionResult(step.name, one.title, 0.0, one.points, feedback, None, time_s)
+            for one in criteria
+        ]
+    seen = read_measures(step, run)
+    measures = {measure.name: measure for measure in step.measures}
+    return [
+        _judge_criterion(step.name, one, measures[one.measure], seen[one.measure])
+        for one in criteria
+    ]
+
+
+def _find_problem(step: Experiment, run: Opened | None) -> tuple[str, float | None] | None:
+    """Why a run cannot be judged, and the moment of it; None where it can."""
+    if run is None:
+        return f"There is no run of step {step.name!r} yet.", None
+    if isinstance(run, str):
+        return run, None
+    difference = step.find_difference(run)
+    if difference is None:
+        return None
+    told = f"This is not the run that is asked for: {difference.message}. Set it up again."
+    return told, difference.time_s
+
+
+def _judge_criterion(
+    step: str, criterion: Criterion, measure: Measure, seen: Measured
+) -> CriterionResult:
+    c = criterion
+    none = CriterionResult(step, c.title, 0.0, c.points, "", measure.channel, seen.time_s)
+    if seen.value is None:
+        return none._replace(feedback=f"{measure.label}: {seen.problem.rstrip('.')}.")
+    is_low = c.low is not None and seen.value < c.low
+    is_high = c.high is not None and seen.value > c.high
+    told = f"{measure.label}: {_write(seen.value, measure.shown_unit)}"
+    asked = _tell_range(c, measure.shown_unit)
+    if not is_low and not is_high:
+        return none._replace(points=c.points, feedback=f"{told}. {c.right}".strip())
+    why = c.too_low if is_low else c.too_high
+    return none._replace(feedback=f"{told}, asked: {asked}. {why}".strip())
+
+
+def _tell_range(criterion: Criterion, unit: str) -> str:
+    low, high = criterion.low, criterion.high
+    if low is None:
+        return f"at most {_write(high or 0.0, unit)}"
+    if high is None:
+        return f"at least {_write(low, unit)}"
+    return f"{write_number(low)} to {_write(high, unit)}"
+
+
+def _judge_choice(step: Explain, answer: Answer | None) -> CriterionResult:
+    result = CriterionResult(step.name, step.title, 0.0, step.points, "")
+    chosen = next((option for option in step.options if option.name == answer), None)
+    if chosen is None:
+        return result._replace(feedback="Nothing was chosen.")
+    points = step.points if chosen.right else 0.0
+    return result._replace(points=points, feedback=chosen.feedback or chosen.text)
+
+
+def _write(value: float, unit: str) -> str:
+    told = f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    return f"{told}{'' if unit == '°' else ' '}{unit}".rstrip()

@@ -1,0 +1,226 @@
+"""Numbers that an exercise takes from a run: a statistic of a channel over a window."""
+
+import math
+from collections.abc import Callable
+from typing import Literal, NamedTuple, Self
+
+import numpy as np
+from pydantic import model_validator
+
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.setting import read_setting
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.runs.configuration import MAX_LANES, Configuration
+from svsa.runs.result.channels import ChannelName
+from svsa.runs.result.result import Result
+from svsa.teaching.course.submission import StepName
+
+Statistic = Literal[
+    "mean", "rms", "spread", "peak", "max", "min", "last", "crossing", "rise", "recovery"
+]
+DEGREE = "°"
+_NEEDS_LEVEL = ("crossing", "rise", "recovery")
+_TIMES = ("rise", "recovery")
+
+
+class Measured(NamedTuple):
+    """value: in the measure's unit; None where the run does not tell it, and `problem` says why.
+
+    time_s: the moment that shows it best, s of the run; None where there is none.
+    """
+
+    value: float | None
+    time_s: float | None = None
+    problem: str = ""
+
+
+class Measure(Checked):
+    """A statistic of a channel from `from_s` up to `to_s`, or a setting of the run.
+
+    mean, rms, spread (standard deviation), peak (largest size), max, min, last; crossing: the
+    channel where `of` first reaches `level`, upwards; rise: how long after
+    `from_s` the channel first is at `level` or above; recovery: how long after `from_s` the channel
+    stays within ±`level`. setting: a path in the configuration, as
+    `observer.bandwidth_rad_per_s[0]`. unit: "°" shows radians in degrees. per: another measure
+    that this one is divided by.
+    """
+
+    name: StepName
+    label: str = quantity("", "What it is called", min_length=1, max_length=200)
+    channel: ChannelName | None = quantity("", "Channel of the samples", default=None)
+    setting: str = quantity("", "Path in the configuration", default="", max_length=200)
+    statistic: Statistic = quantity("", "What is taken of it", default="mean")
+    lane: Whole = quantity("", "Number of the lane", ge=1, le=MAX_LANES, default=1)
+    from_s: Number = quantity("s", "Begin of the window", ge=0, default=0.0)
+    to_s: Number | None = quantity("s", "End of it; left out, the run's", gt=0, default=None)
+    of: ChannelName | None = quantity("", "Channel that crosses", default=None)
+    level: Number | None = quantity("", "Level, in the unit of its channel", default=None)
+    unit: str = quantity("", "Unit; left out, the channel's", default="", max_length=20)
+    per: StepName | None = quantity("", "Measure that it is divided by", default=None)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if (self.channel is None) == (self.setting == ""):
+            raise ParameterError(Violation("channel", self.channel, "", "given, or else a setting"))
+        if (self.statistic in _NEEDS_LEVEL) != (self.level is not None):
+            bound = f"given for {' and '.join(_NEEDS_LEVEL)}, and for nothing else"
+            raise ParameterError(Violation("level", self.level, "", bound))
+        if (self.statistic == "crossing") != (self.of is not None):
+            raise ParameterError(Violation("of", self.of, "", "given for crossing, and only there"))
+        if self.to_s is not None and self.to_s <= self.from_s:
+            raise ParameterError(Violation("to_s", self.to_s, "s", f"after {self.from_s:g} s"))
+        if self.unit == DEGREE and not self._own_unit.startswith("rad"):
+            bound = f"left out: {self.channel} is in {self._own_unit or 'no unit'}"
+            raise ParameterError(Violation("unit", self.unit, "", bound))
+        return self
+
+    @property
+    def _own_unit(self) -> str:
+        if self.channel is None:
+            return ""
+        return "s" if self.statistic in _TIMES else CHANNELS[CHANNEL_INDEX[self.channel]].unit
+
+    @property
+    def shown_unit(self) -> str:
+        """The unit of its value; "" for a ratio, unless it has a unit of its own."""
+        if self.per is not None:
+            return "" if self.unit == DEGREE else self.unit
+        unit = self.unit or self._own_unit
+        return "" if unit == "1" else unit
+
+    def read(self, result: Result) -> Measured:
+        """Its value in this run, before it is divided by another."""
+        if self.channel is None:
+            return Measured(_read_configured(result, self.setting))
+        lanes = (result, *result.rivals)
+        if self.lane > len(lanes):
+            return Measured(None, None, f"the run has {len(lanes)} lanes, not {self.lane}")
+        lane = lanes[self.lane - 1]
+        end_s = math.inf if self.to_s is None else self.to_s
+        time, values = lane.time_s, lane[self.channel]
+        rows = (time >= self.from_s - 1e-9) & (time < end_s - 1e-9)
+        if self.to_s is not None and not _reaches(result, self.to_s):
+            return Measured(None, _end(result), _tell_end(result, self.to_s))
+        if not rows.any() or np.isnan(values[rows]).any():
+            return Measured(None, None, "the run has no such samples")
+        value, row = _STATISTICS[self.statistic](self, lane, values[rows], rows)
+        if value is None:
+            return Measured(None, None, "it does not come to that in this run")
+        shown = math.degrees(value) if self.unit == DEGREE else value
+        return Measured(shown, None if row is None else float(time[rows][row]))
+
+
+def _reaches(result: Result, time_s: float) -> bool:
+    period = result.configuration.sampling.period_s
+    return len(result.time_s) > 0 and float(result.time_s[-1]) + 1.5 * period >= time_s
+
+
+def _end(result: Result) -> float | None:
+    return float(result.time_s[-1]) if len(result.time_s) else None
+
+
+def _tell_end(result: Result, wanted_s: float) -> str:
+    if result.fault is not None:
+        return f"the run ended before {wanted_s:g} s: {result.fault.message}"
+    return f"the run ended before {wanted_s:g} s"
+
+
+def _read_configured(result: Result, path: str) -> float:
+    """A setting as it stood at the end of the run."""
+    configuration = result.configuration
+    for command in result.commands:
+        configuration = command.configure(configuration)
+    return read_number(configuration, path)
+
+
+def read_number(configuration: Configuration, path: str) -> float:
+    """The number at a path of the configuration; raises `ParameterError` where there is none."""
+    try:
+        value = read_setting(configuration, path)
+    except ParameterError as error:
+        raise error.within("setting") from None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ParameterError(Violation("setting", path, "", "the path of a number"))
+    return float(value)
+
+
+Taken = tuple[float | None, int | None]
+_Take = Callable[[Measure, Result, np.ndarray, np.ndarray], Taken]
+
+
+def _take_rms(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    return float(np.sqrt(np.mean(values**2))), int(np.argmax(np.abs(values)))
+
+
+def _take_mean(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    return float(np.mean(values)), int(np.argmax(np.abs(values)))
+
+
+def _take_spread(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    mean = float(np.mean(values))
+    return float(np.std(values)), int(np.argmax(np.abs(values - mean)))
+
+
+def _take_peak(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    row = int(np.argmax(np.abs(values)))
+    return float(abs(values[row])), row
+
+
+def _take_max(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    row = int(np.argmax(values))
+    return float(values[row]), row
+
+
+def _take_min(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    row = int(np.argmin(values))
+    return float(values[row]), row
+
+
+def _take_last(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    return float(values[-1]), len(values) - 1
+
+
+def _take_crossing(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
+    """Between the two samples beside the level, on the straight line through them."""
+    assert measure.of is not None and measure.level is not None  # noqa: S101
+    other = lane[measure.of][rows]
+    above = np.flatnonzero((other[1:] >= measure.level) & (other[:-1] < measure.level))
+    if not len(above):
+        return None, None
+    row = int(above[0])
+    share = float((measure.level - other[row]) / (other[row + 1] - other[row]))
+    return float(values[row] + share * (values[row + 1] - values[row])), row + 1
+
+
+def _take_rise(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
+    assert measure.level is not None  # noqa: S101
+    there = np.flatnonzero(values >= measure.level)
+    if not len(there):
+        return None, None
+    return float(lane.time_s[rows][there[0]] - measure.from_s), int(there[0])
+
+
+def _take_recovery(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
+    assert measure.level is not None  # noqa: S101
+    outside = np.flatnonzero(np.abs(values) > measure.level)
+    if not len(outside):
+        return 0.0, 0
+    if outside[-1] == len(values) - 1:
+        return None, None
+    time = lane.time_s[rows]
+    return float(time[outside[-1] + 1] - time[0]), int(outside[-1]) + 1
+
+
+_STATISTICS: dict[Statistic, _Take] = {
+    "mean": _take_mean,
+    "rms": _take_rms,
+    "spread": _take_spread,
+    "peak": _take_peak,
+    "max": _take_max,
+    "min": _take_min,
+    "last": _take_last,
+    "crossing": _take_crossing,
+    "rise": _take_rise,
+    "recovery": _take_recovery,
+}

@@ -1,0 +1,86 @@
+"""An experiment on a bench: what of it there is, and what a bench cannot be asked for."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from svsa.actuators.signals import CHANNEL_NAMES
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked, quantity
+from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PulseLoad
+from svsa.teaching.course.criterion import Criterion
+from svsa.teaching.course.measure import Measure
+
+SET_ON_BENCH = ("law", "position", "stiffness", "loads", "gains", "parameters", "observer")
+"""What of a configuration an experiment sets on a bench, which has all else itself."""
+UNMEASURED = tuple(name for name in CHANNEL_NAMES if name.startswith("disturbance_"))
+_OWN = ("actuator", "nominal", "limits", "sampling", "seed")
+_NOT_FREE = ("rivals", "effects")
+
+
+class OnBench(Checked):
+    """What differs where an experiment is run on a bench; what is left out is as it is simulated.
+
+    by_hand: what whoever stands at the bench does at the times of its loads.
+    """
+
+    loads: tuple[Load, ...] | None = quantity("", "Loads, on the link alone", default=None)
+    by_hand: str = quantity("", "What is done by hand", max_length=300, default="")
+    criteria: tuple[Criterion, ...] | None = quantity("", "Judged", default=None, max_length=20)
+
+
+def check_for_bench(
+    base: Iterable[str],
+    rivals: Sequence[str],
+    free: Sequence[str],
+    loads: Sequence[Load],
+    measures: Sequence[Measure],
+) -> None:
+    """Raise `ParameterError` where an experiment asks for what no bench has, or measures.
+
+    base: the paths that it sets. loads: those on the bench.
+    """
+    for path in base:
+        if path.partition(".")[0] in _OWN:
+            raise _refuse("base", path, f"without {path}: a bench has its own")
+    if rivals:
+        bound = "left out: beside a bench runs its simulated twin, and nothing else"
+        raise _refuse("rivals", list(rivals), bound)
+    for name in free:
+        if name in _NOT_FREE:
+            raise _refuse("free", name, "left out: on a bench it cannot be chosen")
+    for number, load in enumerate(loads):
+        if not _is_hung(load):
+            bound = "a mass or a torque on the link alone, from a time on: it is hung by hand"
+            raise _refuse(f"bench.loads[{number}]", load.kind, bound)
+    for number, measure in enumerate(measures):
+        _check_measure(f"measures[{number}]", measure)
+
+
+def _check_measure(where: str, measure: Measure) -> None:
+    for field, channel in (("channel", measure.channel), ("of", measure.of)):
+        if channel in UNMEASURED:
+            bound = "a channel that a bench has: nobody measures the true disturbance there"
+            raise _refuse(f"{where}.{field}", channel, bound)
+    if measure.lane != 1:
+        bound = "1: beside a bench runs its simulated twin, and nothing else"
+        raise _refuse(f"{where}.lane", measure.lane, bound)
+    part = measure.setting.partition(".")[0].partition("[")[0]
+    if measure.setting and part not in SET_ON_BENCH:
+        bound = f"a setting of {', '.join(SET_ON_BENCH)}: all else is the bench's own"
+        raise _refuse(f"{where}.setting", measure.setting, bound)
+
+
+def _is_hung(load: Load) -> bool:
+    if load.start_s is None:
+        return False
+    match load:
+        case MassLoad():
+            return True
+        case ConstantLoad() | PulseLoad():
+            return load.torque_nm[1:] == (0.0, 0.0)
+    return False
+
+
+def _refuse(name: str, value: Any, bound: str) -> ParameterError:
+    finding = "so that it can be run on a bench"
+    return ParameterError(Violation(name, value, "", f"{bound} ({finding})"))

@@ -1,0 +1,221 @@
+"""How far somebody is in an exercise: kept answers and runs, and what may still be changed.
+
+A prediction is asked for before the run that judges it, and is kept as it was once that run was
+set up; an answer to a question is kept as it was first given, since its feedback tells which is
+right.
+"""
+
+from collections.abc import Sequence
+from glob import escape
+from pathlib import Path
+from threading import Lock
+
+from pydantic import ValidationError
+
+from svsa.errors import StateError
+from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.judge import check_answer
+from svsa.teaching.course.judgement import CriterionResult
+from svsa.teaching.course.kept_law import KeptLaw
+from svsa.teaching.course.steps import Experiment, Explain, HandInStep, Predict
+from svsa.teaching.course.submission import MAX_STEPS, Answer, HandIn, StepName
+
+COURSE_FOLDER = "course"
+HOME = "home"
+HANDED_IN = "handed-in"
+
+
+class StepProgress(Checked):
+    """One step. begun: its run was set up. results: what was last judged of it."""
+
+    answer: Answer | None = None
+    run: str | None = None
+    begun: Flag = False
+    done: Flag = False
+    results: tuple[CriterionResult, ...] = ()
+
+
+class ExerciseProgress(Checked):
+    """One exercise. at: the step that was looked at last. handed_in: when, as ISO 8601.
+
+    law: the one that was tried last, which is what is handed in. changes: how often it was changed,
+    by which the newer of two answers is known.
+    """
+
+    at: StepName | None = None
+    steps: dict[StepName, StepProgress] = quantity("", "By step", default={}, max_length=MAX_STEPS)
+    law: KeptLaw | None = None
+    handed_in: str | None = None
+    points: Number | None = None
+    changes: Whole = 0
+
+    def get(self, step: str) -> StepProgress:
+        """What is known of a step."""
+        return self.steps.get(step, StepProgress())
+
+    def with_step(self, step: str, **changes: object) -> "ExerciseProgress":
+        """With a step changed."""
+        return self.changed(steps={**self.steps, step: self.get(step).changed(**changes)})
+
+    def build_hand_in(self, exercise: str, student: str) -> HandIn:
+        """What is handed in of it."""
+        kept = self.steps.items()
+        answers = {name: one.answer for name, one in kept if one.answer is not None}
+        runs = {name: one.run for name, one in kept if one.run is not None}
+        return HandIn(student=student, exercise=exercise, answers=answers, runs=runs)
+
+
+class PersonProgress(Checked):
+    """All exercises of one person, by name."""
+
+    exercises: dict[StepName, ExerciseProgress] = quantity("", "By name", default={})
+
+    def get(self, exercise: str) -> ExerciseProgress:
+        """What is known of an exercise."""
+        return self.exercises.get(exercise, ExerciseProgress())
+
+
+def visit_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> ExerciseProgress:
+    """The reader is at a step; what is only read before it has been read."""
+    exercise.find_step(step)
+    for one in exercise.steps:
+        if one.name == step:
+            break
+        if one.kind == "read":
+            progress = progress.with_step(one.name, done=True)
+    return progress.changed(at=step)
+
+
+def keep_answer(
+    exercise: Exercise, progress: ExerciseProgress, step: str, answer: Answer
+) -> ExerciseProgress:
+    """With an answer; raises `ParameterError` for what is none, `StateError` where it is late."""
+    found = exercise.find_step(step)
+    check_answer(found, answer)
+    _check_open(progress)
+    if isinstance(found, Predict):
+        judge, _ = exercise.find_judge(found)
+        if progress.get(judge.name).begun:
+            raise StateError(f"The run that judges {step!r} was begun: the prediction stays.")
+    elif progress.get(step).answer is not None:
+        raise StateError(f"{step!r} was answered: the answer stays.")
+    return progress.with_step(step, answer=answer, done=True)
+
+
+def begin_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> ExerciseProgress:
+    """The run of a step is set up; raises `StateError` where a prediction of it is missing."""
+    found = exercise.find_step(step)
+    if not isinstance(found, Experiment):
+        raise StateError(f"Step {step!r} is no experiment: there is nothing to set up.")
+    for one in exercise.steps:
+        if not isinstance(one, Predict) or progress.get(one.name).answer is not None:
+            continue
+        if exercise.find_judge(one)[0].name == step:
+            raise StateError(f"Predict first: {one.asks} (step {one.name!r}) has no answer.")
+    return progress.with_step(step, begun=True)
+
+
+def keep_run(
+    exercise: Exercise,
+    progress: ExerciseProgress,
+    step: str,
+    run: str,
+    results: Sequence[CriterionResult],
+) -> ExerciseProgress:
+    """With a run that was judged; one with fewer points than that before does not take its place.
+
+    results: of the step and of the predictions that it judges, each under its step.
+    """
+    _check_open(progress)
+    before = progress.get(step)
+    own = tuple(one for one in results if one.step == step)
+    if before.run is not None and _sum(own) < _sum(before.results):
+        return progress
+    progress = progress.with_step(step, run=run, results=own, done=True)
+    for name in dict.fromkeys(one.step for one in results if one.step != step):
+        told = tuple(one for one in results if one.step == name)
+        progress = progress.with_step(name, results=told)
+    return progress
+
+
+def keep_law(exercise: Exercise, progress: ExerciseProgress, law: KeptLaw) -> ExerciseProgress:
+    """With a law in place of the one before; raises `StateError` where none belongs to it."""
+    check_takes_law(exercise, progress)
+    return progress.changed(law=law)
+
+
+def check_takes_law(exercise: Exercise, progress: ExerciseProgress) -> None:
+    """Raise `StateError` where no law belongs to the exercise, or it was handed in."""
+    if not exercise.takes_law:
+        raise StateError(f"Exercise {exercise.name!r} asks for no law.")
+    _check_open(progress)
+
+
+def find_done(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
+    """The names of the steps that are done."""
+    return [
+        step.name
+        for step in exercise.steps
+        if progress.get(step.name).done
+        or (isinstance(step, HandInStep) and progress.handed_in is not None)
+    ]
+
+
+def find_missing(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
+    """The names of the steps that are still to be answered or run; of the last, where its law is
+    missing.
+    """
+    done = find_done(exercise, progress)
+    wanted = (Predict, Experiment, Explain)
+    missing = [s.name for s in exercise.steps if isinstance(s, wanted) and s.name not in done]
+    if exercise.takes_law and progress.law is None:
+        missing.append(exercise.steps[-1].name)
+    return missing
+
+
+def _check_open(progress: ExerciseProgress) -> None:
+    if progress.handed_in is not None:
+        raise StateError("The exercise was handed in: nothing of it is changed any more.")
+
+
+def _sum(results: Sequence[CriterionResult]) -> float:
+    return sum(one.points for one in results)
+
+
+class ProgressStore:
+    """Progress of people in a folder, a file each, whole or not at all. Thread-safe.
+
+    Whoever changes progress holds `lock` from reading to writing.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder / COURSE_FOLDER
+        self.lock = Lock()
+
+    def read(self, person: str) -> PersonProgress:
+        """What is kept of a person; nothing where there is none, or it cannot be read."""
+        try:
+            return PersonProgress.model_validate_json(self._find(person).read_bytes())
+        except (OSError, ValidationError):
+            return PersonProgress()
+
+    def write(self, person: str, progress: PersonProgress) -> None:
+        """Keep it; raises `OSError`."""
+        path = self._find(person)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partly = path.with_suffix(".part")
+        partly.write_text(progress.model_dump_json(exclude_defaults=True), encoding="utf-8")
+        partly.replace(path)
+
+    def _find(self, person: str) -> Path:
+        return self.folder / "people" / f"{person or HOME}.json"
+
+    def find_hand_in(self, exercise: str, person: str) -> Path:
+        """Where the hand-in of a person stands."""
+        return self.folder / HANDED_IN / exercise / f"{person or HOME}.json"
+
+    def list_hand_ins(self, person: str | None = None) -> list[Path]:
+        """The files of all that was handed in, or of what this person did."""
+        name = "*" if person is None else escape(person or HOME)
+        return sorted((self.folder / HANDED_IN).glob(f"*/{name}.json"))

@@ -1,0 +1,136 @@
+"""What an experiment sets a session to, and whether a run is the one that was asked for."""
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any, Literal, NamedTuple, Self
+
+from pydantic import model_validator
+
+from svsa.control.installed import PAPERS_LAW, InstalledLaw
+from svsa.evaluation.studies.study import FIGURE, build_base
+from svsa.inputs.checked import Checked, Number, quantity
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop
+from svsa.runs.configuration import MAX_LANES, Configuration, Lane
+from svsa.runs.result.result import Result
+from svsa.teaching.course.on_bench import SET_ON_BENCH, OnBench
+
+LONGEST_S = 60.0
+Free = Literal[
+    "law", "rivals", "gains", "parameters", "observer", "stiffness", "position", "effects"
+]
+_COMPARED = (
+    "law",
+    "rivals",
+    "effects",
+    "position",
+    "stiffness",
+    "loads",
+    "gains",
+    "parameters",
+    "observer",
+    "actuator",
+    "nominal",
+    "limits",
+    "sampling",
+)
+_FIELDS: dict[str, str] = {"laws": "law", "lane": "rivals", "load": "loads", "unload": "loads"}
+"""The field of a configuration that a kind of command changes, where it is called otherwise."""
+
+
+class Difference(NamedTuple):
+    """How a run is not the one that was asked for; time_s: when it became so, or None."""
+
+    message: str
+    time_s: float | None = None
+
+
+class Setup(Checked):
+    """A configuration that a run begins from: a figure and settings in its place, as in studies.
+
+    free: what the student may choose before the run. bench: how it is run on a bench; None for one
+    that is simulated and nothing else.
+    """
+
+    base: dict[str, Any] = quantity("", "Settings of the run", default={FIGURE: "4a"})
+    law: InstalledLaw = quantity("", "Law of lane 1", default=PAPERS_LAW)
+    rivals: tuple[InstalledLaw, ...] = quantity(
+        "", "Laws of the lanes beside", default=(), max_length=MAX_LANES - 1
+    )
+    duration_s: Number = quantity("s", "How long the run is", gt=0, le=LONGEST_S, default=20.0)
+    free: tuple[Free, ...] = quantity("", "What the student may choose", default=())
+    bench: OnBench | None = quantity("", "How it is run on a bench", default=None)
+
+    @model_validator(mode="after")
+    def _check_base(self) -> Self:
+        _ = self.configuration
+        return self
+
+    @cached_property
+    def configuration(self) -> Configuration:
+        """The run that is asked for, with what is free at what it begins from."""
+        rivals = tuple(Lane(law=law) for law in self.rivals)
+        return build_base(self.base, self.law).changed(rivals=rivals)
+
+    @property
+    def bench_configuration(self) -> Configuration:
+        """The run that is asked for on a bench, which has plant, effects and limits of its own."""
+        loads = self.bench.loads if self.bench is not None else None
+        asked = self.configuration
+        return asked if loads is None else asked.changed(loads=loads)
+
+    def find_difference(self, result: Result) -> Difference | None:
+        """How a run is not the one that was asked for, besides what is free; None: it is."""
+        is_bench = result.plant != "simulated"
+        if is_bench and self.bench is None:
+            return Difference("it was recorded on a bench, and this step is simulated")
+        wanted = self.bench_configuration if is_bench else self.configuration
+        begun = _give_first(result.configuration, result.commands)
+        for field in SET_ON_BENCH if is_bench else _COMPARED:
+            if field in self.free:
+                continue
+            asked, had = getattr(wanted, field), getattr(begun, field)
+            if asked != had:
+                return Difference(f"{field} was not as the step sets it ({_tell(asked, had)})", 0.0)
+        return self._find_change(result)
+
+    def _find_change(self, result: Result) -> Difference | None:
+        """What was changed while it ran; a bench that is stopped at the end of its time is not."""
+        for command in result.commands:
+            time_s = command.tick * result.configuration.sampling.period_s
+            if isinstance(command, Stop):
+                if time_s < self.duration_s:
+                    told = f"the bench was stopped at {time_s:.3g} s, before its end"
+                    return Difference(told, time_s)
+            elif command.tick > 0:
+                field = _FIELDS.get(command.kind, command.kind)
+                return Difference(f"{field} was changed at {time_s:.3g} s, during the run", time_s)
+        return None
+
+
+def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Configuration:
+    """With the commands that were given before the first sample."""
+    for command in commands:
+        if command.tick > 0:
+            break
+        configuration = command.configure(configuration)
+        if isinstance(command, ApplyLoad):
+            loads = (*configuration.loads, command.argument)
+            configuration = configuration.changed(loads=loads)
+        elif isinstance(command, RemoveLoad):
+            kept = list(configuration.loads)
+            del kept[command.argument - 1]
+            configuration = configuration.changed(loads=tuple(kept))
+    return configuration
+
+
+def _tell(asked: Any, had: Any) -> str:
+    """The first field that differs, as far as there are fields; else no more than that."""
+    if isinstance(asked, Checked) and isinstance(had, Checked):
+        if type(asked) is not type(had):
+            return "another kind"
+        for name in type(asked).model_fields:
+            if getattr(asked, name) != getattr(had, name):
+                return f"{name} is {getattr(had, name)!r}, asked {getattr(asked, name)!r}"[:200]
+    if isinstance(asked, str):
+        return f"it is {had!r}, asked {asked!r}"
+    return "it differs"

@@ -1,0 +1,162 @@
+"""The steps of an exercise: read, predict, experiment, explain, hand in."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import model_validator
+
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import BY_KIND, Checked, Flag, Number, quantity
+from svsa.teaching.course.criterion import MAX_POINTS, Criterion, Told
+from svsa.teaching.course.measure import Measure, read_number
+from svsa.teaching.course.on_bench import check_for_bench
+from svsa.teaching.course.setup import Setup
+from svsa.teaching.course.submission import StepName
+
+
+class _Step(Checked):
+    """A step: its name, what it is called, and its text in Markdown with equations."""
+
+    name: StepName
+    title: str = quantity("", "What it is called", min_length=1, max_length=120)
+    text: str = quantity("", "Its text, from the body of the file", min_length=1)
+
+
+class Read(_Step):
+    """Text alone."""
+
+    kind: Literal["read"] = "read"
+
+
+class Predict(_Step):
+    """A number that is asked for before the run that judges it.
+
+    judged_by: step and measure of that run, as `fl.steady`. within, half_within: the share of
+    the measured value that the prediction may be off for all, and for half of the points.
+    by_factor: of the larger over the smaller of both instead, so that 9 is an order of magnitude.
+    """
+
+    kind: Literal["predict"] = "predict"
+    asks: str = quantity("", "What is predicted", min_length=1, max_length=200)
+    unit: str = quantity("", "Its unit", max_length=20)
+    low: Number = quantity("", "Least plausible value")
+    high: Number = quantity("", "Greatest plausible value")
+    judged_by: str = quantity(
+        "", "STEP.MEASURE that judges it", pattern=r"^[a-z0-9-]+\.[a-z0-9-]+$"
+    )
+    within: Number = quantity("1", "Share for all points", gt=0, le=1000, default=0.1)
+    half_within: Number = quantity("1", "Share for half of them", gt=0, le=1000, default=0.5)
+    by_factor: Flag = quantity("", "By how many times, not by how much", default=False)
+    points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=2.0)
+    feedback: Told = quantity("", "Why it is so, told with the judgement", default="")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.low < self.high:
+            bound = f"greater than low, {self.low:g}"
+            raise ParameterError(Violation("high", self.high, self.unit, bound))
+        if not self.within <= self.half_within:
+            bound = f"at least within, {self.within:g}"
+            raise ParameterError(Violation("half_within", self.half_within, "", bound))
+        return self
+
+
+class Experiment(_Step, Setup):
+    """A run with a setup, what is measured of it, and what that is judged by."""
+
+    kind: Literal["experiment"] = "experiment"
+    measures: tuple[Measure, ...] = quantity("", "What is measured", min_length=1, max_length=20)
+    criteria: tuple[Criterion, ...] = quantity("", "What is judged", default=(), max_length=20)
+
+    @model_validator(mode="after")
+    def _check_measures(self) -> Self:
+        names = [measure.name for measure in self.measures]
+        for number, measure in enumerate(self.measures):
+            where = f"measures[{number}]"
+            if measure.name in names[:number]:
+                raise ParameterError(Violation(f"{where}.name", measure.name, "", "given once"))
+            if measure.per is not None and measure.per not in names[:number]:
+                bound = "a measure that stands before this one"
+                raise ParameterError(Violation(f"{where}.per", measure.per, "", bound))
+            if measure.lane > len(self.configuration.lanes) and "rivals" not in self.free:
+                bound = f"1 to {len(self.configuration.lanes)}, of the lanes that run"
+                raise ParameterError(Violation(f"{where}.lane", measure.lane, "", bound))
+            if measure.to_s is not None and measure.to_s > self.duration_s:
+                bound = f"at most duration_s, {self.duration_s:g} s"
+                raise ParameterError(Violation(f"{where}.to_s", measure.to_s, "s", bound))
+            if measure.setting:
+                try:
+                    read_number(self.configuration, measure.setting)
+                except ParameterError as error:
+                    raise error.within(where) from None
+        self._check_criteria("criteria", self.criteria)
+        if self.bench is not None:
+            loads = self.bench_configuration.loads
+            check_for_bench(self.base, self.rivals, self.free, loads, self.measures)
+            self._check_bench(self.bench.criteria, bool(loads) and not self.bench.by_hand)
+        return self
+
+    def _check_criteria(self, where: str, criteria: tuple[Criterion, ...]) -> None:
+        names = [measure.name for measure in self.measures]
+        for number, criterion in enumerate(criteria):
+            if criterion.measure not in names:
+                bound = f"one of {', '.join(names)}"
+                name = f"{where}[{number}].measure"
+                raise ParameterError(Violation(name, criterion.measure, "", bound))
+
+    def _check_bench(self, criteria: tuple[Criterion, ...] | None, is_silent: bool) -> None:
+        if is_silent:
+            bound = "what whoever stands at the bench does at the times of its loads"
+            raise ParameterError(Violation("bench.by_hand", "", "", bound))
+        if criteria is None:
+            return
+        self._check_criteria("bench.criteria", criteria)
+        points, wanted = (sum(one.points for one in each) for each in (criteria, self.criteria))
+        if points != wanted:
+            bound = f"with {wanted:g} points in all, as in the simulation"
+            raise ParameterError(Violation("bench.criteria", points, "", bound))
+
+    def list_criteria(self, is_bench: bool) -> tuple[Criterion, ...]:
+        """What a run is judged by, of a bench or a simulated one."""
+        own = self.bench.criteria if is_bench and self.bench is not None else None
+        return self.criteria if own is None else own
+
+    def find_measure(self, name: str) -> Measure | None:
+        """The measure of this name."""
+        return next((one for one in self.measures if one.name == name), None)
+
+
+class Option(Checked):
+    """An answer that can be chosen, and what is told of it."""
+
+    name: StepName
+    text: str = quantity("", "The answer", min_length=1, max_length=500)
+    right: Flag = quantity("", "Whether it is right", default=False)
+    feedback: Told = quantity("", "Told where it was chosen", default="")
+
+
+class Explain(_Step):
+    """A question about what was seen: one of several answers is right."""
+
+    kind: Literal["explain"] = "explain"
+    options: tuple[Option, ...] = quantity("", "The answers", min_length=2, max_length=8)
+    points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=1.0)
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        names = [option.name for option in self.options]
+        if len(set(names)) < len(names):
+            raise ParameterError(Violation("options", names, "", "of different names"))
+        if sum(option.right for option in self.options) != 1:
+            right = [option.name for option in self.options if option.right]
+            raise ParameterError(Violation("options", right, "", "so that exactly one is right"))
+        return self
+
+
+class HandInStep(_Step):
+    """The end: everything is handed in. law: with a Python file of a law."""
+
+    kind: Literal["hand-in"] = "hand-in"
+    law: Flag = quantity("", "Whether a law's file belongs to it", default=False)
+
+
+Step = Annotated[Read | Predict | Experiment | Explain | HandInStep, BY_KIND]

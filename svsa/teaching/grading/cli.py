@@ -1,0 +1,88 @@
+"""`svsa grade`: run again what was handed in, and tell what it is worth."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import Progress
+from rich.table import Table
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.file import find_course_folder, read_course
+from svsa.teaching.grading.grade import Grade
+from svsa.teaching.grading.gradebook import Book
+from svsa.teaching.grading.queue import grade_side_by_side
+from svsa.teaching.grading.report import write_csv, write_page
+
+_messages = Console(stderr=True)
+_File = Annotated[Path | None, typer.Option(help="Write all grades into this file.")]
+
+
+def grade_command(
+    files: Annotated[list[Path], typer.Argument(metavar="HANDIN…", help="Hand-ins (JSON).")],
+    book: Annotated[
+        Path | None, typer.Option("--class", help="The class's folder: its secret, its grades.")
+    ] = None,
+    practice: Annotated[
+        bool,
+        typer.Option("--practice", help="One's own: public draws, no walls, nothing is kept."),
+    ] = False,
+    runs: Annotated[Path | None, typer.Option(help="Folder of the runs; else SVSA_DATA's.")] = None,
+    course: Annotated[
+        Path | None, typer.Option(help="Folder with exercises of one's own; else SVSA_COURSE's.")
+    ] = None,
+    csv: _File = None,
+    page: _File = None,
+) -> None:
+    """Grade hand-ins: runs by exact replay, laws in a process of their own on secret draws.
+
+    What was graded before keeps its grade. --csv and --page tell all grades of the class.
+    """
+    if (book is None) != practice:
+        bound = "given, or else --practice" if book is None else "left out with --practice"
+        raise ParameterError(Violation("--class", book and str(book), "", bound))
+    exercises = {one.name: one for one in read_course(course or find_course_folder())}
+    kept = None if book is None else Book(book)
+    found, refused = _grade_all(files, exercises, runs, kept)
+    told = found if kept is None else kept.list()
+    for path, write in ((csv, write_csv), (page, write_page)):
+        if path is not None:
+            path.write_text(write(told), encoding="utf-8")
+    Console().print(_build_table(found))
+    for line in refused:
+        _messages.print(f"[bold red]Refused:[/] {escape(line)}", highlight=False)
+    if refused:
+        raise typer.Exit(1)
+
+
+def _grade_all(
+    files: Sequence[Path], exercises: dict[str, Exercise], runs: Path | None, book: Book | None
+) -> tuple[list[Grade], list[str]]:
+    """The grades in the order of the files, and why others got none."""
+    workers = min(len(files), os.cpu_count() or 1)
+    found, refused = dict[Path, Grade](), list[str]()
+    with Progress(console=_messages, transient=True) as bar:
+        task = bar.add_task("Grading", total=len(files))
+        for path, take in grade_side_by_side(files, exercises, runs, book, workers):
+            try:
+                found[path] = take()
+            except SvsaError as error:
+                refused.append(f"{path.name}: {error}")
+            bar.advance(task)
+    return [found[path] for path in files if path in found], sorted(refused)
+
+
+def _build_table(grades: Sequence[Grade]) -> Table:
+    table = Table("student", "exercise", "points", "of", title="Grades", title_justify="left")
+    for one in grades:
+        table.add_row(
+            escape(one.student), escape(one.exercise), f"{one.points:.2f}", f"{one.max_points:g}"
+        )
+    if any(not one.is_isolated for one in grades):
+        table.caption = "Practice: the law was not isolated; no grade of a class."
+    return table

@@ -1,0 +1,128 @@
+"""A grade: points by criterion, from what was handed in and nothing else."""
+
+from pathlib import Path
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.ranking.seeds import SUITE_VERSION, derive_seed
+from svsa.hardware.session.replay import verify_bench_record
+from svsa.inputs.checked import Checked, Flag, Number, quantity
+from svsa.inputs.release import __version__
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.records.header import RecordError
+from svsa.runs.records.resimulation import compare_with_simulation
+from svsa.runs.result.recorded import open_run
+from svsa.runs.result.result import Result
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.judge import judge_hand_in
+from svsa.teaching.course.judgement import CriterionResult
+from svsa.teaching.course.steps import HandInStep
+from svsa.teaching.grading.law_runs import judge_law, run_draws
+from svsa.teaching.grading.submission import Submission
+from svsa.teaching.isolation.confinement import confine, leave_open
+from svsa.teaching.isolation.probe import check_isolation
+
+
+class Criterion(Checked):
+    """One criterion of a grade, as `CriterionResult`."""
+
+    step: str = quantity("", "Step that it belongs to")
+    name: str = quantity("", "What is asked")
+    points: Number = quantity("", "Points", ge=0)
+    max_points: Number = quantity("", "Points that there are", ge=0)
+    feedback: str = quantity("", "What differs, or that it is right")
+
+
+class VerifiedRun(Checked):
+    """A run that was handed in, and what was found when it was run again."""
+
+    run_id: str = quantity("", "Id of the run")
+    told: str = quantity("", "What was verified of it")
+
+
+class Grade(Checked):
+    """What a submission is worth, and what it was graded with.
+
+    submission: digest of everything that was handed in. seed: of the draws that its law went
+    through, in hexadecimal, None without a law. is_isolated: false for a law that ran without
+    walls, which is no grade for a class.
+    """
+
+    student: str = quantity("", "Who handed it in")
+    exercise: str = quantity("", "Name of the exercise")
+    submission: str = quantity("", "SHA-256 of what was handed in")
+    points: Number = quantity("", "Points in all", ge=0)
+    max_points: Number = quantity("", "Points that there are", gt=0)
+    criteria: tuple[Criterion, ...] = quantity("", "Points by criterion")
+    runs: tuple[VerifiedRun, ...] = quantity("", "Runs, and what was verified", default=())
+    seed: str | None = quantity("", "Seed of the draws", default=None)
+    is_isolated: Flag = quantity("", "Whether its law had nothing but its task", default=True)
+    version: str = quantity("", "Version of the lab", default=__version__)
+
+
+def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
+    """A recorded run that follows from itself, bit for bit; raises `RecordError` for another.
+
+    A simulated one is simulated again. Of a bench's all is worked out again but what it measured
+    and sent, and what it sent is held against its law.
+    """
+    record = catalogue.open(run_id)
+    if record.header.plant != "simulated":
+        return VerifiedRun(run_id=run_id, told=verify_bench_record(record).told)
+    found = compare_with_simulation(record)
+    if not found.identical:
+        tick, channel = found.first_difference or (found.ticks, "")
+        raise RecordError(
+            f"Run {run_id} does not replay: simulated again, {channel} differs at tick {tick}."
+        )
+    told = f"Simulated again: its {found.ticks} samples are the same, bit for bit."
+    return VerifiedRun(run_id=run_id, told=told)
+
+
+def grade(
+    submission: Submission, exercise: Exercise, runs: Path | None, secret: bytes | None
+) -> Grade:
+    """The grade of a submission. runs: folder of the runs, None for this machine's.
+
+    secret: the class's, from which and from the law's text come its draws, so that one law is
+    worth the same whoever hands it in; None for practice: public draws, and the law runs without
+    walls, as one's own. Raises `ParameterError` for a hand-in that does not fit the exercise,
+    `NotIsolatedError` for a law where the machine cannot hold one.
+    """
+    hand_in, law = submission
+    catalogue, verified = Catalogue(runs), list[VerifiedRun]()
+
+    def open_verified(run_id: str) -> Result:
+        verified.append(verify_run(catalogue, run_id))
+        return open_run(catalogue.find_folder(run_id))
+
+    judged = judge_hand_in(exercise, hand_in, open_verified)
+    criteria, seed = list[CriterionResult](judged.criteria), None
+    end = exercise.steps[-1]
+    wants_law = isinstance(end, HandInStep) and end.law
+    if law is not None and not wants_law:
+        bound = f"left out: {exercise.name} asks for no law"
+        raise ParameterError(Violation("law_file", hand_in.law_file, "", bound))
+    if wants_law and law is None:
+        criteria += judge_law([])
+    if law is not None:
+        if secret is not None:
+            check_isolation()
+        seed = derive_seed(secret or b"practice", f"{SUITE_VERSION} {submission.law_digest}")
+        criteria += judge_law(run_draws(law, seed, confine if secret else leave_open))
+    return Grade(
+        student=hand_in.student,
+        exercise=exercise.name,
+        submission=submission.digest,
+        points=sum(one.points for one in criteria),
+        max_points=sum(one.max_points for one in criteria),
+        criteria=tuple(
+            Criterion(
+                step=one.step, name=one.name, points=one.points, max_points=one.max_points,
+                feedback=one.feedback,
+            )
+            for one in criteria
+        ),
+        runs=tuple(verified),
+        seed=None if seed is None else f"{seed:016x}",
+        is_isolated=law is None or secret is not None,
+    )  # fmt: skip

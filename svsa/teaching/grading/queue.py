@@ -1,0 +1,93 @@
+"""Hand-ins graded side by side, in as many processes as there are cores."""
+
+import os
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
+from itertools import islice
+from pathlib import Path
+
+from svsa.errors import ParameterError, StateError, Violation
+from svsa.evaluation.workers import start_workers
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.grading.grade import Grade, grade
+from svsa.teaching.grading.gradebook import Book
+from svsa.teaching.grading.submission import Submission
+
+_WAITING_EACH = 2
+
+
+class GraderLostError(StateError):
+    """A process that graded is gone, and nothing is known of what it had."""
+
+    def __init__(self) -> None:
+        super().__init__("A grader's process was ended from outside: grade what is left again.")
+
+
+def grade_file(
+    path: Path,
+    exercises: dict[str, Exercise],
+    runs: Path | None,
+    book: Book | None,
+    again: bool = False,
+) -> Grade:
+    """The grade of a hand-in's file, kept in the book; the one that it has there, if any.
+
+    again: run it again, though it has one. Same submission, same draws, same grade.
+    """
+    submission = Submission.read(path)
+    before = book.find(submission.digest) if book and not again else None
+    if before is not None:
+        return before
+    name = submission.hand_in.exercise
+    if name not in exercises:
+        bound = f"one of {', '.join(exercises)}"
+        raise ParameterError(Violation("exercise", name, "", bound), file=str(path))
+    given = grade(submission, exercises[name], runs, book.secret if book else None)
+    if book is not None:
+        book.keep(given)
+    return given
+
+
+def grade_side_by_side(
+    files: Iterable[Path],
+    exercises: dict[str, Exercise],
+    runs: Path | None,
+    book: Book | None,
+    workers: int | None = None,
+    again: bool = False,
+) -> Generator[tuple[Path, Callable[[], Grade]], None, None]:
+    """Each file, as it is done, with what gives its grade or raises why there is none.
+
+    files: taken one by one, as there is room. workers: processes of low priority; one works in
+    this one, when its grade is asked for. Closed early, those that are worked at are waited for.
+    """
+    workers = workers or os.cpu_count() or 1
+    waiting = iter(files)
+    if workers == 1:
+        for path in waiting:
+            yield path, partial(grade_file, path, exercises, runs, book, again)
+        return
+    with start_workers(workers) as pool:
+        asked = dict[Future[Grade], Path]()
+        try:
+            while True:
+                room = _WAITING_EACH * workers - len(asked)
+                for path in islice(waiting, room):
+                    asked[pool.submit(grade_file, path, exercises, runs, book, again)] = path
+                if not asked:
+                    return
+                for answer in wait(asked, return_when=FIRST_COMPLETED).done:
+                    yield asked.pop(answer), partial(_take, answer)
+        except BrokenProcessPool:
+            raise GraderLostError from None
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _take(answer: Future[Grade]) -> Grade:
+    try:
+        return answer.result()
+    except BrokenProcessPool:
+        raise GraderLostError from None

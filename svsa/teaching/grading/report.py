@@ -1,0 +1,110 @@
+"""Grades as a page and as CSV: a class at a glance, and for each student what differs."""
+
+import csv
+import io
+from collections.abc import Sequence
+from html import escape
+from statistics import mean, median
+
+from svsa.teaching.grading.grade import Grade
+
+_STYLE = """
+:root { color-scheme: light dark; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
+h2 { margin-top: 2.5rem; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; }
+th, td { text-align: left; padding: .3rem .8rem .3rem 0; vertical-align: top;
+  border-bottom: 1px solid color-mix(in srgb, currentColor 25%, transparent); }
+td.number, th.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
+small { overflow-wrap: anywhere; }
+"""
+HEADINGS = ("student", "exercise", "points", "max_points", "submission", "seed", "version")
+
+
+def write_csv(grades: Sequence[Grade]) -> str:
+    """A line a grade, then a column for each criterion of an exercise, with its points."""
+    names = dict.fromkeys(_name(grade, at) for grade in grades for at in range(len(grade.criteria)))
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow([*HEADINGS, *names])
+    for grade in grades:
+        points = {_name(grade, at): f"{one.points:g}" for at, one in enumerate(grade.criteria)}
+        row = (
+            *(_guard(word) for word in (grade.student, grade.exercise)),
+            f"{grade.points:g}", f"{grade.max_points:g}", grade.submission, grade.seed or "",
+            grade.version,
+        )  # fmt: skip
+        table.writerow([*row, *(points.get(name, "") for name in names)])
+    return text.getvalue()
+
+
+def write_page(grades: Sequence[Grade]) -> str:
+    """A page by itself: the class's table, then each student's criteria with what was told."""
+    parts = ["<h1>Grades</h1>", _write_summary(grades), _write_table(grades)]
+    parts += [_write_grade(grade, f"grade-{at}") for at, grade in enumerate(grades)]
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>Grades</title><style>{_STYLE}</style></head><body><main>\n"
+        + "\n".join(parts)
+        + "\n</main></body></html>\n"
+    )
+
+
+def _name(grade: Grade, at: int) -> str:
+    one = grade.criteria[at]
+    return f"{grade.exercise} / {one.step} / {one.name}"
+
+
+def _guard(word: str) -> str:
+    """A word that a spreadsheet takes for no formula."""
+    return f"'{word}" if word.startswith(("=", "+", "-", "@", "\t", "\r")) else word
+
+
+def _write_summary(grades: Sequence[Grade]) -> str:
+    lines = []
+    for exercise in dict.fromkeys(grade.exercise for grade in grades):
+        shares = [one.points / one.max_points for one in grades if one.exercise == exercise]
+        count = "1 submission" if len(shares) == 1 else f"{len(shares)} submissions"
+        told = f"mean {mean(shares):.0%}, median {median(shares):.0%}"
+        lines.append(f"<li>{escape(exercise)}: {count}, {told}</li>")
+    return f"<ul>{''.join(lines)}</ul>"
+
+
+def _write_table(grades: Sequence[Grade]) -> str:
+    rows = "".join(
+        f'<tr><td><a href="#grade-{at}">{escape(one.student)}</a></td>'
+        f"<td>{escape(one.exercise)}</td>{_write_points(one.points, one.max_points)}</tr>"
+        for at, one in enumerate(grades)
+    )
+    return _write_rows('<th>Student</th><th>Exercise</th><th class="number">Points</th>', rows)
+
+
+def _write_grade(grade: Grade, anchor: str) -> str:
+    rows = "".join(
+        f"<tr><td>{escape(one.step)}</td><td>{escape(one.name)}</td>"
+        f"{_write_points(one.points, one.max_points)}<td>{escape(one.feedback)}</td></tr>"
+        for one in grade.criteria
+    )
+    seed = f"; draws of seed {grade.seed}" if grade.seed else ""
+    walls = "" if grade.is_isolated else "; practice: its law was not isolated"
+    head = f"{escape(grade.student)}: {escape(grade.exercise)}"
+    runs = "".join(
+        f"<p><small>Run {escape(one.run_id)}. {escape(one.told)}</small></p>" for one in grade.runs
+    )
+    heads = '<th>Step</th><th>Asked</th><th class="number">Points</th><th>Told</th>'
+    return (
+        f'<h2 id="{anchor}">{head}</h2>\n{_write_rows(heads, rows)}{runs}'
+        f"<p><small>Submission {grade.submission}{seed}; svsa {escape(grade.version)}{walls}."
+        "</small></p>"
+    )
+
+
+def _write_points(points: float, most: float) -> str:
+    return f'<td class="number">{points:.2f} of {most:g}</td>'
+
+
+def _write_rows(heads: str, rows: str) -> str:
+    table = f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>"
+    return f'<div class="wide" role="region" aria-label="Table" tabindex="0">{table}</div>'

@@ -1,0 +1,65 @@
+"""A submission: a hand-in with its law's text, and one number for all of it."""
+
+import hashlib
+from pathlib import Path
+from typing import NamedTuple, Self
+
+from svsa.errors import ParameterError, Violation
+from svsa.teaching.course.kept_law import MAX_LAW_BYTES
+from svsa.teaching.course.submission import HandIn, read_hand_in
+
+
+class Submission(NamedTuple):
+    """What was handed in. law: text of the law's file, None where none belongs to it."""
+
+    hand_in: HandIn
+    law: bytes | None
+
+    @classmethod
+    def read(cls, path: Path) -> Self:
+        """The submission of a hand-in's file; its law stands in the same folder.
+
+        Raises `ParameterError`.
+        """
+        hand_in = read_hand_in(path)
+        if hand_in.law_file is None:
+            return cls(hand_in, None)
+        try:
+            return cls(hand_in, read_law(path.parent, hand_in.law_file))
+        except ParameterError as error:
+            raise ParameterError(*error.violations, file=str(path)) from None
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of everything that was handed in, in hexadecimal."""
+        told = self.hand_in.model_dump_json(exclude={"law_file"}).encode()
+        law = b"" if self.law is None else hashlib.sha256(self.law).digest()
+        return hashlib.sha256(hashlib.sha256(told).digest() + law).hexdigest()
+
+    @property
+    def law_digest(self) -> str:
+        """SHA-256 of the law's text, in hexadecimal: of none, that of an empty one."""
+        return hashlib.sha256(self.law or b"").hexdigest()
+
+
+def read_law(folder: Path, name: str) -> bytes:
+    """The text of a law's file in a folder, which it cannot leave; raises `ParameterError`."""
+    path = (folder / name).resolve()
+    if not path.is_relative_to(folder.resolve()):
+        raise ParameterError(Violation("law_file", name, "", "a file beside the hand-in"))
+    return read_law_file(path)
+
+
+def read_law_file(path: Path) -> bytes:
+    """The text of a law's file; raises `ParameterError`."""
+    try:
+        with path.open("rb") as file:
+            text = file.read(MAX_LAW_BYTES + 1)
+    except OSError as error:
+        bound = f"a file that can be read ({error.strerror})"
+        raise ParameterError(Violation("law_file", path, "", bound)) from None
+    if len(text) > MAX_LAW_BYTES:
+        raise ParameterError(
+            Violation("law_file", path, "", f"a file of at most {MAX_LAW_BYTES} bytes")
+        )
+    return text

@@ -1,0 +1,170 @@
+"""The law's side: started anew in an empty world, it has the law and the two ends of a pipe.
+
+    python -I -S -B child.py LAW FILTER ANSWERS MEMORY_BYTES CPU_S OUTPUT_BYTES
+
+LAW: the law's file. FILTER: the compiled filter of system calls, or "-" for none. ANSWERS: number
+of the pipe that answers go to; what is asked comes on standard input. The law is read only when
+every limit stands. Imports nothing of the lab but `frames`, `plain_law` and what a law may use.
+"""
+
+import ctypes
+import math
+import os
+import resource
+import sys
+import traceback
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+NICENESS = 10
+"""No lower than its grader's in a job: where much else runs it would be late without its fault."""
+_PR_SET_NO_NEW_PRIVS, _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER = 38, 22, 2
+_INSTRUCTION_BYTES = 8
+
+
+class _Program(ctypes.Structure):
+    _fields_ = (("length", ctypes.c_ushort), ("filter", ctypes.c_void_p))
+
+
+def limit(memory_bytes: int, cpu_s: int, output_bytes: int) -> None:
+    """Bound memory, processor time and the length of files, for good; leave no core."""
+    os.nice(max(0, NICENESS - os.nice(0)))
+    for kind, bound in (
+        (resource.RLIMIT_AS, memory_bytes),
+        (resource.RLIMIT_CPU, cpu_s),
+        (resource.RLIMIT_FSIZE, output_bytes),
+        (resource.RLIMIT_CORE, 0),
+        (resource.RLIMIT_NOFILE, 32),
+        (resource.RLIMIT_MEMLOCK, 0),
+        (resource.RLIMIT_MSGQUEUE, 0),
+    ):
+        resource.setrlimit(kind, (bound, bound))
+
+
+def filter_calls(program: bytes) -> None:
+    """Have the kernel refuse every system call that this program does not let through."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    code = ctypes.create_string_buffer(program, len(program))
+    length = len(program) // _INSTRUCTION_BYTES
+    packed = _Program(length, ctypes.cast(code, ctypes.c_void_p))
+    for call in (
+        (_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0),
+        (_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(packed), 0, 0),
+    ):
+        if libc.prctl(*call) != 0:
+            raise OSError(ctypes.get_errno(), "the filter of system calls was not taken")
+
+
+def offer_equations() -> None:
+    """Make `svsa.actuators` importable as plain Python: define here what is compiled elsewhere."""
+    words: dict[str, dict[str, Any]] = {
+        "numerics.compilation": {"compiled": lambda function: function},
+        "numerics.fused": {"fma": lambda a, b, c: a * b + c},
+        "numerics.simd.choice": {
+            "choose": lambda condition, a, b: a if condition else b,
+            "least": lambda a, b: b if b < a else a,
+            "greatest": lambda a, b: b if b > a else a,
+            "some": lambda condition: condition,
+        },
+        "numerics.simd.power": {
+            "raise_two": lambda exponent: math.ldexp(1.0, int(exponent)),
+            "take_fraction": lambda number: math.frexp(number)[0],
+            "take_exponent": lambda number: float(math.frexp(number)[1]),
+        },
+        "numerics.simd.rounding": {
+            "floor": lambda x: float(math.floor(x)) if math.isfinite(x) else x,
+        },
+        "actuators.parameters": {"ActuatorParameters": object, "Limits": object},
+    }
+    for name, given in words.items():
+        module = ModuleType(f"svsa.{name}")
+        vars(module).update(given)
+        sys.modules[module.__name__] = module
+
+
+def load_law(text: str, constants: tuple[float, ...]) -> Any:
+    """The law that a file defines: `law`, or what `build` makes of the nominal model."""
+    from svsa.actuators.dynamics import Actuator
+
+    names: dict[str, Any] = {"__name__": "law"}
+    exec(compile(text, "law.py", "exec"), names)  # noqa: S102  the law, behind every limit
+    if "build" in names:
+        model = Actuator._make(constants[: len(Actuator._fields)])
+        return names["build"](model._replace(reaction=int(model.reaction)))
+    if callable(names.get("law")):
+        return names["law"]
+    raise TypeError("law.py must define law(time_s, reference, x, w), or build(model) → law")
+
+
+def read_torque(answer: Any) -> tuple[float, float]:
+    """(u1, u2) of a law's answer, N·m; raises `TypeError` for what is not two numbers."""
+    try:
+        u1, u2 = answer
+        return float(u1), float(u2)
+    except (TypeError, ValueError):
+        told = f"law must return two torques (u1, u2) in N·m, not {answer!r:.60}"
+        raise TypeError(told) from None
+
+
+def read(length: int) -> bytes:
+    """So many bytes of what is asked; fewer at its end."""
+    got = b""
+    while len(got) < length and (more := os.read(0, length - len(got))):
+        got += more
+    return got
+
+
+def print_in_law(error: BaseException) -> None:
+    """The error with its place in the law's file, and without the frames here that lead there."""
+    frame = error.__traceback__
+    while frame is not None and frame.tb_frame.f_code.co_filename == __file__:
+        frame = frame.tb_next
+    traceback.print_exception(type(error), error, frame)
+    sys.stderr.flush()
+
+
+def serve(path: Path, answers: int) -> None:
+    """Load the law, then answer every question with its torque, until there are no more."""
+    from frames import ANSWER, ASK, FAILED, READY, TICK, TORQUE
+    from plain_law import find_named  # pyright: ignore[reportMissingImports]
+
+    from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
+
+    _, number, *given = ASK.unpack(read(ASK.size))
+    try:
+        law = load_law(path.read_text("utf-8"), tuple(given))
+        named = find_named(law)
+        os.write(answers, ANSWER.pack(READY, number, 0.0, 0.0))
+        while len(asked := read(ASK.size)) == ASK.size:
+            kind, number, *given = ASK.unpack(asked)
+            if kind != TICK:
+                break
+            always = Reference(*given[1:9]), State(*given[9:15]), Disturbance(*given[15:18])
+            told = {"applied": Torque(*given[18:20]), "measured": Positions(*given[20:23])}
+            answer = law(given[0], *always, **{name: told[name] for name in named})
+            os.write(answers, ANSWER.pack(TORQUE, number, *read_torque(answer)))
+    except BaseException as error:
+        print_in_law(error)
+        os.write(answers, ANSWER.pack(FAILED, number, 0.0, 0.0))
+        os._exit(1)
+
+
+def main(law: str, program: str, answers: str, *bounds: str) -> None:
+    """Take the limits, then serve."""
+    here = Path(__file__).parent
+    sys.path[:0] = [str(here), str(here / "packages")]
+    offer_equations()
+    import frames  # noqa: F401
+    import plain_law  # noqa: F401  # pyright: ignore[reportMissingImports]
+
+    import svsa.actuators.dynamics  # noqa: F401
+
+    compiled = b"" if program == "-" else Path(program).read_bytes()
+    limit(*map(int, bounds))
+    if compiled:
+        filter_calls(compiled)
+    serve(Path(law), int(answers))
+
+
+main(*sys.argv[1:])

@@ -1,0 +1,148 @@
+"""Where a law runs: namespaces that bubblewrap makes, which hold an interpreter and nothing else.
+
+Users, processes, mounts, network, IPC, host name and control groups are its own. Mounted
+read-only are the interpreter with its library, the system's shared libraries, numpy, the model's
+equations and the law. It can write in one empty folder of a megabyte. No /proc, no /dev, no
+environment.
+"""
+
+import shutil
+import sys
+import sysconfig
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.teaching.isolation.refusal import NotIsolatedError
+from svsa.teaching.isolation.system_calls import compile_filter
+
+FOLDER_BYTES = 1 << 20
+_HERE = Path(__file__).parent
+_LIBRARY = _HERE.parents[1]
+_CHILD = (_HERE / "child.py", _HERE / "frames.py", _LIBRARY / "control" / "plain_law.py")
+_EQUATIONS = ("actuators", "numerics/trigonometry.py", "numerics/exponential.py")
+_SYSTEM_LIBRARIES = ("/lib", "/lib32", "/lib64", "/usr/lib", "/usr/lib64")
+_OTHERS_PACKAGES = ("site-packages", "dist-packages")
+
+
+class Bounds(NamedTuple):
+    """What a law may use. answer_s, whole_s: of the clock, for an answer and for all of a run.
+
+    start_s: until it is loaded. cpu_s: of the processor, whole seconds. output_bytes: of what it
+    prints, and of any file.
+    """
+
+    memory_bytes: int = 1 << 30
+    cpu_s: int = 60
+    output_bytes: int = 1 << 16
+    start_s: float = 20.0
+    answer_s: float = 2.0
+    whole_s: float = 120.0
+
+
+BOUNDS = Bounds()
+
+
+class Command(NamedTuple):
+    """How the law's side is started, and in which folder."""
+
+    words: Sequence[str]
+    folder: str = "/"
+
+
+def check_tools() -> str:
+    """The path of bwrap; raises `NotIsolatedError` where something is missing."""
+    if sys.platform != "linux":
+        raise NotIsolatedError(f"it runs {sys.platform}")
+    found = shutil.which("bwrap")
+    if found is None:
+        raise NotIsolatedError("bwrap is not installed")
+    compile_filter()
+    return found
+
+
+@contextmanager
+def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
+    """The command for a law behind every wall; its files are there until this is closed.
+
+    Raises `NotIsolatedError`.
+    """
+    bwrap = check_tools()
+    with ExitStack() as opened:
+        folder = opened.enter_context(TemporaryDirectory(prefix="svsa-law-"))
+        given = {"/lab/law.py": source, "/lab/filter": compile_filter()}
+        mounts: list[str] = []
+        for target, text in given.items():
+            path = Path(folder) / Path(target).name
+            path.write_bytes(text)
+            mounts += ["--ro-bind", str(path), target]
+        for path in _CHILD:
+            mounts += ["--ro-bind", str(path), f"/lab/{path.name}"]
+        for name in _EQUATIONS:
+            mounts += ["--ro-bind", str(_LIBRARY / name), f"/lab/svsa/{name}"]
+        for path in _list_packages():
+            mounts += ["--ro-bind", str(path), f"/lab/packages/{path.name}"]
+        words = (
+            bwrap, "--unshare-all", "--unshare-user", "--disable-userns", "--die-with-parent",
+            "--new-session", "--clearenv", "--hostname", "lab", "--cap-drop", "ALL",
+            *_mount_interpreter(), *mounts,
+            "--size", str(FOLDER_BYTES), "--tmpfs", "/work", "--chdir", "/work",
+            "--remount-ro", "/",
+            "--setenv", "OPENBLAS_NUM_THREADS", "1", "--setenv", "PYTHONHASHSEED", "0",
+            *_start_child("/lab", "/lab/filter", answers, bounds),
+        )  # fmt: skip
+        yield Command(words)
+
+
+@contextmanager
+def leave_open(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
+    """The command for a law with limits of memory and time only: for one's own, at home."""
+    with TemporaryDirectory(prefix="svsa-law-") as folder:
+        here = Path(folder)
+        (here / "law.py").write_bytes(source)
+        for path in _CHILD:
+            shutil.copy(path, here)
+        (here / "svsa" / "numerics").mkdir(parents=True)
+        for name in _EQUATIONS:
+            (here / "svsa" / name).symlink_to(_LIBRARY / name)
+        (here / "packages").mkdir()
+        for path in _list_packages():
+            (here / "packages" / path.name).symlink_to(path)
+        (here / "work").mkdir()
+        yield Command(_start_child(folder, "-", answers, bounds), str(here / "work"))
+
+
+def _start_child(folder: str, program: str, answers: int, bounds: Bounds) -> list[str]:
+    numbers = (answers, bounds.memory_bytes, bounds.cpu_s, bounds.output_bytes)
+    interpreter = [str(_find_interpreter()), "-I", "-S", "-B", f"{folder}/child.py"]
+    return [*interpreter, f"{folder}/law.py", program, *map(str, numbers)]
+
+
+def _find_interpreter() -> Path:
+    """The interpreter itself, not the environment that this one runs in."""
+    return Path(getattr(sys, "_base_executable", None) or sys.executable).resolve()
+
+
+def _mount_interpreter() -> list[str]:
+    """Interpreter, its library and the system's, without the packages of others."""
+    library = Path(sys.base_prefix) / "lib"
+    standard = Path(sysconfig.get_path("stdlib"))
+    paths = dict.fromkeys((*_SYSTEM_LIBRARIES, str(library), str(standard)))
+    mounts = [word for path in paths for word in ("--ro-bind-try", path, path)]
+    mounts += ["--ro-bind", str(_find_interpreter()), str(_find_interpreter())]
+    for parent in dict.fromkeys((standard, library, Path("/usr/lib/python3"))):
+        for name in _OTHERS_PACKAGES:
+            if (parent / name).is_dir():
+                mounts += ["--tmpfs", str(parent / name), "--remount-ro", str(parent / name)]
+    return mounts
+
+
+def _list_packages() -> list[Path]:
+    """The folders of numpy and of the libraries that come with it."""
+    numpy = Path(np.__file__).parent
+    libraries = numpy.with_name("numpy.libs")
+    return [numpy, libraries] if libraries.is_dir() else [numpy]

@@ -1,0 +1,170 @@
+"""The lab's side of a law in a process of its own: asked once a tick, answered in time or not."""
+
+import os
+import select
+import signal
+import subprocess
+import tempfile
+from collections.abc import Callable
+from contextlib import AbstractContextManager, ExitStack
+from time import monotonic, perf_counter
+from types import TracebackType
+from typing import Self
+
+from svsa.actuators.dynamics import Actuator
+from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
+from svsa.teaching.isolation.confinement import BOUNDS, Bounds, Command, confine
+from svsa.teaching.isolation.frames import ANSWER, ASK, BEGIN, DOUBLES, FAILED, READY, TICK, TORQUE
+from svsa.teaching.isolation.refusal import LawFaultCode, LawFaultError
+
+SHOWN_BYTES = 2000
+_NUMBERS = 512
+_NO_MORE_S = 2.0
+_SIGNAL_BASE = 128
+
+Place = Callable[[bytes, int, Bounds], AbstractContextManager[Command]]
+
+
+class LawProcess:
+    """A law, from its source, as a `Controller` of `svsa.simulate`; one process a run.
+
+    model: nominal, `Actuator`, which `build` of the law is given. place: `confine`, or
+    `leave_open` for a law that is trusted. Raises `LawFaultError` where the law fails at its part,
+    `NotIsolatedError` where it cannot be confined. `cost_s` is the time that each answer took, s,
+    the way there and back included; `torques` are the answers, (u1, u2), N·m.
+    """
+
+    def __init__(
+        self, source: bytes, model: Actuator, bounds: Bounds = BOUNDS, place: Place = confine
+    ) -> None:
+        self._bounds = bounds
+        self._numbers = b""
+        self._got = b""
+        self.cost_s: list[float] = []
+        self.torques: list[tuple[float, float]] = []
+        with ExitStack() as opened:
+            self._output = opened.enter_context(tempfile.TemporaryFile())
+            asked, self._asking = os.pipe()
+            opened.callback(os.close, self._asking)
+            self._answers, answering = os.pipe()
+            opened.callback(os.close, self._answers)
+            try:
+                command = opened.enter_context(place(source, answering, bounds))
+                self._process = subprocess.Popen(  # noqa: S603  words of our own, no shell
+                    command.words, stdin=asked, stdout=self._output, stderr=self._output,
+                    pass_fds=(answering,), cwd=command.folder, env={}, start_new_session=True,
+                )  # fmt: skip
+                opened.callback(self._end)
+            finally:
+                os.close(asked)
+                os.close(answering)
+            os.set_blocking(self._asking, False)
+            os.set_blocking(self._answers, False)
+            self._poll = select.poll()
+            self._poll.register(self._answers, select.POLLIN)
+            self._end_s = monotonic() + bounds.whole_s
+            constants = tuple(map(float, model))
+            self._ask(BEGIN, (*constants, *[0.0] * (DOUBLES - len(constants))), READY,
+                      bounds.start_s)  # fmt: skip
+            self._opened = opened.pop_all()
+
+    def __call__(
+        self,
+        time_s: float,
+        reference: Reference,
+        x: State,
+        w: Disturbance,
+        applied: Torque,
+        measured: Positions,
+    ) -> tuple[float, float]:
+        """The law's torque, N·m."""
+        begin = perf_counter()
+        told = (time_s, *reference, *x, *w, *applied, *measured)
+        torque = self._ask(TICK, told, TORQUE, self._bounds.answer_s)
+        self.cost_s.append(perf_counter() - begin)
+        self.torques.append(torque)
+        return torque
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the process and whatever it began."""
+        self._opened.close()
+
+    def _ask(
+        self, kind: int, values: tuple[float, ...], expected: int, wait_s: float
+    ) -> tuple[float, float]:
+        number = self._draw_number()
+        try:
+            os.write(self._asking, ASK.pack(kind, int.from_bytes(number, "little"), *values))
+        except BrokenPipeError:
+            raise self._tell_end() from None
+        except BlockingIOError:
+            raise self._fail("late", "The law does not read what it is asked.") from None
+        answered, told, u1, u2 = ANSWER.unpack(self._read_answer(wait_s))
+        if told != int.from_bytes(number, "little"):
+            raise self._fail("early", "The law answered what it was not asked.")
+        if answered == FAILED:
+            raise self._fail("error", "The law raised an error.")
+        if answered != expected:
+            raise self._fail("garbled", f"The law wrote a frame of kind {answered}.")
+        return u1, u2
+
+    def _read_answer(self, wait_s: float) -> bytes:
+        end_s = min(monotonic() + wait_s, self._end_s)
+        got = b""
+        while len(got) < ANSWER.size:
+            left_s = end_s - monotonic()
+            if left_s <= 0 or not self._poll.poll(left_s * 1000):
+                whole_s = self._bounds.whole_s
+                told = (
+                    f"The law's run took more than {whole_s:g} s."
+                    if end_s == self._end_s
+                    else f"The law did not answer within {wait_s:g} s."
+                )
+                raise self._fail("late", told)
+            more = os.read(self._answers, ANSWER.size - len(got))
+            if not more:
+                raise self._tell_end()
+            got += more
+        return got
+
+    def _draw_number(self) -> bytes:
+        if not self._numbers:
+            self._numbers = os.urandom(8 * _NUMBERS)
+        number, self._numbers = self._numbers[:8], self._numbers[8:]
+        return number
+
+    def _tell_end(self) -> LawFaultError:
+        try:
+            code = self._process.wait(_NO_MORE_S)
+        except subprocess.TimeoutExpired:
+            return self._fail("ended", "The law closed its end of the pipe.")
+        number = -code if code < 0 else code - _SIGNAL_BASE
+        if number in (signal.SIGKILL, signal.SIGXCPU):
+            bound = self._bounds.cpu_s
+            return self._fail("ended", f"The law was ended: it had {bound} s of the processor.")
+        return self._fail("ended", f"The law's process ended with code {code}.")
+
+    def _fail(self, code: LawFaultCode, message: str) -> LawFaultError:
+        self._end()
+        self._output.seek(0, os.SEEK_END)
+        self._output.seek(max(0, self._output.tell() - SHOWN_BYTES))
+        return LawFaultError(
+            code, message, self._output.read(SHOWN_BYTES).decode("utf-8", "replace")
+        )
+
+    def _end(self) -> None:
+        """End bwrap, and with it, as the first process of its namespace, everything in it."""
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()

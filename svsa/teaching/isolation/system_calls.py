@@ -1,0 +1,71 @@
+"""The system calls that a law is left with: what an interpreter needs to compute, and no other.
+
+Everything else fails with EPERM: sockets, new processes and threads, exec, signals, mounts,
+ptrace, keyrings, shared memory, other identities, and whatever kernels learn later.
+"""
+
+import tempfile
+from functools import cache
+
+from svsa.teaching.isolation.refusal import NotIsolatedError
+
+ALLOWED = (
+    # memory
+    "brk", "mmap", "munmap", "mremap", "mprotect", "madvise",
+    # files: of what is mounted, which is read-only, and of its own small folder
+    "read", "readv", "pread64", "write", "writev", "pwrite64", "close", "lseek", "dup",
+    "open", "openat", "stat", "lstat", "fstat", "newfstatat", "statx", "access", "faccessat",
+    "faccessat2", "readlink", "readlinkat", "getcwd", "getdents64", "ftruncate", "unlink",
+    "unlinkat", "mkdir", "mkdirat", "rmdir", "rename", "renameat", "umask",
+    # its own thread, and time
+    "futex", "set_robust_list", "rseq", "rt_sigaction", "rt_sigprocmask", "rt_sigreturn",
+    "sigaltstack", "restart_syscall", "exit", "exit_group", "gettid", "getpid", "getppid",
+    "getuid", "geteuid", "getgid", "getegid", "getrusage", "getrlimit", "sched_yield",
+    "sched_getaffinity", "clock_gettime", "clock_getres", "gettimeofday", "time", "nanosleep",
+    "clock_nanosleep", "getrandom", "uname", "sysinfo", "poll", "ppoll", "select", "pselect6",
+)  # fmt: skip
+_TCGETS, _FIOCLEX = 0x5401, 0x5451
+_F_GETFD, _F_SETFD, _F_GETFL, _F_DUPFD_CLOEXEC = 1, 2, 3, 1030
+_COMMANDS = {
+    "ioctl": (_TCGETS, _FIOCLEX),
+    "fcntl": (_F_GETFD, _F_SETFD, _F_GETFL, _F_DUPFD_CLOEXEC),
+}
+"""Calls that do much else: only with these as their second argument."""
+
+
+@cache
+def compile_filter() -> bytes:
+    """The filter as a program for the kernel, for this machine's processor.
+
+    Raises `NotIsolatedError` where libseccomp is missing.
+    """
+    try:
+        import pyseccomp
+    except (ImportError, OSError, RuntimeError) as error:
+        raise NotIsolatedError(f"system calls cannot be filtered ({error})") from None
+    refused = pyseccomp.SyscallFilter(pyseccomp.ERRNO(1))
+    for name in ALLOWED:
+        number = _find_number(name)
+        if number is not None:
+            refused.add_rule(pyseccomp.ALLOW, number)
+    for name, commands in _COMMANDS.items():
+        for command in commands:
+            second = pyseccomp.Arg(1, pyseccomp.EQ, command)
+            refused.add_rule(pyseccomp.ALLOW, name, second)
+    reading = pyseccomp.Arg(2, pyseccomp.EQ, 0)
+    refused.add_rule(pyseccomp.ALLOW, "prlimit64", reading)
+    with tempfile.TemporaryFile() as file:
+        refused.export_bpf(file)
+        file.seek(0)
+        return file.read()
+
+
+def _find_number(name: str) -> int | None:
+    """The number of a system call; None where this processor's kernel has none of that name."""
+    import pyseccomp
+
+    try:
+        number = pyseccomp.resolve_syscall(pyseccomp.Arch.NATIVE, name)
+    except (OSError, ValueError):
+        return None
+    return number if number >= 0 else None

@@ -1,0 +1,131 @@
+"""`svsa arena submit`, `svsa arena leaderboard`: a law on the season that nobody knows."""
+
+import json
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import Progress
+from rich.table import Table
+
+from svsa.control.installed import get_title
+from svsa.evaluation.ranking.seeds import PUBLIC_SEED
+from svsa.teaching.grading.submission import read_law_file
+from svsa.teaching.isolation.confinement import leave_open
+from svsa.teaching.leaderboard.board import (
+    Board,
+    Entry,
+    build_entry,
+    go_isolated,
+    measure_missing,
+    submit,
+)
+from svsa.teaching.leaderboard.season import build_season
+from svsa.teaching.leaderboard.standing import Tell, measure_standing
+
+_messages = Console(stderr=True)
+_BOARD = typer.Option("--board", help="Folder of the season; else SVSA_DATA's leaderboard.")
+_JSON = typer.Option("--json", help="Print JSON.")
+_HEADINGS = (
+    "", "law", "by", "score", "95 %", "robust", "draws", "accuracy", "µs/tick", "worst",
+)  # fmt: skip
+MIN_WIDTH = 110
+"""Columns of characters in which the table's numbers stand whole."""
+
+
+def submit_command(
+    file: Annotated[Path, typer.Argument(metavar="LAW.PY", help="The law: see docs/grading.md.")],
+    name: Annotated[
+        str | None, typer.Option(help="What it is called on the board; else the file's name.")
+    ] = None,
+    author: Annotated[str, typer.Option(help="Who submits it, as the board shows it.")] = "",
+    practice: Annotated[
+        bool,
+        typer.Option("--practice", help="One's own: public draws, no walls, nothing is kept."),
+    ] = False,
+    folder: Annotated[Path | None, _BOARD] = None,
+    as_json: Annotated[bool, _JSON] = False,
+) -> None:
+    """Put a law through the arena with hidden seeds, isolated, and show where it stands.
+
+    The same file has one entry, which stays as it is.
+    """
+    source, called = read_law_file(file), name or file.stem
+    if practice:
+        go = go_isolated(source, leave_open)
+        with _show_progress("Practice") as tell:
+            found = measure_standing(build_season(PUBLIC_SEED), go, tell)
+        own = found and build_entry("practice", called, False, found.standing, author)
+        _show([own] if own else [], as_json, "practice on public draws, not isolated")
+        return
+    board = Board(folder)
+    with _show_progress(called) as tell:
+        entry = submit(board, called, source, tell, author=author)
+    with _show_progress("Laws of the lab") as tell:
+        measure_missing(board, tell)
+    _show(board.list(), as_json, "hidden draws", entry and entry.key)
+
+
+def leaderboard_command(
+    folder: Annotated[Path | None, _BOARD] = None, as_json: Annotated[bool, _JSON] = False
+) -> None:
+    """Show the season's entries, the best first; the lab's own laws are measured where missing."""
+    board = Board(folder)
+    with _show_progress("Laws of the lab") as tell:
+        measure_missing(board, tell)
+    _show(board.list(), as_json, "hidden draws")
+
+
+@contextmanager
+def _show_progress(title: str) -> Iterator[Tell]:
+    with Progress(console=_messages, transient=True) as bar:
+        task = bar.add_task(escape(title), total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def _show(entries: Sequence[Entry], as_json: bool, draws: str, marked: str | None = None) -> None:
+    if as_json:
+        print(json.dumps([one.model_dump(mode="json") for one in entries], indent=2))
+        return
+    screen = Console()
+    Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(entries, draws, marked))
+
+
+def _build_table(entries: Sequence[Entry], draws: str, marked: str | None) -> Table:
+    table = Table(
+        box=SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        title=f"Leaderboard: {draws}",
+        title_justify="left",
+        caption="Score: 0.5 robustness + 0.3 draws held + 0.2 accuracy; 95 %: by the draws alone."
+        " µs a tick: by the clock, plant and, for a law in a process of its own (*), the way to it"
+        " included. Worst: of the scenarios that everybody knows.",
+        caption_justify="left",
+    )
+    for heading in _HEADINGS:
+        table.add_column(heading, justify="left" if heading in ("law", "by", "worst") else "right")
+    for place, one in enumerate(entries, 1):
+        table.add_row(str(place), *_build_cells(one), style="bold" if one.key == marked else None)
+    return table
+
+
+def _build_cells(entry: Entry) -> tuple[str, ...]:
+    shown, worst = entry.standing, entry.standing.worst
+    name = get_title(entry.key) if entry.is_installed else f"{entry.name} *"
+    error = "ended early" if worst.rms_deg is None else f"{worst.rms_deg:.3g}°"
+    return (
+        escape(name),
+        "lab" if entry.is_installed else escape(entry.author),
+        f"{shown.score:.3f}",
+        f"{shown.low:.3f}–{shown.high:.3f}",
+        f"{shown.parts.robustness:.2f}",
+        f"{shown.draws_held}/{shown.draws}",
+        f"{shown.parts.accuracy:.2f}",
+        "" if shown.tick_us is None else f"{shown.tick_us:.1f}",
+        escape(f"{worst.scenario}: {error}"),
+    )

@@ -1,0 +1,68 @@
+"""The worst run of an entry, seen again beside NDOBC: nothing that was submitted runs for it.
+
+A law of the lab is simulated again. Of a submitted one its torques are kept, and the simulated
+plant gives the same samples for the same torques, bit for bit. The scenario is one of those that
+everybody knows, with no chance of the season in it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.signals import Disturbance, Reference, State
+from svsa.control.installed import PAPERS_LAW, get_title
+from svsa.evaluation.ranking.find import find_scenario
+from svsa.evaluation.ranking.scenarios import Scenario
+from svsa.evaluation.ranking.seen import build_seen, explain_alone
+from svsa.runs.configuration import Lane
+from svsa.runs.result.result import Result
+from svsa.runs.result.simulate import simulate
+from svsa.teaching.leaderboard.board import Board, Entry
+
+
+class WorstReplay(NamedTuple):
+    """An entry's worst run. lanes: what controlled each; the first is the entry's law.
+
+    alone: why there is but that one; "" where there are two.
+    """
+
+    scenario: Scenario
+    lanes: tuple[str, ...]
+    result: Result
+    alone: str
+
+
+class KeptTorques:
+    """A `Controller` that gives what was given, one a tick; torque: N·m, (ticks, 2)."""
+
+    def __init__(self, torque: np.ndarray) -> None:
+        self._left = iter(torque.tolist())
+
+    def __call__(
+        self, time_s: float, reference: Reference, x: State, w: Disturbance
+    ) -> tuple[float, float]:
+        """The next torque."""
+        u1, u2 = next(self._left)
+        return u1, u2
+
+
+def replay_worst(board: Board, entry: Entry) -> WorstReplay:
+    """The worst run of an entry beside NDOBC, NDOBC's beside FL, or alone where that ends first.
+
+    Raises `StateError` where nothing is kept of a submitted law's.
+    """
+    scenario = find_scenario(entry.standing.worst.scenario)
+    if entry.is_installed:
+        configuration, alone = build_seen(scenario, entry.key)
+        lanes = tuple(get_title(lane.law) for lane in configuration.lanes)
+        result = simulate(configuration, duration_s=scenario.duration_s)
+        return WorstReplay(scenario, lanes, result, alone)
+    configuration, lanes = scenario.build_configuration(PAPERS_LAW), (entry.name,)
+    torque = board.read_torques(entry)
+    alone = explain_alone(scenario, entry.name, PAPERS_LAW, len(torque))
+    if not alone:
+        configuration = configuration.changed(rivals=(Lane(law=PAPERS_LAW),))
+        lanes += (get_title(PAPERS_LAW),)
+    duration_s = len(torque) * configuration.sampling.period_s
+    result = simulate(configuration, KeptTorques(torque), duration_s=duration_s)
+    return WorstReplay(scenario, lanes, result, alone)

@@ -1,0 +1,79 @@
+"""How many submissions `svsa grade` works off in an hour, laws and recorded runs by turns.
+
+    python -m tests.benchmarks.grading [SUBMISSIONS] [SECONDS]
+
+Every second one is a law (twenty draws of ten seconds, isolated), the others have two recorded
+runs of twelve seconds. Graded as `svsa grade` does, side by side, the start of its processes
+included; no more is begun after the time is up. Says what an hour would hold, and how busy the
+machine was.
+"""
+
+import itertools
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import monotonic
+
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.teaching.course.file import read_course
+from svsa.teaching.course.submission import HandIn, write_hand_in
+from svsa.teaching.grading.gradebook import Book
+from svsa.teaching.grading.queue import grade_side_by_side
+from tests.teaching.course.runs import find_exercise
+from tests.teaching.course.student import find_law
+from tests.teaching.grading.submissions import EXERCISE, record_step
+
+SUBMISSIONS = 24
+LONGEST_S = 60.0
+_RECORDED = ("load", "exact-model")
+
+
+def write_submissions(folder: Path, count: int) -> list[Path]:
+    """Hand-ins of so many students, each in a folder, and the runs that they name."""
+    catalogue = Catalogue(folder)
+    runs = {step: record_step(catalogue, step) for step in _RECORDED}
+    law = find_law(find_exercise("own-law"))
+    files = []
+    for number in range(count):
+        place = folder / f"student-{number}"
+        place.mkdir()
+        student = f"Student {number}"
+        hand_in = HandIn(student=student, exercise=EXERCISE, runs=runs)
+        if number % 2 == 0:
+            (place / "law.py").write_text(law, encoding="utf-8")
+            hand_in = HandIn(student=student, exercise="own-law", law_file="law.py")
+        files.append(place / "hand-in.json")
+        write_hand_in(files[-1], hand_in)
+    return files
+
+
+def grade_until(folder: Path, files: list[Path], longest_s: float) -> tuple[int, int, float]:
+    """Laws and recorded hand-ins that were graded, and how long that took, s."""
+    exercises = {one.name: one for one in read_course()}
+    book, begin = Book(folder / "class"), monotonic()
+    waiting = iter(files)
+
+    def hand_out() -> Iterator[Path]:
+        return itertools.takewhile(lambda _: monotonic() - begin < longest_s, waiting)
+
+    names = [take().exercise for _, take in grade_side_by_side(hand_out(), exercises, folder, book)]
+    laws = names.count("own-law")
+    return laws, len(names) - laws, monotonic() - begin
+
+
+def main(count: int = SUBMISSIONS, longest_s: float = LONGEST_S) -> None:
+    with TemporaryDirectory(prefix="svsa-grading-") as name:
+        folder = Path(name)
+        files = write_submissions(folder, count)
+        laws, recorded, took_s = grade_until(folder, files, longest_s)
+    load = " ".join(f"{one:.1f}" for one in os.getloadavg())
+    rate = 3600 * (laws + recorded) / took_s
+    print(f"{laws} laws and {recorded} recorded hand-ins in {took_s:.1f} s: {rate:.0f} an hour")
+    print(f"{os.cpu_count()} cores, load average {load}, svsa grade's processes included")
+
+
+if __name__ == "__main__":
+    given = sys.argv[1:]
+    main(*map(int, given[:1]), *map(float, given[1:2]))

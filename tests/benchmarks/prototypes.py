@@ -1,0 +1,41 @@
+"""Every law beside its independent prototype, column by column, as Markdown.
+
+    python -m tests.benchmarks.prototypes [LAW …]
+
+From the published results; laws that are named are measured anew. A cell is what was found, over
+the prototype's, and × by how much where it is more than 5 % worse.
+"""
+
+import math
+import sys
+from collections.abc import Sequence
+
+from svsa.evaluation.ranking.measure import Entry, measure_law
+from svsa.evaluation.ranking.results import load_published
+from tests.evaluation.ranking.prototypes import PROTOTYPES, Cell, Prototype, compare
+
+
+def tell(cell: Cell) -> str:
+    """One cell, as "0.313 / 0.31" or "44 / 24 ×1.83"."""
+    told = f"{_tell_number(cell.found)} / {_tell_number(cell.figure)}"
+    return told if cell.holds else f"**{told} ×{cell.ratio:.3g}**"
+
+
+def _tell_number(value: float) -> str:
+    if math.isnan(value):
+        return "–"
+    return f"{value:.3g}" if math.isfinite(value) else "none"
+
+
+def format_table(laws: Sequence[str]) -> str:
+    """The table. laws: which of them are measured anew; the others are not asked."""
+    rows = [measure_law(Entry(law)) for law in laws] or [
+        load_published().get_row(law) for law in PROTOTYPES
+    ]
+    lines = [("law", *Prototype._fields), ("---",) * (1 + len(Prototype._fields))]
+    lines += [(row.law, *map(tell, compare(row))) for row in rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+
+
+if __name__ == "__main__":
+    print(format_table(sys.argv[1:]))

@@ -1,0 +1,302 @@
+"""`svsa falsify`: what was found is a file that any law is put through; a wrong one is refused."""
+
+import json
+import math
+
+import pytest
+from typer.testing import CliRunner
+
+from svsa.cli import app
+from svsa.errors import ParameterError
+from svsa.evaluation.falsifier import find as finding
+from svsa.evaluation.falsifier.file import (
+    list_adversaries,
+    read_adversary,
+    read_scenario,
+    write_scenario,
+)
+from svsa.evaluation.falsifier.kept import (
+    forget_scenario,
+    keep_scenario,
+    list_scenarios,
+    open_scenario,
+)
+from svsa.evaluation.falsifier.measure import measure_attacks, run_scenario
+from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa.evaluation.falsifier.trace import sample_torque, trace_scenario
+from svsa.simulation.plant.loads import ConstantLoad, PulseLoad, SineLoad
+from tests.evaluation.falsifier.weak_law import install
+
+GOOD = """\
+title = "A pulse"
+law = "weak"
+duration_s = 2.0
+
+[base]
+figure = "4a"
+loads = []
+
+[[terms]]
+kind = "pulse"
+torque_nm = 1.5
+start_s = [0.2, 0.8]
+duration_s = [0.02, 1.0]
+
+[[vary]]
+path = "actuator.link_inertia_kg_m2"
+kind = "uniform"
+low = 0.9
+high = 1.1
+relative = true
+"""
+SCENARIO = """\
+title = "A pulse and a sine"
+duration_s = 1.0
+[base]
+figure = "4b"
+effects = "rig"
+loads = []
+[settings]
+"actuator.link_inertia_kg_m2" = 0.02
+[[loads]]
+kind = "pulse"
+torque_nm = [1.0, 0.0, 0.0]
+start_s = 0.2
+duration_s = 0.1
+[[loads]]
+kind = "sine"
+torque_nm = [0.0, 0.5, 0.0]
+start_s = 0.5
+frequency_hz = 2.0
+"""
+
+
+@pytest.fixture(autouse=True)
+def weak(monkeypatch, tmp_path):
+    install(monkeypatch)
+    monkeypatch.chdir(tmp_path)
+
+
+def run(*arguments, code=0):
+    outcome = CliRunner().invoke(app, ["falsify", *arguments], catch_exceptions=False)
+    assert outcome.exit_code == code, outcome.output
+    return outcome
+
+
+def search(*arguments, code=0):
+    return run("search", "pulse.toml", "--runs", "2000", *arguments, code=code)
+
+
+def test_what_is_found_is_kept_and_comes_back_from_its_file(tmp_path):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    told = json.loads(search("--json", "--picture", "found.png").stdout)
+    assert told["fault"]
+    assert told["complete"]
+    assert told["file"] == "pulse-weak.toml"
+    assert (tmp_path / "found.png").stat().st_size > 10_000
+    kept = read_scenario("pulse-weak.toml")
+    assert kept.model_dump(mode="json", exclude_none=True) == told["scenario"]
+    assert kept.found.law == "weak"
+    again = json.loads(run("run", "pulse-weak.toml", "--json").stdout)
+    assert again["laws"] == told["laws"]
+    assert [law["law"] for law in again["laws"]] == ["weak", "ndobc"]
+    assert [law["fault"] is None for law in again["laws"]] == [False, True]
+    shown = run("run", "pulse-weak.toml", "--laws", "fl, weak").stdout
+    assert "whole" in shown
+    assert "Weak" in shown
+    assert all(f"[{unit}]" in shown for unit in ("°", "s", "N·m/rad"))
+
+
+def test_ctrl_c_keeps_the_worst_so_far_and_the_same_command_goes_on(tmp_path, monkeypatch):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    search("--law", "fl", "--output", "whole.toml")
+    left = [3]
+
+    def measure(*arguments):
+        left[0] -= 1
+        if left[0] == 0:
+            raise KeyboardInterrupt
+        return measure_attacks(*arguments)
+
+    monkeypatch.setattr(finding, "measure_attacks", measure)
+    outcome = search("--law", "fl", "--output", "part.toml", code=130)
+    told = " ".join(outcome.stderr.split())
+    assert "Broken off after 32 of 2000 runs" in told
+    assert "The same command goes on from there." in told
+    assert read_scenario("part.toml").found.runs == 32
+    assert (tmp_path / "part.toml.search").exists()
+    search("--law", "fl", "--output", "part.toml")
+    assert (tmp_path / "part.toml").read_bytes() == (tmp_path / "whole.toml").read_bytes()
+    assert not (tmp_path / "part.toml.search").exists()
+
+
+@pytest.mark.parametrize("option", ["output", "picture"])
+def test_where_no_file_can_be_written_nothing_is_searched(tmp_path, monkeypatch, option):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    monkeypatch.setattr(finding, "measure_attacks", None)
+    for place in ("nowhere/found.toml", "."):
+        with pytest.raises(ParameterError, match=f"--{option} is .*in a folder that is there"):
+            search(f"--{option}", place)
+
+
+def test_a_law_that_was_asked_for_is_not_said_to_stand_in_the_file(tmp_path):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    with pytest.raises(ParameterError, match=r"^law is 'nobody': it must be a law"):
+        search("--law", "nobody")
+
+
+def test_what_was_kept_of_another_search_is_left_alone(tmp_path):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    search("--law", "fl", "--output", "one.toml", "--seed", "1")
+    (tmp_path / "two.toml.search").write_text('{"seed": 0, "severities": [1e9]}')
+    search("--law", "fl", "--output", "two.toml", "--seed", "1")
+    assert (tmp_path / "two.toml").read_bytes() == (tmp_path / "one.toml").read_bytes()
+
+
+def test_random_draws_are_raced_seed_by_seed(tmp_path):
+    (tmp_path / "pulse.toml").write_text(GOOD)
+    told = json.loads(
+        run("compare", "pulse.toml", "--seeds", "2", "--runs", "640", "--json").stdout
+    )
+    assert [lap["seed"] for lap in told["laps"]] == [0, 1]
+    faults = sum(lap["cma_run"] is not None for lap in told["laps"])
+    assert f"CMA-ES found a fault with {faults}" in told["message"]
+    assert "seed" in run("compare", "pulse.toml", "--seeds", "1", "--runs", "64").stdout
+
+
+def test_a_scenario_of_one_s_own_is_run_with_its_loads_and_settings(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(SCENARIO)
+    scenario = read_scenario(path)
+    configuration = scenario.build_configuration("fl")
+    assert [type(load) for load in configuration.loads] == [PulseLoad, SineLoad]
+    assert configuration.actuator.link_inertia_kg_m2 == 0.02
+    assert configuration.effects.delay_samples == 1
+    (plain,) = run_scenario(scenario.changed(settings={}, loads=()), ("fl",))
+    (hurt,) = run_scenario(scenario, ("fl",))
+    assert hurt.metrics["peak_position_error_rad"] > plain.metrics["peak_position_error_rad"]
+    write_scenario(path, scenario)
+    assert read_scenario(path) == scenario
+    times, torque = sample_torque(configuration, 1.0)
+    assert torque[250].tolist() == [1.0, 0.0, 0.0]
+    assert torque[625, 1] == pytest.approx(0.5 * math.sin(2 * math.pi * 2.0 * 0.125))
+    assert times[250] == pytest.approx(0.25)
+    traced = trace_scenario(scenario, ("fl",))
+    assert traced.torque_nm.tolist() == torque.tolist()
+    (fl,) = traced.laws
+    peak = abs(fl.errors[:, 0]).max()
+    assert peak == pytest.approx(hurt.metrics["peak_position_error_rad"], rel=1e-9)
+    assert fl.fault is None
+    assert len(fl.errors) == len(times)
+
+
+def test_a_scenario_s_loads_come_besides_those_of_its_base():
+    load = ConstantLoad(torque_nm=(1.0, 0.0, 0.0), start_s=1.0)
+    scenario = LoadScenario(title="x", base={"figure": "4a"}, loads=(load,))
+    assert [one.kind for one in scenario.build_configuration("fl").loads] == ["paper", "constant"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('"weak"', '"nobody"', r"line 2: law is 'nobody': it must be a law that is installed here"),
+        (
+            "duration_s = 2.0",
+            "duration_s = 0.5",
+            r"line 12: terms\[0\]\.start_s .* before the run's",
+        ),
+        ('"4a"', '"9"', r"line 6: base\.figure is '9'"),
+        ('"pulse"', '"kick"', r"line 10: terms\[0\]\.kind is 'kick': it must be one of 'step'"),
+        (
+            "torque_nm = 1.5",
+            "torque_nm = 90.0",
+            r"line 11: terms\[0\]\.torque_nm is 90.* at most 50",
+        ),
+        (
+            "[0.2, 0.8]",
+            "[0.8, 0.2]",
+            r"line 12: terms\[0\]\.start_s is \[0\.8, 0\.2\].*less than the",
+        ),
+        ("[0.02, 1.0]", "[0.0, 1.0]", r"line 13: terms\[0\]\.duration_s is .*at least 0\.0001"),
+        ("link_inertia", "mass", r"line 16: vary\[0\]\.path is 'actuator\.mass.*link_inertia"),
+        ("low = 0.9", "low = -1.0", r"line 18: vary\[0\]\.low: with -1\.0 there, link_inertia.*"),
+        ("title =", "title", r"it must be a readable TOML file .*line 1"),
+    ],
+)
+def test_a_wrong_adversary_is_told_with_its_line(tmp_path, old, new, told):
+    path = tmp_path / "wrong.toml"
+    path.write_text(GOOD.replace(old, new, 1))
+    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + told):
+        read_adversary(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (
+            "duration_s = 1.0",
+            "duration_s = 0.0",
+            r"line 2: duration_s is 0\.0 s: .* greater than 0",
+        ),
+        (
+            "= 0.02",
+            "= -1.0",
+            r"line 8: settings\.actuator\.link_inertia_kg_m2: with -1\.0, .* at least",
+        ),
+        (
+            "link_inertia_kg_m2",
+            "weight",
+            r"line 8: settings\.actuator\.weight: with 0\.02, .*one of link_inertia_kg_m2",
+        ),
+        ("[1.0, 0.0, 0.0]", "[99.0, 0.0, 0.0]", r"line 11: loads\[0\]\.torque_nm\[0\] is 99"),
+        ("frequency_hz = 2.0", "", r"line 14: loads\[1\]\.frequency_hz is missing"),
+    ],
+)
+def test_a_wrong_scenario_is_told_with_its_line(tmp_path, old, new, told):
+    path = tmp_path / "wrong.toml"
+    path.write_text(SCENARIO.replace(old, new, 1))
+    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + told):
+        read_scenario(path)
+
+
+def test_a_grid_and_too_many_loads_are_refused():
+    good = read_adversary("blow")
+    vary = [{"path": "effects.delay_samples", "kind": "grid", "values": [0, 1]}]
+    with pytest.raises(ParameterError, match=r"vary\[0\]\.kind is 'grid'.*for an adversary"):
+        good.changed(vary=vary)
+    load = {"kind": "constant", "torque_nm": [0, 0, 0], "start_s": 1.0}
+    with pytest.raises(ParameterError, match="loads is 17: it must be at most 16"):
+        good.changed(base={"loads": [load] * 16})
+
+
+def test_those_that_come_with_the_package_are_listed():
+    names = list_adversaries()
+    assert {"blow", "everything"} <= set(names)
+    listed = " ".join(run("list").stdout.split())
+    assert all(name in listed for name in names)
+    with pytest.raises(ParameterError, match=r"adversary is 'nobody': .*blow"):
+        read_adversary("nobody")
+
+
+def test_a_scenario_is_kept_by_a_name_that_no_other_one_has(monkeypatch, tmp_path):
+    monkeypatch.setenv("SVSA_DATA", str(tmp_path / "data"))
+    file = tmp_path / "own.toml"
+    file.write_text(SCENARIO)
+    scenario = read_scenario(file)
+    assert list_scenarios() == {}
+    path = keep_scenario("mine", scenario)
+    assert keep_scenario("mine", scenario) == path, "the same again is no other one"
+    assert open_scenario("mine") == open_scenario(str(file)) == scenario
+    with pytest.raises(ParameterError, match="free: another scenario is kept by it"):
+        keep_scenario("mine", scenario.changed(duration_s=2.0))
+    path.with_name("broken.toml").write_text("title = 3")
+    assert list_scenarios() == {"mine": scenario}
+    told = CliRunner().invoke(app, ["falsify", "run", "mine", "--laws", "fl", "--json"])
+    assert json.loads(told.stdout)["laws"][0]["law"] == "fl"
+    for name in ("../mine", "", "a b"):
+        with pytest.raises(ParameterError, match="1 to 64 letters"):
+            keep_scenario(name, scenario)
+    with pytest.raises(ParameterError, match="kept by its name: mine"):
+        open_scenario("nobody")
+    assert forget_scenario("mine")
+    assert not forget_scenario("mine")

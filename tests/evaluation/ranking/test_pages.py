@@ -1,0 +1,41 @@
+"""The laws' pages and the README's table say what was measured: `make arena` writes them."""
+
+from pathlib import Path
+
+import pytest
+
+from svsa.control.installed import get_law, list_law_names
+from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
+from svsa.evaluation.ranking.publish import FOLDER, LOSSES, build_index, build_law_page, fill_readme
+from svsa.evaluation.ranking.results import load_published
+
+ROOT = Path(__file__).parents[3]
+
+
+@pytest.mark.parametrize("law", list_law_names())
+def test_a_laws_page_is_what_its_file_and_the_results_say(law):
+    page = build_law_page(load_published(), load_published_bench_runs(), law)
+    assert (ROOT / FOLDER / f"{law}.md").read_text(encoding="utf-8") == page
+    assert (ROOT / FOLDER / "pictures" / f"{law}.png").is_file()
+    assert get_law(law).equation in page
+    said, _, doi = get_law(law).source.partition("doi:")
+    assert said in page
+    assert not doi or f"[doi:{doi}](https://doi.org/{doi})" in page
+
+
+def test_a_number_of_a_page_is_that_of_its_row():
+    page = build_law_page(load_published(), load_published_bench_runs(), "ndobc_w")
+    row = load_published().get_row("ndobc_w")
+    assert f"| 3 kg on the arm: rms | {row.mass_rms_deg:.3g}° | 0.314° | 2 |" in page
+    assert "Faults of 48 unloadings | 0 | 32 |" in page
+
+
+def test_the_index_and_the_readme_have_every_law():
+    results = load_published()
+    index = (ROOT / FOLDER / "README.md").read_text(encoding="utf-8")
+    assert index == build_index(results, load_published_bench_runs())
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert fill_readme(readme, results) == readme
+    assert all(f"({law}.md)" in index for law in list_law_names())
+    assert str(LOSSES) in readme
+    assert (ROOT / LOSSES).is_file()

@@ -1,0 +1,152 @@
+"""Intervals and indices against distributions whose truth is known."""
+
+import math
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from svsa.errors import ParameterError
+from svsa.evaluation.studies.samples import draw
+from svsa.evaluation.studies.statistics import (
+    MAX_BLOCKS,
+    compute_quantiles,
+    estimate_difference,
+    estimate_share,
+)
+from svsa.evaluation.studies.store import StudyError
+from svsa.evaluation.studies.summary import (
+    estimate_sensitivity,
+    pair_laws,
+    pair_rows,
+    summarize_laws,
+)
+from svsa.evaluation.studies.tables import tell_share
+from svsa.evaluation.studies.work import build_schema
+from tests.evaluation.studies.studies import build_study
+from tests.exhaustive import exhaust
+
+ISHIGAMI = tuple(
+    {"kind": "uniform", "path": f"actuator.{name}", "low": 0.5, "high": 1.5, "relative": True}
+    for name in ("link_inertia_kg_m2", "motor1_inertia_kg_m2", "motor2_inertia_kg_m2")
+)
+
+
+def build_rows(study, outcomes):
+    """The table of a study of which each row has these columns; the rest is of no account."""
+    rows = []
+    for number, outcome in enumerate(outcomes):
+        index, law = divmod(number, len(study.laws))
+        row = {"row": number, "draw": index, "law": study.laws[law], "seed": 0, "succeeded": True}
+        rows.append(row | outcome)
+    return pa.Table.from_pylist(rows, schema=build_schema(study))
+
+
+def test_wilsons_interval_is_that_of_the_book_and_holds_the_truth_as_often_as_it_says():
+    """10 of 100: 5.52 to 17.44 % (Brown, Cai, DasGupta 2001). Of none nothing is known."""
+    share = estimate_share(10, 100)
+    assert (share.value, share.low, share.high) == pytest.approx((0.1, 0.0552, 0.1744), abs=1e-4)
+    assert estimate_share(0, 50).low == 0.0 < estimate_share(0, 50).high < 0.08
+    assert estimate_share(0, 0)[1:] == (0.0, 1.0)
+    counts = np.random.default_rng(1).binomial(60, 0.07, 1000)
+    held = [estimate_share(int(k), 60) for k in counts]
+    assert np.mean([one.low <= 0.07 <= one.high for one in held]) == pytest.approx(0.95, abs=0.025)
+
+
+@pytest.mark.parametrize("count", exhaust([200, 3 * MAX_BLOCKS], [200]))
+def test_the_bootstraps_interval_holds_the_mean_as_often_as_it_says(count):
+    """Of a skew distribution, whether pairs are drawn one by one or in blocks."""
+    random = np.random.default_rng(2)
+    samples = [random.exponential(3.0, count) - 2.0 for _ in range(40)]
+    found = [estimate_difference(sample, seed) for seed, sample in enumerate(samples)]
+    assert np.mean([one.low <= 1.0 <= one.high for one in found]) >= 0.85
+    widths = np.mean([one.high - one.low for one in found])
+    assert widths == pytest.approx(2 * 1.96 * 3.0 / math.sqrt(count), rel=0.1)
+
+
+def test_a_quantile_is_a_value_of_the_sample_and_a_fault_where_so_many_faulted():
+    values = np.array([3.0, 1.0, 2.0, np.inf])
+    assert compute_quantiles(values, (0.05, 0.5, 0.75, 0.95)) == [1.0, 2.0, 3.0, math.inf]
+    assert math.isnan(compute_quantiles(np.empty(0), (0.5,))[0])
+
+
+def test_a_summary_counts_faults_as_failures_and_leaves_refused_draws_out():
+    study = build_study(laws=("ndobc",))
+    fault = {"fault": "lever_end", "fault_tick": 3, "succeeded": False}
+    refused = {"fault": "refused", "succeeded": False}
+    whole = [{"rms_position_error_rad": x} for x in (0.1, 0.2, 0.3)]
+    (law,) = summarize_laws(study, build_rows(study, [*whole, fault, refused]))
+    assert (law.runs, law.refused, law.faults) == (4, 1, {"lever_end": 1})
+    assert law.success.value == 0.75
+    assert law.quantiles["rms_position_error_rad"] == [0.1, 0.2, math.inf]
+
+
+def test_a_share_that_is_not_all_never_reads_100_percent():
+    for count, total, told in (
+        (10**6, 10**6, "100.0000 % (99.9996 to 100.0000)"),
+        (0, 10**6, "0.0000 % (0.0000 to 0.0004)"),
+        (10**6 - 1, 10**6, "99.99990 % (99.99943 to 99.99998)"),
+        (8, 10, "80.00 % (49.02 to 94.33)"),
+    ):
+        assert tell_share(estimate_share(count, total)) == told
+
+
+def test_a_summary_is_of_the_metrics_that_are_kept_and_a_pairing_of_those_of_both():
+    kept = ("effort_n2m2_s", "limit_share", "peak_torque1_nm")
+    one = build_study(metrics=kept, laws=("ndobc",))
+    other = build_study(metrics=("limit_share", "recovery_time_s"), laws=("ndobc",))
+    row = {"limit_share": 0.25, "effort_n2m2_s": 3.0}
+    rows = build_rows(one, [row] * 2)
+    (law,) = summarize_laws(one, rows)
+    assert tuple(law.quantiles) == kept
+    assert law.quantiles["effort_n2m2_s"] == [3.0] * 3
+    assert tuple(pair_rows(rows, rows, "a", "b").differences) == kept
+    common = pair_rows(rows, build_rows(other, [{"limit_share": 0.5}] * 2), "a", "b").differences
+    assert {name: told.value for name, told in common.items()} == {"limit_share": -0.25}
+    drawn = one.changed(vary=ISHIGAMI, sampling="sensitivity", runs=2)
+    with pytest.raises(ParameterError, match="one of succeeded, effort_n2m2_s, limit_share, peak"):
+        estimate_sensitivity(drawn, rows, "ndobc", "rms_position_error_rad")
+
+
+def test_pairs_are_compared_where_both_are_whole_and_success_over_all():
+    study = build_study()
+    fault = {"fault": "lever_end", "succeeded": False}
+    outcomes = [
+        *({"rms_position_error_rad": 0.1}, {"rms_position_error_rad": 0.4}),
+        *({"rms_position_error_rad": 0.3}, {"rms_position_error_rad": 0.4}),
+        *({"rms_position_error_rad": 0.1}, fault),
+        *({"fault": "refused", "succeeded": False}, {"rms_position_error_rad": 9.0}),
+    ]
+    pairing = pair_laws(build_rows(study, outcomes), "ndobc", "fl")
+    assert (pairing.pairs, pairing.whole) == (3, 2)
+    assert (pairing.only_one, pairing.only_other) == (1, 0)
+    assert pairing.success.value == pytest.approx(1 / 3)
+    assert pairing.differences["rms_position_error_rad"].value == pytest.approx(-0.2)
+
+
+def test_sobol_indices_are_those_of_ishigamis_function():
+    """S = 0.314, 0.442, 0; S_T = 0.558, 0.442, 0.244 (Ishigami and Homma 1990, a 7, b 0.1)."""
+    study = build_study(vary=ISHIGAMI, sampling="sensitivity", runs=1024, laws=("ndobc",))
+    x1, x2, x3 = (np.array(values) * 2 * np.pi for values in draw(study, 0, 5 * 1024).values)
+    outcome = np.sin(x1) + 7.0 * np.sin(x2) ** 2 + 0.1 * (x3 - 2 * np.pi) ** 4 * np.sin(x1)
+    rows = build_rows(study, [{"rms_position_error_rad": y} for y in outcome])
+    found = estimate_sensitivity(study, rows, "ndobc", "rms_position_error_rad")
+    expected = {"first_order": (0.314, 0.442, 0.0), "total_order": (0.558, 0.442, 0.244)}
+    for order, truths in expected.items():
+        for one, truth in zip(getattr(found, order).values(), truths, strict=True):
+            assert one.value == pytest.approx(truth, abs=0.03)
+            assert one.low - 0.01 <= truth <= one.high + 0.01
+    unfinished = estimate_sensitivity(study, rows[:3000], "ndobc", "rms_position_error_rad")
+    assert unfinished.samples == 512
+
+
+def test_indices_that_would_mean_nothing_are_refused():
+    study = build_study(vary=ISHIGAMI, sampling="sensitivity", runs=2, laws=("ndobc",))
+    same = build_rows(study, [{"rms_position_error_rad": 1.0}] * 10)
+    with pytest.raises(StudyError, match="nothing decides it"):
+        estimate_sensitivity(study, same, "ndobc", "rms_position_error_rad")
+    faults = build_rows(study, [{"fault": "lever_end", "succeeded": False}] * 10)
+    with pytest.raises(StudyError, match="10 of 10 runs of ndobc ended in a fault"):
+        estimate_sensitivity(study, faults, "ndobc", "rms_position_error_rad")
+    with pytest.raises(StudyError, match="sampling is sensitivity"):
+        estimate_sensitivity(build_study(), same, "ndobc", "succeeded")

@@ -1,0 +1,90 @@
+"""The peers of `svsa bench`: the same problem, solved as exactly as here."""
+
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+import svsa
+from svsa.evaluation.timing.peers import comparison, problem, scipy_ivp
+
+DURATION_S = 0.2
+PEERS = comparison.PEERS
+INSTALLED = [name for name, peer in PEERS.items() if find_spec(peer.package)]
+
+
+@pytest.fixture(scope="module")
+def posed() -> problem.Problem:
+    return problem.build_problem(DURATION_S)
+
+
+@pytest.fixture(scope="module")
+def exact(posed: problem.Problem) -> np.ndarray:
+    return scipy_ivp.solve_exactly(posed)
+
+
+def test_the_problem_is_the_plant_of_the_run_bit_for_bit(posed: problem.Problem) -> None:
+    samples = svsa.simulate("4a", "ndobc", duration_s=6.0).samples
+    following = samples[posed.first + 1 : posed.first + len(posed.torques) + 1, problem.COLUMNS]
+    assert np.array_equal(problem.solve(posed), following)
+    middle = len(posed.forces) // 2
+    assert np.array_equal(posed.forces[:middle, 1:], posed.torques[:middle])
+    assert np.all(posed.forces[:middle, 0] == 0.0), "no load in the first half"
+    assert np.all(posed.forces[middle:, 0] == 2.0), "the paper's in the second"
+    assert np.all(posed.forces[middle:, 1:] == posed.torques[middle:] + 2.0)
+
+
+def test_the_exact_solution_is_what_ever_smaller_steps_of_ours_tend_to(
+    posed: problem.Problem, exact: np.ndarray
+) -> None:
+    """By order 4: a sixteenth of the error with half the step. It is another method, not ours."""
+    errors = [comparison.compute_error(problem.solve(posed, steps), exact) for steps in (1, 2, 4)]
+    assert 1e-9 < errors[0] < 1e-7
+    assert 12.0 < errors[0] / errors[1] < 20.0
+    assert 12.0 < errors[1] / errors[2] < 20.0
+
+
+@pytest.mark.parametrize(
+    ("name", "method"), [(name, method) for name in INSTALLED for method in PEERS[name].methods]
+)
+def test_a_peer_has_its_least_accurate_setting_that_is_no_worse_than_ours(
+    posed: problem.Problem, exact: np.ndarray, name: str, method: str
+) -> None:
+    ours = comparison.compute_error(problem.solve(posed), exact) + comparison.ROUNDING_RAD
+    (found,) = comparison.find_setting(name, method, posed, exact, ours)
+    assert found.error_rad == comparison.compute_error(found.solver(), exact)
+    assert found.error_rad <= ours
+    for setting in PEERS[name].methods[method]:
+        if found.setting == f"{method}: {setting:g}":
+            break
+        worse = PEERS[name].build(posed, method, setting)()
+        assert comparison.compute_error(worse, exact) > ours
+
+
+def test_a_method_that_never_gets_as_exact_is_not_compared(
+    posed: problem.Problem, exact: np.ndarray
+) -> None:
+    assert comparison.find_setting("scipy", "LSODA", posed, exact, -1.0) == []
+
+
+def test_each_peer_is_told_by_the_cheapest_of_its_methods(monkeypatch: pytest.MonkeyPatch) -> None:
+    prices = {"svsa RK4: 1": 2e-3, "scipy RK45: 0.001": 8e-3, "scipy DOP853: 0.001": 6e-3}
+    monkeypatch.setattr(comparison, "PEERS", {"scipy": PEERS["scipy"]})
+    monkeypatch.setattr(
+        comparison,
+        "measure_in_turns",
+        lambda works, _: {name: prices.get(name, 1.0) for name in works},
+    )
+    told = comparison.measure_peers(1, DURATION_S)
+    assert list(told) == ["svsa", "scipy"]
+    assert told["svsa"].ratio == 1.0
+    assert told["svsa"].cpu_us_per_period == pytest.approx(10.0)
+    assert told["scipy"].ratio == pytest.approx(3.0)
+    assert told["scipy"].setting == "DOP853: 0.001"
+    assert 0.0 < told["scipy"].error_rad <= told["svsa"].error_rad
+
+
+def test_a_peer_that_is_not_installed_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    absent = PEERS["scipy"]._replace(package="a_package_that_nobody_has")
+    monkeypatch.setattr(comparison, "PEERS", {"absent": absent})
+    assert list(comparison.measure_peers(1, DURATION_S)) == ["svsa"]

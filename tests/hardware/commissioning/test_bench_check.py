@@ -1,0 +1,210 @@
+"""The bench check finds what is wrong, and says what to do."""
+
+import itertools
+
+import pytest
+
+from svsa.hardware.calibration import find_calibration
+from svsa.hardware.commissioning import SIGN_STEPS, check_bench
+from svsa.hardware.commissioning.step import Result
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.faults import (
+    BusErrors,
+    CurrentOffset,
+    DropFrames,
+    FrozenEncoder,
+    ReversedEncoder,
+    ReversedMotor,
+    Silence,
+    Stall,
+)
+from svsa.hardware.emulator.parameters import RigDeflection, RigParameters
+from svsa.hardware.file import read_bench
+from svsa.hardware.homing import STEPS, Homing
+from svsa.hardware.zero import calibrate
+from svsa.simulation.plant.loads import ConstantLoad
+from tests.exhaustive import exhaust
+from tests.hardware.commissioning.checked_bench import check, find_current, list_currents
+from tests.hardware.emulator.bus_in_time import RigBus, copy_bench
+
+MOVING_S = 1.6
+
+
+def test_a_healthy_bench_passes_every_step_without_moving(path, bus):
+    steps = check(path, bus)
+    assert {step.result for step in steps.values()} == {Result.OK}
+    assert "EMULATED" in steps["bus"].measured
+    assert all(current == 0 for _, _, current in list_currents(bus))
+    assert bus.rig.mechanics.read(bus.rig.now_us).theta1 == 0.0
+
+
+def test_a_healthy_bench_that_moves_has_its_signs_confirmed(path, bus):
+    path.with_name("bench.calibration.toml").unlink()
+    bench, homing = read_bench(path), Homing()
+    for step in STEPS:
+        homing.confirm(step.name, "Ada")
+    calibrate(bench, homing, bus.open, bus.now)
+    asked = []
+    steps = check(path, bus, move=True, watch=lambda question: asked.append(question) or True)
+    assert {step.result for step in steps.values()} == {Result.OK}, steps
+    assert set(SIGN_STEPS) <= set(steps)
+    assert len(asked) == 2
+    calibration = find_calibration(bench)
+    assert calibration is not None and calibration.signs_confirmed
+
+
+def test_pulses_stay_small_and_keep_the_gate_of_the_drives(path, bus):
+    """At most 15 % of nominal, both axes back within a few degrees, 1 ms between commands."""
+    check(path, bus, move=True)
+    currents = list_currents(bus)
+    assert max(abs(mA) for _, address, mA in currents if address.number == 1) <= 1350
+    assert max(abs(mA) for _, address, mA in currents if address.number == 2) <= 174
+    x = bus.rig.mechanics.read(bus.rig.now_us)
+    assert max(abs(x.theta1), abs(x.theta2)) < 0.1
+    for number in (1, 2):
+        times = [time for time, address, _ in currents if address.number == number]
+        assert min(b - a for a, b in itertools.pairwise(times)) >= 0.00099
+
+
+def test_signs_are_not_confirmed_where_nobody_watches(path, bus):
+    steps = check(path, bus, move=True, watch=None)
+    assert steps["motor1: direction"].result is Result.WARN
+    assert steps["motor2: direction"].result is Result.WARN
+
+
+def test_a_motor_that_was_seen_to_turn_the_wrong_way_takes_the_confirmation_back(path, bus):
+    steps = check(path, bus, move=True, watch=lambda question: "motor2" not in question)
+    assert "sign = -1 in [motor2]" in steps["motor2: direction"].advice
+    calibration = find_calibration(read_bench(path))
+    assert calibration is not None and not calibration.signs_confirmed
+    assert steps["calibration"].result is Result.WARN
+
+
+def test_the_latency_is_that_of_bus_lag_and_feedback_period(path, bus):
+    """Frame 0.13 ms, lag 0.5 ms · ln 2, half a ms of waiting for B, frame 0.13 ms."""
+    steps = check(path, bus, move=True)
+    median = float(steps["motor1: latency"].measured.split("after ")[1].split(" ms")[0])
+    assert median == pytest.approx(0.13 + 0.35 + 0.5 + 0.13, abs=0.5)
+
+
+def test_a_pulse_that_the_computer_slept_through_is_given_again(path, bus):
+    """Late by 30 ms where it lasts 27 ms: it is over before it was felt."""
+    slept = []
+
+    def sleep_once(message):
+        if find_current(message, "motor2") == 128 and not slept:
+            slept.append(bus.now())
+            bus.sleep(0.03)
+
+    bus.before_send = sleep_once
+    steps = check(path, bus, move=True)
+    assert len(slept) == 1
+    assert steps["motor2: sign"].result is Result.OK
+
+
+def test_pulses_that_are_slept_through_again_and_again_tell_of_the_computer(path, bus):
+    def sleep(message):
+        if find_current(message, "motor2"):
+            bus.sleep(0.16)
+
+    bus.before_send = sleep
+    step = check(path, bus, move=True)["motor2: sign"]
+    assert step.result is Result.FAIL
+    assert "leave the machine to this program" in step.advice
+    assert sum(address.number == 2 and mA != 0 for _, address, mA in list_currents(bus)) == 12
+
+
+FAULTS = [
+    (Silence(node="motor2"), 0.0, "motor2: drive 0.2", "7 V to 33 V"),
+    (Stall(node="motor1"), MOVING_S, "motor1: feedback", "turns freely"),
+    (BusErrors(count=100), 0.0, "bus", "120 Ω"),
+    (DropFrames(node="motor1", probability=0.95), 0.0, "motor1: feedback", "Frames are lost"),
+    (DropFrames(node="deflection"), 0.0, "deflection encoder (can)", "identifier"),
+    (CurrentOffset(node="motor2", offset_a=0.2), 0.0, "at rest", "do not arm"),
+    (ReversedEncoder(node="motor1"), 0.0, "motor1: sign", "swap the encoder's A and B"),
+    (FrozenEncoder(node="motor2"), 0.0, "motor2: sign", "its encoder is not read"),
+    (ReversedEncoder(node="deflection"), 0.0, "deflection: sign", "sign = -1 in [deflection]"),
+]
+REPEATED = [
+    (DropFrames(node="motor2"), 0.0, "mode sequence", "not taken the mode"),
+    (ReversedMotor(node="motor2"), 0.0, "motor2: sign", "leads of the motor"),
+    (FrozenEncoder(node="deflection"), 0.0, "deflection: sign", "coupled"),
+]
+
+
+@pytest.mark.parametrize("case", exhaust(FAULTS + REPEATED, FAULTS), ids=lambda case: case[2])
+def test_a_fault_is_found_and_what_to_do_is_said(path, bus, case):
+    fault, at_s, step, advice = case
+    bus.rig.schedule(round(at_s * 1e6), lambda: bus.rig.inject(fault))
+    steps = check(path, bus, move=True, watch=lambda _: True)
+    assert steps[step].result is Result.FAIL
+    assert advice in steps[step].advice
+    assert [name for name, each in steps.items() if each.result is Result.FAIL] == [step]
+
+
+def test_no_motor_moves_where_an_encoder_is_silent(path, bus):
+    bus.rig.inject(DropFrames(node="deflection"))
+    check(path, bus, move=True)
+    assert all(current == 0 for _, _, current in list_currents(bus))
+
+
+def test_a_dead_motor_encoder_does_not_make_the_motor_run_away(path, bus):
+    """The worst case of pulses that nothing measures: the shaft stays within a turn or so."""
+    bus.rig.inject(FrozenEncoder(node="motor1"))
+    steps = check(path, bus, move=True)
+    assert steps["motor1: sign"].result is Result.FAIL
+    assert abs(bus.rig.mechanics.read(bus.rig.now_us).theta1) < 0.5
+
+
+def test_a_load_that_pulls_the_motor_is_not_taken_for_a_sign(path, bus):
+    bus.rig.schedule(
+        round(MOVING_S * 1e6),
+        lambda: bus.rig.add_load(ConstantLoad(torque_nm=(0.0, 2.0, 0.0))),
+    )
+    steps = check(path, bus, move=True, watch=lambda _: True)
+    assert Result.FAIL in {steps[name].result for name in steps if name in SIGN_STEPS}
+
+
+def test_a_drive_at_another_address_is_found(tmp_path, bus):
+    path = copy_bench(tmp_path, lambda text: text.replace("drive_number = 2", "drive_number = 3"))
+    steps = check(path, bus)
+    assert "A drive answers at group 0 number 2" in steps["motor2: drive 0.3"].advice
+
+
+def test_a_drive_that_answers_nowhere_beside_one_that_does(path, bus):
+    bus.rig.inject(Silence(node="motor1"))
+    assert "factory address" in check(path, bus)["motor1: drive 0.1"].advice
+
+
+def test_a_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
+    rig = Rig(RigParameters(deflection=RigDeflection(sign=-1, phase_s=0.0008)))
+    steps = check(copy_bench(tmp_path), RigBus(rig), move=True)
+    assert steps["deflection: sign"].result is Result.FAIL
+
+
+def test_an_uncalibrated_bench_can_be_checked(tmp_path, bus):
+    path = copy_bench(
+        tmp_path,
+        lambda text: text.replace("sign = 1\n", "").replace("efficiency = 0.9\n", ""),
+    )
+    steps = check(path, bus, move=True)
+    assert steps["file"].result is Result.WARN
+    assert "motor1.efficiency is not given" in steps["file"].measured
+    assert steps["motor1: sign"].result is Result.WARN
+    assert steps["calibration"].result is Result.WARN
+
+
+@pytest.mark.parametrize("text", ["", "name = ", "name = 'x'\n[bus]\ninterface = 3\n"])
+def test_a_wrong_file_is_one_step_with_the_reason(tmp_path, bus, text):
+    path = tmp_path / "bench.toml"
+    path.write_text(text, "utf-8")
+    (step,) = check_bench(path, opener=bus.open, now=bus.now)
+    assert (step.name, step.result) == ("file", Result.FAIL)
+
+
+def test_a_missing_file_and_a_wrong_encoder_option_are_said(tmp_path, bus):
+    (step,) = check_bench(tmp_path / "none.toml", opener=bus.open, now=bus.now)
+    assert "none.toml" in step.measured
+    path = copy_bench(tmp_path, lambda text: text.replace("width = 32", "width = 12"))
+    (step,) = check_bench(path, opener=bus.open, now=bus.now)
+    assert "width is 12" in step.measured

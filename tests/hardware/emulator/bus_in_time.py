@@ -1,0 +1,72 @@
+"""The emulated rig as a python-can bus in virtual time: who waits for a frame moves time on."""
+
+import math
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+
+import can
+
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.file import BusSettings
+
+RIG_BENCH = Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / "bench.toml"
+
+
+def copy_bench(folder: Path, change: Callable[[str], str] = str) -> Path:
+    """The emulated rig's bench file and record in a folder of the test's own."""
+    for name in ("bench.toml", "bench.calibration.toml"):
+        (folder / name).write_text(RIG_BENCH.with_name(name).read_text("utf-8"), "utf-8")
+    path = folder / "bench.toml"
+    path.write_text(change(path.read_text("utf-8")), "utf-8")
+    return path
+
+
+class RigBus:
+    """What `can.BusABC` is to a probe. sent: every frame of the probe, with its time."""
+
+    def __init__(self, rig: Rig | None = None) -> None:
+        self.rig = rig or Rig()
+        self.sent: list[tuple[float, can.Message]] = []
+        self.is_open = False
+        self.before_send: Callable[[can.Message], None] = lambda _: None
+        self._heard: deque[can.Message] = deque()
+
+    def open(self, settings: BusSettings) -> can.BusABC:
+        self.is_open = True
+        return self  # pyright: ignore[reportReturnType]
+
+    def now(self) -> float:
+        return self.rig.now_us * 1e-6
+
+    def send(self, message: can.Message, timeout: float | None = None) -> None:
+        self.before_send(message)
+        self.sent.append((self.now(), message))
+        self.rig.receive(Frame(message.arbitration_id, bytes(message.data)), self)
+
+    def recv(self, timeout: float) -> can.Message | None:
+        end_us = self.rig.now_us + math.ceil(timeout * 1e6)
+        while not self._heard and self.rig.now_us < end_us:
+            self._advance_to(min(self.rig.next_event_us, end_us))
+        return self._heard.popleft() if self._heard else None
+
+    def sleep(self, duration_s: float) -> None:
+        """Who talks and listens here is not let run for so long; the rig goes on."""
+        self._advance_to(self.rig.now_us + round(duration_s * 1e6))
+
+    def _advance_to(self, end_us: int) -> None:
+        for time_us, frame, sender in self.rig.advance_to(end_us):
+            if sender is not self:
+                self._heard.append(
+                    can.Message(
+                        timestamp=time_us * 1e-6,
+                        arbitration_id=frame.can_id,
+                        data=frame.data,
+                        is_extended_id=frame.extended or frame.error,
+                        is_error_frame=frame.error,
+                    )
+                )
+
+    def shutdown(self) -> None:
+        self.is_open = False

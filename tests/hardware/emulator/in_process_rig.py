@@ -1,0 +1,115 @@
+"""The emulated rig in lockstep inside this process: the same exchange of frames, no sockets."""
+
+import contextlib
+import json
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+from unittest.mock import patch
+
+import can
+
+from svsa.hardware.emulator.control import RigControl, RigError, answer
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.exchange import Exchange
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.file import BusSettings
+
+
+class InProcessBus:
+    """What `can.BusABC` is to a plant in lockstep: what it sends is done before `send` returns."""
+
+    def __init__(self, rig: "InProcessRig") -> None:
+        self._rig = rig
+        self.heard: deque[can.Message] = deque()
+
+    def send(self, message: can.Message, timeout: float | None = None) -> None:
+        frame = Frame(message.arbitration_id, bytes(message.data), message.is_extended_id)
+        self._rig.take(self, frame)
+
+    def recv(self, timeout: float | None = None) -> can.Message | None:
+        return self.heard.popleft() if self.heard else None
+
+    def shutdown(self) -> None:
+        self._rig.buses.remove(self)
+
+
+class InProcessControl(RigControl):
+    """The control port's commands, without the port."""
+
+    def __init__(self, rig: Rig) -> None:
+        self._rig = rig
+
+    def ask(self, do: str, **fields: Any) -> dict[str, Any]:
+        told = answer(self._rig, json.dumps({"do": do, **fields}).encode())
+        if not told.pop("ok"):
+            raise RigError(told["message"])
+        return json.loads(json.dumps(told))
+
+
+class InProcessRig:
+    """A rig and the buses that are open to it; a `FrameServer` for its exchange of frames."""
+
+    port = 0
+
+    def __init__(self) -> None:
+        machine = Rig()
+        self.control = InProcessControl(machine)
+        self.buses: list[InProcessBus] = []
+        self._exchange = Exchange(machine, [self], lockstep=True)
+        self._arrivals: list[InProcessBus] = []
+        self._sent: list[tuple[InProcessBus, Frame]] = []
+
+    def open_bus(self, settings: BusSettings) -> can.BusABC:
+        bus = InProcessBus(self)
+        self.buses.append(bus)
+        self._arrivals.append(bus)
+        return bus  # pyright: ignore[reportReturnType]
+
+    def take(self, bus: InProcessBus, frame: Frame) -> None:
+        self._sent.append((bus, frame))
+        self._exchange.serve(self)
+
+    def sources(self) -> list[Any]:
+        return []
+
+    def wait_s(self) -> float | None:
+        return None
+
+    def poll(self) -> list[tuple[Any, Frame]]:
+        sent, self._sent = self._sent, []
+        return sent
+
+    def take_arrivals(self) -> list[Any]:
+        arrivals, self._arrivals = self._arrivals, []
+        return arrivals
+
+    @property
+    def listening(self) -> int:
+        return len(self.buses)
+
+    def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
+        message = can.Message(
+            timestamp=round(time_s, 6),
+            arbitration_id=frame.can_id,
+            is_extended_id=frame.extended or frame.error,
+            is_error_frame=frame.error,
+            data=frame.data,
+        )
+        for bus in self.buses if to is None else [to]:
+            if bus is not but:
+                bus.heard.append(message)
+
+    def flush(self) -> None:
+        pass
+
+    def close(self) -> None:
+        self.buses.clear()
+
+
+@contextlib.contextmanager
+def start_in_process() -> Iterator[InProcessRig]:
+    """A rig to which every bus goes that a plant opens meanwhile."""
+    rig = InProcessRig()
+    with patch("svsa.hardware.can_plant.open_bus", rig.open_bus):
+        yield rig

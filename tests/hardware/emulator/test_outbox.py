@@ -1,0 +1,101 @@
+"""What a client has still to be said: together, in order, and only as far as it reads."""
+
+import pytest
+
+from svsa.hardware.emulation import ADVANCE_ID, encode_time
+from svsa.hardware.emulator import outbox
+from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.exchange import Exchange
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.outbox import FULL_BYTES, Outbox
+
+ROOM = 10
+
+
+class Pipe:
+    """It takes up to `room` bytes. texts: what was written, a write each."""
+
+    def __init__(self, room: int = 10**6) -> None:
+        self.room, self.texts = room, []
+
+    def write(self, text: bytes | bytearray) -> int:
+        if not self.room:
+            raise BlockingIOError
+        taken = bytes(text[: self.room])
+        self.room -= len(taken)
+        self.texts.append(taken)
+        return len(taken)
+
+
+def test_what_is_said_goes_in_one_write() -> None:
+    pipe = Pipe()
+    kept = Outbox(pipe.write)
+    kept.push(b"one ")
+    kept.push(b"two")
+    assert pipe.texts == []
+    kept.flush()
+    kept.flush()
+    assert pipe.texts == [b"one two"]
+    assert kept.wait_s is None
+
+
+def test_what_does_not_go_stays_in_order() -> None:
+    pipe = Pipe(ROOM)
+    kept = Outbox(pipe.write)
+    kept.push(b"0123456789abcdef")
+    kept.flush()
+    assert kept.wait_s is not None
+    kept.push(b"!")
+    pipe.room = 100
+    kept.flush()
+    assert b"".join(pipe.texts) == b"0123456789abcdef!"
+
+
+def test_a_long_burst_does_not_wait_for_its_end() -> None:
+    pipe = Pipe()
+    kept = Outbox(pipe.write)
+    for _ in range(FULL_BYTES // 8):
+        kept.push(b"12345678")
+    assert pipe.texts == [b"12345678" * (FULL_BYTES // 8)]
+
+
+def test_who_reads_nothing_for_long_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(outbox, "MAX_BYTES", 15)
+    kept = Outbox(Pipe(0).write)
+    kept.push(b"0123456789")
+    kept.flush()
+    with pytest.raises(ConnectionError, match="does not read"):
+        kept.push(b"0123456789")
+
+
+class OneClient:
+    """A `FrameServer` whose client asks for time to go on."""
+
+    def __init__(self) -> None:
+        self.pipe, self.listening = Pipe(), 1
+        self._outbox = Outbox(self.pipe.write)
+        self.asked: list[Frame] = []
+
+    def poll(self):
+        asked, self.asked = self.asked, []
+        return [(self, frame) for frame in asked]
+
+    def take_arrivals(self):
+        return []
+
+    def send(self, frame, time_s, to=None, but=None):
+        self._outbox.push(b"%X " % frame.can_id)
+
+    def flush(self):
+        self._outbox.flush()
+
+
+def test_a_tick_of_the_rig_reaches_its_client_at_once() -> None:
+    """All frames of the time that has gone on, and the answer after them."""
+    client = OneClient()
+    exchange = Exchange(Rig(), [client], lockstep=True)  # pyright: ignore[reportArgumentType]
+    client.asked.append(Frame(ADVANCE_ID, encode_time(5_000), extended=True))
+    exchange.serve(client)  # pyright: ignore[reportArgumentType]
+    (said,) = client.pipe.texts
+    assert said.endswith(b"%X " % ADVANCE_ID)
+    assert said.count(b" ") > 3

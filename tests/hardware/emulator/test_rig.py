@@ -1,0 +1,145 @@
+"""The rig as a whole: who speaks when, and the same frames for the same commands."""
+
+import itertools
+
+import pytest
+
+from svsa.hardware.drives.robomodule import (
+    Address,
+    Command,
+    Config,
+    Current,
+    Mode,
+    Reset,
+    SetMode,
+    build_id,
+    decode,
+    encode,
+)
+from svsa.hardware.emulation import EMULATED_ID
+from svsa.hardware.emulator.emulator import FRAME_US, Rig
+from svsa.hardware.emulator.frame import Frame
+from svsa.simulation.plant.loads import ConstantLoad
+
+LOOP = "the loop's connection"
+READY_US = 1_200_000
+
+
+def build(message, number):
+    return Frame(build_id(Address(0, number), message.command), encode(message))
+
+
+def bring_up(feedback_ms=1, inputs_ms=0):
+    rig = Rig()
+    rig.receive(build(Reset(), 0), LOOP)
+    rig.advance_to(600_000)
+    for message in (Config(feedback_ms, inputs_ms), SetMode(Mode.CURRENT)):
+        for number in (1, 2):
+            rig.receive(build(message, number), LOOP)
+    rig.advance_to(READY_US)
+    return rig
+
+
+def run(rig, ticks, currents=lambda _: (300, -40)):
+    said = []
+    for tick in range(ticks):
+        for number, current in zip((1, 2), currents(tick), strict=True):
+            rig.receive(build(Current(5000, current), number), LOOP)
+        said += rig.advance_to(READY_US + 1000 * (tick + 1))
+    return said
+
+
+def list_times(said, can_id):
+    return [time_us for time_us, frame, _ in said if frame.can_id == can_id]
+
+
+def test_the_parts_speak_at_their_own_moments_of_each_ms():
+    """No part is in step with another or with the loop, as on a bench."""
+    said = run(bring_up(), 3)
+    for can_id, phase in ((0x01B, 300), (0x02B, 500), (0x700, 800)):
+        times = list_times(said, can_id)
+        assert times == [READY_US + 1000 * k + phase + FRAME_US for k in range(3)]
+
+
+@pytest.mark.parametrize("period", [2, 5])
+def test_feedback_and_inputs_come_at_the_period_asked_for(period):
+    said = run(bring_up(period, period), 20)
+    for can_id in (0x01B, 0x01C, 0x02B, 0x02C):
+        gaps = {b - a for a, b in itertools.pairwise(list_times(said, can_id))}
+        assert gaps == {1000 * period}
+
+
+def test_nothing_flows_before_a_mode_but_the_deflection():
+    rig = Rig()
+    rig.receive(build(Config(1, 1), 1), LOOP)
+    ids = {frame.can_id for _, frame, _ in rig.advance_to(300_000)}
+    assert ids == {build_id(Address(0, 1), Command.CONFIG), 0x700, EMULATED_ID}
+
+
+def test_frames_follow_one_another_by_the_length_of_a_frame():
+    """Ten at once take 1.3 ms; the lowest identifier of those that wait goes first."""
+    rig = bring_up(0)
+    rig.advance_to(READY_US + 940)
+    for number in range(15, 5, -1):
+        rig.receive(Frame(0x100 + number, b"\x55" * 8), LOOP)
+    said = [
+        (time_us, frame.can_id)
+        for time_us, frame, sender in rig.advance_to(READY_US + 5000)
+        if sender is LOOP
+    ]
+    assert [can_id for _, can_id in said] == list(range(0x106, 0x110))
+    assert all(b - a >= FRAME_US for (a, _), (b, _) in itertools.pairwise(said))
+
+
+def test_the_emulation_says_so_every_100_ms():
+    said = Rig().advance_to(1_000_000)
+    times = list_times(said, EMULATED_ID)
+    assert times == [100_000 * k for k in range(1, 11)]
+
+
+def test_a_current_turns_the_motor_and_is_told_with_its_lag():
+    """0.5 ms is the time constant; the first B comes 0.1 ms after the first torque."""
+    said = run(bring_up(), 40, lambda _: (1000, 0))
+    currents = [
+        decode(Command.FEEDBACK, f.data).current_ma for _, f, _ in said if f.can_id == 0x01B
+    ]
+    assert 0 < currents[0] < 300
+    assert currents[-1] == 1000
+    assert currents[:3] == sorted(currents[:3])
+    counts = [
+        decode(Command.FEEDBACK, f.data).position_counts for _, f, _ in said if f.can_id == 0x01B
+    ]
+    assert counts[-1] > 100
+
+
+def test_two_runs_say_the_same_bytes():
+    def script(tick):
+        return 800 if tick // 40 % 2 else -800, 150 if tick // 25 % 2 else -150
+
+    records = []
+    for _ in range(2):
+        rig = bring_up()
+        rig.add_load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)))
+        records.append(run(rig, 300, script))
+    assert records[0] == records[1]
+    assert len({frame.data for _, frame, _ in records[0]}) > 300
+
+
+def test_how_far_one_goes_at_once_changes_nothing():
+    """One advance over 50 ms says the frames of fifty advances over 1 ms, and of odd ones."""
+
+    def collect(step):
+        rig = bring_up()
+        rig.receive(build(Current(5000, 500), 1), LOOP)
+        said = []
+        for time_us in [*range(READY_US, READY_US + 50_000, step), READY_US + 50_000]:
+            said += rig.advance_to(time_us)
+        return said
+
+    assert collect(1000) == collect(50_000) == collect(137)
+
+
+def test_time_does_not_go_back():
+    rig = bring_up()
+    assert rig.advance_to(5) == []
+    assert rig.now_us == READY_US

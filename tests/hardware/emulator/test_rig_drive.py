@@ -1,0 +1,186 @@
+"""One emulated drive, held to what the maker's manual says of a real one."""
+
+import math
+
+import pytest
+
+from svsa.hardware.drives.robomodule import (
+    Command,
+    Config,
+    Current,
+    CurrentVelocity,
+    Feedback,
+    Mode,
+    Online,
+    OpenLoop,
+    Reset,
+    SetMode,
+    build_id,
+    decode,
+    encode,
+)
+from svsa.hardware.emulator.drive import SETTLE_US, EmulatedDrive
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.parameters import RigParameters
+
+START_US = 10_000_000
+
+
+@pytest.fixture
+def drive():
+    return EmulatedDrive(RigParameters().motor1)
+
+
+def tell(drive, message, time_us, number=1, group=0):
+    address = drive.address._replace(group=group, number=number)
+    return drive.receive(Frame(build_id(address, message.command), encode(message)), time_us)
+
+
+def bring_up(drive, mode=Mode.CURRENT):
+    tell(drive, Reset(), START_US)
+    tell(drive, Config(1, 0), START_US + SETTLE_US)
+    tell(drive, SetMode(mode), START_US + SETTLE_US)
+    return START_US + 2 * SETTLE_US
+
+
+def read(drive, velocity=0.0, torque=0.0):
+    return decode(Command.FEEDBACK, drive.build_feedback(velocity, torque).data)
+
+
+def test_the_sequence_leads_to_a_current(drive):
+    ready = bring_up(drive)
+    tell(drive, Current(5000, 1000), ready)
+    assert drive.current_ma == 1000
+    assert drive.target_nm == pytest.approx(50 * 0.9 * 0.0396)
+    assert drive.errors == 0
+
+
+def test_a_mode_is_not_taken_in_the_500_ms_after_a_reset(drive):
+    tell(drive, Reset(), START_US)
+    tell(drive, SetMode(Mode.CURRENT), START_US + SETTLE_US - 1)
+    assert (drive.mode, drive.errors) == (None, 1)
+    tell(drive, SetMode(Mode.CURRENT), START_US + SETTLE_US)
+    assert (drive.mode, drive.errors) == (Mode.CURRENT, 1)
+
+
+def test_data_are_not_taken_in_the_500_ms_after_a_mode(drive):
+    ready = bring_up(drive)
+    tell(drive, Current(5000, 1000), ready - 1)
+    assert (drive.current_ma, drive.target_nm, drive.errors) == (0, 0.0, 1)
+
+
+def test_a_second_mode_and_data_of_another_mode_are_errors(drive):
+    ready = bring_up(drive)
+    tell(drive, SetMode(Mode.VELOCITY), ready)
+    tell(drive, OpenLoop(500), ready)
+    tell(drive, CurrentVelocity(1000, 100), ready)
+    assert (drive.mode, drive.errors, drive.target_nm) == (Mode.CURRENT, 3, 0.0)
+
+
+@pytest.mark.parametrize("mode", [mode for mode in Mode if mode is not Mode.CURRENT])
+def test_other_modes_are_taken_but_move_nothing(drive, mode):
+    ready = bring_up(drive, mode)
+    tell(drive, Current(5000, 1000), ready)
+    assert (drive.mode, drive.target_nm) == (mode, 0.0)
+
+
+def test_the_last_current_is_held_for_ever(drive):
+    """No command-loss watchdog is documented: whoever wants one has to be it."""
+    ready = bring_up(drive)
+    tell(drive, Current(5000, -700), ready)
+    before = drive.target_nm
+    tell(drive, Online(), ready + 3_600_000_000)
+    assert drive.target_nm == before != 0.0
+
+
+def test_a_reset_ends_the_current_and_zeroes_the_position(drive):
+    ready = bring_up(drive)
+    tell(drive, Current(5000, 1000), ready)
+    drive.look(0.3)
+    assert read(drive).position_counts != 0
+    tell(drive, Reset(), ready + 1000)
+    assert (drive.mode, drive.current_ma, drive.target_nm) == (None, 0, 0.0)
+    assert not drive.feeding
+    assert read(drive).position_counts == 0
+    drive.look(0.3 + 2.0 * math.pi / (50 * 2000))
+    assert read(drive).position_counts == 1
+
+
+def test_a_broadcast_reaches_the_group_and_no_other(drive):
+    ready = bring_up(drive)
+    for address in ({"number": 2}, {"number": 0, "group": 1}, {"number": 1, "group": 1}):
+        tell(drive, Reset(), ready, **address)
+        assert drive.mode is Mode.CURRENT
+    tell(drive, Reset(), ready, number=0)
+    assert drive.mode is None
+
+
+def test_the_online_check_is_echoed_as_the_same_frame(drive):
+    ready = bring_up(drive)
+    frame = Frame(0x01F, encode(Online()))
+    assert drive.receive(frame, ready) == [frame]
+
+
+def test_positions_are_whole_counts_behind_the_gearbox(drive):
+    step = 2.0 * math.pi / (50 * 2000)
+    for angle, counts in ((0.49 * step, 0), (0.51 * step, 1), (-0.51 * step, -1), (1.0, 15915)):
+        drive.look(angle)
+        assert read(drive).position_counts == counts
+
+
+def test_counts_wrap_at_32_bits(drive):
+    drive.look((2**31 + 5) * 2.0 * math.pi / (50 * 2000))
+    assert read(drive).position_counts == -(2**31) + 5
+
+
+@pytest.mark.parametrize("rpm, told", [(14, 0), (16, 30), (-14, 0), (-16, -30), (1234, 1230)])
+def test_velocity_comes_in_steps_of_30_rpm(drive, rpm, told):
+    found = read(drive, velocity=rpm * math.pi / 30.0 / 50)
+    assert found.velocity_rpm == told
+
+
+def test_the_current_told_is_the_one_that_is_made(drive):
+    assert read(drive, torque=-50 * 0.9 * 0.0396 * 1.5) == Feedback(-1500, 0, 0)
+
+
+def test_the_current_is_clipped_at_the_drives_peak(drive):
+    tell(drive, Current(5000, 30_000), bring_up(drive))
+    assert drive.target_nm == pytest.approx(15 * 50 * 0.9 * 0.0396)
+
+
+def test_without_pwm_there_is_no_current(drive):
+    tell(drive, Current(0, 1000), bring_up(drive))
+    assert drive.target_nm == 0.0
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_a_motor_mounted_the_other_way_turns_and_counts_the_other_way(sign):
+    drive = EmulatedDrive(RigParameters().motor2.changed(sign=sign))
+    ready = START_US + 2 * SETTLE_US
+    for message, time_us in (
+        (Reset(), START_US),
+        (SetMode(Mode.CURRENT), START_US + SETTLE_US),
+        (Current(5000, 100), ready),
+    ):
+        tell(drive, message, time_us, number=2)
+    drive.look(0.1)
+    assert math.copysign(1, drive.target_nm) == sign
+    assert math.copysign(1, read(drive).position_counts) == sign
+    assert read(drive, torque=drive.target_nm).current_ma == 100
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        Frame(0x013, b""),
+        Frame(0x013, b"\x13\x88\x03"),
+        Frame(0x013, b"\xff" * 8),
+        Frame(0x011, b"\x09" + b"\x55" * 7),
+        Frame(0x01E, b"\x55" * 8),
+    ],
+)
+def test_a_malformed_frame_changes_nothing(drive, frame):
+    ready = bring_up(drive)
+    tell(drive, Current(5000, 250), ready)
+    assert drive.receive(frame, ready + 1000) == []
+    assert (drive.mode, drive.current_ma) == (Mode.CURRENT, 250)

@@ -1,0 +1,145 @@
+"""The rig's mechanism: the same plant as the simulation's, and stops that hold."""
+
+import math
+
+import numpy as np
+import pytest
+
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.signals import State, Torque
+from svsa.errors import ParameterError
+from svsa.hardware.emulator.mechanics import GRID_US, Mechanics
+from svsa.hardware.emulator.parameters import RigParameters, read_rig
+from svsa.runs.configuration import load_prototype
+from svsa.simulation.plant.effects import CurrentLag, Effects, Friction, build_bench
+from svsa.simulation.plant.integration import coast, integrate_period
+from svsa.simulation.plant.loads import (
+    ConstantLoad,
+    MassLoad,
+    PulseLoad,
+    build_load_table,
+    schedule_load,
+)
+from svsa.simulation.plant.stops import Stops, hit_stops
+from tests.actuators.prototype import PLANT
+
+PERIOD = GRID_US * 1e-6
+WIDE = Stops(-100.0, 100.0, 1.5)
+AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+FREE = RigParameters(friction=None, current_lag=None)
+
+
+@pytest.mark.parametrize("count", [0, 1, 37])
+def test_coasting_is_so_many_periods_of_the_simulated_plant(count):
+    """One compiled call gives the bits that `integrate_period` gives period by period."""
+    effects = Effects(friction=Friction(), current_lag=CurrentLag())
+    bench = build_bench(effects, 0, load_prototype().actuator, PERIOD)
+    table = build_load_table(
+        (schedule_load(1, ConstantLoad(torque_nm=(1.0, 0.0, 0.0)), 5, PERIOD),)
+    )
+    target = Torque(1.0, 0.2)
+    x = AT_REST
+    for tick in range(count):
+        x = integrate_period(PLANT, bench, x, target, target, table, tick, PERIOD, 1)
+    found, made = coast(PLANT, bench, WIDE, AT_REST, target, target, table, 0, PERIOD, count)
+    assert found == x
+    assert made == target
+
+
+def test_a_long_way_at_once_is_the_same_as_many_short_ones():
+    """When someone looks does not change what happens: lockstep depends on it."""
+    ends = []
+    for step in (100, 300, 50_000):
+        mechanics = Mechanics(RigParameters())
+        mechanics.set_target(0, Torque(1.0, 0.3))
+        for time_us in range(0, 150_001, step):
+            mechanics.read(time_us)
+        ends.append(mechanics.read(150_000))
+    assert ends[0] == ends[1] == ends[2]
+
+
+def test_a_target_acts_from_the_next_point_of_the_grid():
+    mechanics = Mechanics(FREE)
+    mechanics.set_target(130, Torque(2.0, 0.0))
+    assert mechanics.read(200).dtheta1 == 0.0
+    assert mechanics.read(300).dtheta1 == pytest.approx(2.0 * PERIOD / 0.0234, rel=1e-3)
+
+
+def test_between_points_the_angles_go_on_with_their_velocities():
+    mechanics = Mechanics(FREE)
+    mechanics.set_target(0, Torque(2.0, 0.0))
+    here, between = mechanics.read(5000), mechanics.read(5050)
+    assert between.theta1 == pytest.approx(here.theta1 + 50e-6 * here.dtheta1, rel=1e-12)
+    assert between.dtheta1 == here.dtheta1
+
+
+def test_loads_come_at_their_time_and_go():
+    mechanics = Mechanics(FREE)
+    mechanics.add_load(0, ConstantLoad(torque_nm=(1.0, 0.0, 0.0), start_s=0.01))
+    assert mechanics.read(10_000).dq == 0.0
+    assert mechanics.read(11_000).dq > 0.0
+    mechanics.clear_loads(11_000)
+    assert mechanics.load_count == 0
+
+
+def test_a_hung_mass_swings_and_comes_to_rest():
+    """Pulled aside and let go, m g r sin q brings it back, friction of the motor stops it."""
+    mechanics = Mechanics(RigParameters())
+    mechanics.add_load(0, MassLoad())
+    mechanics.add_load(0, PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.1))
+    assert mechanics.read(100_000).q > 0.005
+    x = mechanics.read(20_000_000)
+    assert abs(x.dq) < 0.02
+
+
+@pytest.mark.parametrize("torques", [(27.0, 5.0), (-27.0, -5.0), (27.0, -5.0)])
+def test_the_mechanism_stays_between_its_stops_whatever_is_asked(torques):
+    """A runaway ends at the stops, finite, and not in numbers that kill the rig."""
+    p = RigParameters()
+    mechanics = Mechanics(p)
+    mechanics.set_target(0, Torque(*torques))
+    mechanics.add_load(0, ConstantLoad(torque_nm=(-50.0, 0.0, 0.0)))
+    for time_us in range(0, 2_000_000, 10_000):
+        x = mechanics.read(time_us)
+        assert all(map(math.isfinite, x))
+        assert abs(x.q - x.theta1) <= p.deflection_max_rad + 1e-9
+        mu = compute_lever_ratio(x.theta2, p.lever_ratio, p.actuator.spiral_reduction)
+        assert p.lever_ratio_min - 1e-9 <= mu <= p.lever_ratio_max + 1e-9
+
+
+def test_a_hit_keeps_the_momentum_and_makes_no_energy():
+    x = State(0.9, 2.0, 0.0, -1.0, 0.0, 0.0)
+    after = hit_stops(Stops(-1.0, 1.0, 0.75), x, 0.01, 0.02)
+    assert after.q - after.theta1 == pytest.approx(0.75)
+    assert 0.01 * after.q + 0.02 * after.theta1 == pytest.approx(0.01 * 0.9)
+    assert 0.01 * after.dq + 0.02 * after.dtheta1 == pytest.approx(0.01 * 2.0 - 0.02)
+    assert after.dq == after.dtheta1
+    assert hit_stops(Stops(-1.0, 1.0, 0.75), AT_REST, 0.01, 0.02) == AT_REST
+
+
+def test_home_is_at_rest_and_its_stiffness_is_the_bench_files():
+    mechanics = Mechanics(RigParameters())
+    mechanics.set_target(0, Torque(1.0, 0.5))
+    mechanics.read(100_000)
+    mechanics.home(100_000)
+    assert mechanics.read(100_000) == AT_REST
+    assert RigParameters().lever_ratio == pytest.approx(0.62733965, abs=1e-8)
+
+
+def test_a_rig_file_is_checked(tmp_path):
+    path = tmp_path / "rig.toml"
+    path.write_text("[friction]\ncoulomb1_nm = 0.0\n[gravity]\nmoment_nm = 0.4\n")
+    assert read_rig(path).gravity is not None
+    for text, name in (
+        ("lever_ratio = 0.9", "lever_ratio"),
+        ("typo = 1", "typo"),
+        ("= broken", "rig file"),
+        ("[motor2]\nnumber=1\ntorque_constant_nm_per_a=0.02\nphase_s=0.0", "motor2.number"),
+    ):
+        path.write_text(text)
+        with pytest.raises(ParameterError) as refused:
+            read_rig(path)
+        assert name in str(refused.value)
+    with pytest.raises(ParameterError, match="rig file"):
+        read_rig(tmp_path / "missing.toml")
+    assert np.isfinite(RigParameters().motor1.torque_nm_per_a)

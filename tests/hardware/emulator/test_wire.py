@@ -1,0 +1,165 @@
+"""Frames from one of python-can's own clients to the others, over sockets and a terminal."""
+
+import queue
+import select
+import threading
+import time
+
+import can
+import pytest
+
+from svsa.hardware.emulation import EMULATED_ID
+from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulator.slcan import SlcanServer
+from svsa.hardware.emulator.socketcand import SocketcandServer
+
+from .wire_frames import DATA, FRAMES, GREETING
+
+HANG_S = 30.0
+RIG_TIME_S = 1234.000567
+
+
+class Bus:
+    """A bus with nothing on it but what clients say: each frame goes to all the others."""
+
+    def __init__(self):
+        self.socketcand, self.slcan = SocketcandServer(), SlcanServer()
+        self.to_say: queue.Queue[Frame] = queue.Queue()
+        self.heard: list[Frame] = []
+        self.chatter = False
+        self._stop = False
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        servers = (self.socketcand, self.slcan)
+        while not self._stop:
+            waits = [wait for server in servers if (wait := server.wait_s()) is not None]
+            sources = [source for server in servers for source in server.sources()]
+            select.select(sources, [], [], 0.0 if self.chatter else min([0.01, *waits]))
+            heard = [each for server in servers for each in server.poll()]
+            for server in servers:
+                for client in server.take_arrivals():
+                    server.send(GREETING, RIG_TIME_S, to=client)
+            for client, frame in heard:
+                self.heard.append(frame)
+                for server in servers:
+                    server.send(frame, RIG_TIME_S, but=client)
+            while not self.to_say.empty():
+                frame = self.to_say.get()
+                for server in servers:
+                    server.send(frame, RIG_TIME_S)
+            if self.chatter:
+                self.socketcand.send(Frame(0x01B, DATA), RIG_TIME_S)
+
+    def connect(self):
+        return can.Bus(
+            interface="socketcand", host="127.0.0.1", port=self.socketcand.port, channel="rig"
+        )
+
+    def plug_in(self, **options):
+        return can.Bus(interface="slcan", channel=self.slcan.path, sleep_after_open=0.0, **options)
+
+    def close(self):
+        self._stop = True
+        self._thread.join(HANG_S)
+        assert not self._thread.is_alive()
+        self.socketcand.close()
+        self.slcan.close()
+
+
+@pytest.fixture
+def bus():
+    running = Bus()
+    yield running
+    running.close()
+
+
+def hear(client):
+    """The next message, past what slcan takes for one: an acknowledgement."""
+    deadline = time.monotonic() + HANG_S
+    while time.monotonic() < deadline:
+        if (message := client.recv(0.1)) is not None:
+            return message
+    raise AssertionError("nothing was heard")
+
+
+def hear_frame(client):
+    message = hear(client)
+    return Frame(
+        message.arbitration_id, bytes(message.data), message.is_extended_id, message.is_error_frame
+    )
+
+
+def say(client, frame):
+    client.send(
+        can.Message(arbitration_id=frame.can_id, data=frame.data, is_extended_id=frame.extended)
+    )
+
+
+def test_each_client_of_python_can_hears_the_others_and_not_itself(bus):
+    clients = [bus.connect() for _ in range(3)] + [bus.plug_in(bitrate=1_000_000)]
+    for client in clients:
+        assert hear_frame(client) == GREETING
+    for sender in clients:
+        for frame in FRAMES:
+            say(sender, frame)
+        for other in clients:
+            if other is not sender:
+                assert [hear_frame(other) for _ in FRAMES] == FRAMES
+    end = Frame(0x321, b"end")
+    bus.to_say.put(end)
+    for client in clients:
+        assert hear_frame(client) == end, "a client heard itself"
+        client.shutdown()
+    assert bus.heard == FRAMES * len(clients)
+
+
+def test_a_frame_has_the_time_of_the_rig_to_the_microsecond(bus):
+    client = bus.connect()
+    assert hear(client).timestamp == pytest.approx(RIG_TIME_S, abs=1e-9)
+    client.shutdown()
+
+
+def test_bus_trouble_is_an_error_frame(bus):
+    client, adapter = bus.connect(), bus.plug_in()
+    assert hear_frame(client) == hear_frame(adapter) == GREETING
+    bus.to_say.put(Frame(0x020, b"", error=True))
+    message = hear(client)
+    assert message.is_error_frame
+    assert message.timestamp == pytest.approx(RIG_TIME_S)
+    bus.to_say.put(Frame(0x123, DATA))
+    assert hear_frame(adapter) == Frame(0x123, DATA), "slcan has no error frames"
+    client.shutdown()
+    adapter.shutdown()
+
+
+def test_clients_come_and_go_on_a_busy_bus(bus):
+    """A frame right after the handshake's `< ok >` would be read as one with it."""
+    bus.chatter = True
+    for _ in range(5):
+        client = bus.connect()
+        assert hear_frame(client).can_id in (EMULATED_ID, 0x01B)
+        assert hear_frame(client).can_id == 0x01B
+        client.shutdown()
+
+
+def test_the_adapter_tells_python_can_what_it_is(bus):
+    adapter = bus.plug_in(bitrate=1_000_000)
+    assert adapter.get_version(HANG_S) == (10, 13)
+    assert adapter.get_serial_number(HANG_S) == "SVSA"
+    adapter.shutdown()
+
+
+def test_a_remote_frame_goes_nowhere_and_breaks_nothing(bus):
+    for client in (bus.connect(), bus.plug_in()):
+        client.send(
+            can.Message(arbitration_id=0x01F, is_remote_frame=True, dlc=8, is_extended_id=False)
+        )
+        say(client, FRAMES[0])
+        assert hear_frame(client) == GREETING
+        client.shutdown()
+    deadline = time.monotonic() + HANG_S
+    while len(bus.heard) < 2 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert bus.heard == [FRAMES[0]] * 2

@@ -1,0 +1,128 @@
+"""A bench's record says by itself whether it follows from what was measured and sent."""
+
+import dataclasses
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.hardware.session.replay import Verified, verify_bench_record
+from svsa.runs.command import SetLaw, SetObserver
+from svsa.runs.configuration import Configuration
+from svsa.runs.paper import get_figure
+from svsa.runs.records.bench_start import START_FILE, BenchStart
+from svsa.runs.records.export.formats import export
+from svsa.runs.records.header import RecordError
+from svsa.runs.records.parquet import unpack_parquet
+from svsa.runs.records.reader import open_record
+from tests.hardware.session.recorded_bench import run_bench, write_bench_record
+
+TICKS, MISSED_AT, MISSED = 900, 300, 7
+SLOWER = SetObserver(argument=ObserverBandwidth(bandwidth_rad_per_s=(40.0, 40.0, 40.0)))
+TO_FL = SetLaw(tick=600, argument="fl")
+COUNT_RAD = 2.0 * math.pi / 8000
+RESIDUALS = [CHANNEL_INDEX[name] for name in CHANNEL_INDEX if "residual" in name]
+Run = tuple[Configuration, np.ndarray, BenchStart]
+
+
+@pytest.fixture(scope="module")
+def run() -> Run:
+    wanted = get_figure("4a").build_configuration(load=False)
+    late = {0: 3, MISSED_AT: MISSED}
+    return run_bench(wanted, TICKS, before=[SLOWER], later=[TO_FL], late=late)
+
+
+def verify(folder: Path, run: Run, commands: tuple = (SLOWER, TO_FL)) -> Verified:
+    write_bench_record(folder / "run-1", run, commands)
+    return verify_bench_record(open_record(folder / "run-1"))
+
+
+def test_every_number_follows_from_what_was_measured_and_sent(run: Run, tmp_path: Path) -> None:
+    """Also where ticks were missed, before the run and in it, and where the law was changed."""
+    found = verify(tmp_path, run)
+    assert (found.plant, found.ticks, found.missed, found.lanes) == ("emulated", TICKS, MISSED, 1)
+    assert found.share_as_asked > 0.9
+    assert "an emulated rig" in found.told
+    assert "7 of them were missed" in found.told
+
+
+WORKED_OUT = ("position_rad", "estimate_link_nm", "position_error_rad", "stiffness_nm_per_rad")
+
+
+@pytest.mark.parametrize(
+    ("lane", "channel"), [(0, one) for one in WORKED_OUT] + [(1, "torque1_nm")]
+)
+def test_one_bit_that_is_another_is_found(
+    run: Run, tmp_path: Path, lane: int, channel: str
+) -> None:
+    configuration, samples, start = run
+    changed = samples.copy()
+    changed.view(np.uint64)[lane, 700, CHANNEL_INDEX[channel]] ^= 1
+    with pytest.raises(RecordError, match=rf"\.{channel} differs at tick 700"):
+        verify(tmp_path, (configuration, changed, start))
+
+
+@pytest.mark.parametrize(
+    ("channel", "by"),
+    [("deflection_rad", COUNT_RAD), ("motor1_position_rad", COUNT_RAD), ("torque1_nm", 0.01)],
+)
+def test_a_count_or_a_torque_that_is_another_is_found(
+    run: Run, tmp_path: Path, channel: str, by: float
+) -> None:
+    """They are taken as they are; what was worked out from them is not."""
+    configuration, samples, start = run
+    changed = samples.copy()
+    changed[0, 700, CHANNEL_INDEX[channel]] += by
+    with pytest.raises(RecordError, match=r"differs at tick 70[01]"):
+        verify(tmp_path, (configuration, changed, start))
+
+
+def test_another_start_is_found(run: Run, tmp_path: Path) -> None:
+    configuration, samples, start = run
+    motion = start.motion | {"known": [0.0, 0.01, 0.0, 0.0, 0.0, 0.0]}
+    other = dataclasses.replace(start, motion=motion)
+    with pytest.raises(RecordError, match="differs at tick 0"):
+        verify(tmp_path, (configuration, samples, other))
+
+
+def test_a_command_that_is_left_out_or_comes_later_is_found(run: Run, tmp_path: Path) -> None:
+    for number, commands in enumerate([(SLOWER,), (SLOWER, TO_FL.at(601))]):
+        with pytest.raises(RecordError, match="does not follow"):
+            verify(tmp_path / str(number), run, commands)
+
+
+def test_gains_that_were_not_those_that_controlled_are_found(tmp_path: Path) -> None:
+    """Where no twin tells it, for all else follows from any torque, the torques do."""
+    wanted = get_figure("4a").build_configuration("fl", load=False)
+    configuration, samples, start = run_bench(wanted, 200)
+    alone = samples[:1].copy()
+    alone[:, :, RESIDUALS] = 0.0
+    told = configuration.changed(rivals=())
+    assert verify(tmp_path / "own", (told, alone, start), ()).lanes == 0
+    poles = told.gains.position_coefficients
+    gains = told.gains.changed(position_coefficients=(0.5 * poles[0], *poles[1:]))
+    with pytest.raises(RecordError, match="was not controlled by its law: at tick"):
+        verify(tmp_path / "other", (told.changed(gains=gains), alone, start), ())
+
+
+def test_a_law_that_is_told_what_was_measured_follows_from_it_too(tmp_path: Path) -> None:
+    wanted = get_figure("4a").build_configuration("pi_observer", load=False)
+    run = run_bench(wanted, 300, later=[], late={100: 3})
+    assert verify(tmp_path, run, ()).share_as_asked > 0.9
+
+
+def test_a_record_that_does_not_say_what_it_began_from_is_refused(run: Run, tmp_path: Path) -> None:
+    verify(tmp_path, run)
+    (tmp_path / "run-1" / START_FILE).unlink()
+    with pytest.raises(RecordError, match="nothing of it can be verified"):
+        verify_bench_record(open_record(tmp_path / "run-1"))
+
+
+def test_an_exported_run_can_be_verified_elsewhere(run: Run, tmp_path: Path) -> None:
+    verify(tmp_path, run)
+    export(open_record(tmp_path / "run-1"), "parquet", tmp_path / "run.parquet")
+    unpack_parquet((tmp_path / "run.parquet").read_bytes(), tmp_path / "elsewhere")
+    assert verify_bench_record(open_record(tmp_path / "elsewhere")).ticks == TICKS

@@ -1,0 +1,68 @@
+"""Short runs of all parts of the library, which call every compiled function from Python."""
+
+from typing import Any, cast
+
+import svsa
+from svsa.actuators.domain import FAULT_CODES
+from svsa.actuators.signals import Disturbance, State
+from svsa.analysis.design.report import build_report
+from svsa.analysis.design.steady_error import compute_fl_steady_error
+from svsa.analysis.identification.identify import identify
+from svsa.control.installed import list_law_names
+from svsa.evaluation.falsifier.trace import sample_torque
+from svsa.evaluation.studies.replay import measure_samples
+from svsa.evaluation.timing.benchmark import list_c_constants
+from svsa.hardware.emulator.experiment import LockstepBench
+from svsa.runs.batch import run_configurations
+from svsa.runs.configuration import Configuration
+from svsa.runs.fault import build_fault
+from svsa.runs.paper import get_figure
+from svsa.runs.run import Run, Start
+from svsa.simulation.reference.preview import sample_reference
+from tests.analysis.identification.excited_run import build_configuration, build_run, play
+from tests.hardware.emulator.in_process_rig import start_in_process
+
+
+def run_all() -> None:
+    """Run every workload once."""
+    configuration = get_figure("4a").build_configuration()
+    _simulate(configuration)
+    _identify()
+    build_report(configuration, (15.0,), 2, lambda _: None)
+    compute_fl_steady_error(configuration, 15.0, Disturbance(1.0, 0.0, 0.0))
+    list_c_constants(Run(configuration))
+    sample_torque(configuration, 0.01)
+    sample_reference(configuration.position, 4)
+    _run_bench()
+
+
+def _simulate(configuration: Configuration) -> None:
+    for law in list_law_names():
+        svsa.simulate("4a", law, duration_s=0.01)
+    svsa.simulate("4a", lambda time_s, reference, x, w: (0.0, 0.0), duration_s=0.01)
+    run_configurations([configuration], 0.01)
+    x = State(0.1, 0.0, 0.1, 0.0, 0.0, 0.0)
+    run = Run(configuration, start=Start(0.1, x))
+    for code in FAULT_CODES:
+        build_fault(code, 0, 0, run.blocks[0], x)
+    result = svsa.simulate(configuration, duration_s=0.01)
+    measure_samples(result, 0.0, 0.01)
+
+
+def _identify() -> None:
+    configuration = build_configuration()
+    samples, _ = play(configuration, duration_s=6.5)
+    record = build_run(configuration, samples)
+    identify(record)
+
+
+def _run_bench():
+    with start_in_process() as rig:
+        bench = LockstepBench(cast(Any, rig), get_figure("6a").build_configuration(load=False), 10)
+        try:
+            bench.prepare()
+            bench.start()
+            bench.tick(5)
+            bench.loop.tick(bench.now(), missed=1)
+        finally:
+            bench.close()

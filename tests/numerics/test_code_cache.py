@@ -1,0 +1,102 @@
+"""What of the compiled code goes: what nobody has opened for long, and nothing of anybody else.
+
+And what several add at once is all there.
+"""
+
+import contextlib
+import os
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numba
+import pytest
+from numba.core import config
+from numba.core.caching import IndexDataCacheFile
+
+from svsa.numerics.code_cache import ABANDONED_S, KEPT_TEXTS, UNUSED_S, SharedCache, open_folder
+
+OLD, NEW = f"{1:016x}", f"{2:016x}"
+
+
+@pytest.fixture
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("SVSA_CACHE", str(tmp_path))
+    return tmp_path
+
+
+def make(folder: Path, age_s: float) -> Path:
+    folder.mkdir(parents=True)
+    (folder / "function.nbc").write_bytes(b"code")
+    then = time.time() - age_s
+    os.utime(folder, (then, then))
+    return folder
+
+
+def test_code_of_earlier_versions_goes_when_nobody_has_opened_it_for_long(root: Path) -> None:
+    gone = [
+        make(root / f"compiled-{OLD}", 1.1 * ABANDONED_S),
+        make(root / "svsa.runtime.loop" / OLD, 1.1 * ABANDONED_S),
+    ]
+    kept = [
+        make(root / f"compiled-{NEW}", 0.9 * ABANDONED_S),
+        make(root / "svsa.runtime.kernel" / OLD, 1.1 * ABANDONED_S),
+        make(root / "svsa.runtime.kernel" / NEW, 0.9 * ABANDONED_S),
+    ]
+    opened = open_folder("svsa.simulation.loop.loop", NEW)
+    assert opened == root / "svsa.simulation.loop.loop" / NEW
+    assert opened.is_dir()
+    assert [folder.exists() for folder in gone] == [False, False]
+    assert all((folder / "function.nbc").exists() for folder in kept)
+
+
+def test_what_is_not_called_as_its_own_stays(root: Path) -> None:
+    others = [
+        make(root / "photos" / "summer", 9 * ABANDONED_S),
+        make(root / "compiled-by-hand", 9 * ABANDONED_S),
+        make(root / "empty.module", 9 * ABANDONED_S),
+    ]
+    open_folder("svsa.simulation.loop.loop", NEW)
+    assert all((folder / "function.nbc").exists() for folder in others)
+
+
+def test_of_a_file_s_texts_the_newest_stay_and_those_in_use(root: Path) -> None:
+    module = root / "svsa.simulation.loop.loop"
+    ages_s = [0.5 * UNUSED_S, 0.9 * UNUSED_S, 1.1 * UNUSED_S, 5.0 * UNUSED_S]
+    texts = [make(module / f"{number:016x}", age) for number, age in enumerate(ages_s)]
+    in_use = [make(module / f"{number + 8:016x}", 60.0 * number) for number in range(KEPT_TEXTS)]
+    open_folder("svsa.simulation.loop.loop", f"{99:016x}")
+    assert [text.exists() for text in texts] == [True, True, False, False]
+    assert all(text.exists() for text in in_use)
+
+
+def add_one(x: float) -> float:
+    return x + 1.0
+
+
+def test_what_two_processes_compile_at_once_is_kept_for_each(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As far as they can, both read the list of what is there before either writes it."""
+    monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path))
+    made = [numba.njit((kind,))(add_one) for kind in (numba.float64, numba.complex128)]
+    results = [result for one in made for result in one.overloads.values()]
+    read, met = IndexDataCacheFile._load_index, threading.Barrier(2)
+
+    def read_and_wait(file: IndexDataCacheFile) -> object:
+        found = read(file)
+        with contextlib.suppress(threading.BrokenBarrierError):
+            met.wait(timeout=0.5)
+        return found
+
+    def save(result: Any) -> None:
+        SharedCache(add_one).save_overload(result.signature.args, result)
+
+    with monkeypatch.context() as patched, ThreadPoolExecutor() as pool:
+        patched.setattr(IndexDataCacheFile, "_load_index", read_and_wait)
+        list(pool.map(save, results))
+    for one, result in zip(made, results, strict=True):
+        kept = SharedCache(add_one).load_overload(result.signature.args, one.targetctx)
+        assert kept.signature == result.signature

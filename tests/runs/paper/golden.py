@@ -1,0 +1,47 @@
+"""Every sample of the paper's simulated figures, and of every law with every effect, as a hash.
+
+python -m tests.runs.paper.golden [--figures]     the figures, and NDOBC alone of the laws
+"""
+
+import hashlib
+import json
+import sys
+
+import svsa
+from svsa.control.installed import list_law_names
+from svsa.simulation.plant.effects import EVERY
+
+GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
+"""The variables of a process that computes for the oldest processor of this machine's family.
+
+numba keeps what it compiles for one kind of processor apart from what it compiles for another.
+"""
+
+
+def compute_hash(result: svsa.Result) -> str:
+    """Of all channels at all ticks, as little-endian doubles."""
+    return hashlib.sha256(result.samples.astype("<f8").tobytes()).hexdigest()[:16]
+
+
+def compute_figures() -> dict[str, str]:
+    """Of Figures 4A, 4B and 5 with both laws."""
+    return {
+        f"{figure} {law}": compute_hash(svsa.simulate(figure, law))
+        for figure in ("4a", "4b", "5")
+        for law in ("fl", "ndobc")
+    }
+
+
+def compute_law(law: str) -> str:
+    """Of Figure 4A with every effect, up to 1.5 s after its load."""
+    return compute_hash(svsa.simulate("4a", law, effects=EVERY, seed=7, duration_s=6.5))
+
+
+def compute_laws() -> dict[str, str]:
+    """The same under every law that is installed."""
+    return {law: compute_law(law) for law in list_law_names()}
+
+
+if __name__ == "__main__":
+    laws = {"ndobc": compute_law("ndobc")} if "--figures" in sys.argv else compute_laws()
+    json.dump({"figures": compute_figures(), "laws": laws}, sys.stdout, indent=4)

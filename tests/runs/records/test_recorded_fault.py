@@ -1,0 +1,98 @@
+"""A recorded run knows the fault that it ended in: in its folder, in the list, in the library."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import svsa
+from svsa.errors import Fault
+from svsa.runs.fault_labels import label_fault
+from svsa.runs.paper import get_figure
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.records.fault import FAULT_FILE
+from svsa.runs.records.header import RecordError
+from svsa.runs.records.reader import open_record
+from svsa.runs.session.simulated import SimulatedSession
+
+from .records import build_header, list_ids
+
+CRASH = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.1)
+
+
+def record_crash(catalogue: Catalogue, run_id: str = "run-1") -> Fault:
+    """A run that a torque far too great for the springs has ended."""
+    configuration = get_figure("4a").build_configuration(load=False).changed(loads=(CRASH,))
+    session = SimulatedSession("test", configuration)
+    written = configuration.model_dump(mode="json")
+    header = build_header(run_id, lanes=("lane1",), configuration=written, name="")
+    recorder = catalogue.record(header)
+    session.start_recording(recorder)
+    session.step(5000)
+    session.stop_recording()
+    catalogue.finish(run_id, recorder.close())
+    assert session.fault is not None
+    return session.fault
+
+
+def test_it_is_the_fault_of_the_run_wherever_one_looks(
+    catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fault = record_crash(catalogue)
+    monkeypatch.setenv("SVSA_DATA", str(catalogue.folder))
+    assert svsa.open_run("run-1").fault == fault
+    assert fault.message in repr(svsa.open_run("run-1"))
+    assert catalogue.get("run-1").fault == fault
+    assert list_ids(catalogue, search=label_fault(fault.code)) == ["run-1"]
+
+
+@pytest.mark.parametrize("ends_run", [True, False])
+def test_a_record_has_the_last_that_is_known_of_its_fault(
+    catalogue: Catalogue, ends_run: bool
+) -> None:
+    """Who stopped the drives is known later than the loss; what ended no run stays out."""
+    configuration = get_figure("4a").build_configuration(load=False)
+    session = SimulatedSession("test", configuration)
+    written = configuration.model_dump(mode="json")
+    header = build_header("run-1", lanes=("lane1",), configuration=written)
+    recorder = catalogue.record(header)
+    session.start_recording(recorder)
+    session.step(10)
+    lost = Fault("loop_lost", 0, 10, 0.01, "Nobody has stopped the drives yet.")
+    session.journal.log_fault(lost, ends_run)
+    session.journal.refine_fault(replace(lost, message="The supervisor has stopped them."))
+    session.journal.refine_fault(replace(lost, code="loop_silent", message="Another."))
+    session.stop_recording()
+    catalogue.finish("run-1", recorder.close())
+    fault = open_record(catalogue.find_folder("run-1")).fault
+    assert (fault.message if fault else "") == (ends_run * "The supervisor has stopped them.")
+
+
+def test_the_list_has_it_again_when_it_is_built_anew(catalogue: Catalogue) -> None:
+    fault = record_crash(catalogue)
+    for path in catalogue.folder.glob("catalogue.sqlite*"):
+        path.unlink()
+    again = Catalogue(catalogue.folder)
+    again.recover()
+    assert again.get("run-1").fault == fault
+
+
+def test_a_record_without_it_is_read_as_before(catalogue: Catalogue) -> None:
+    record_crash(catalogue)
+    (catalogue.find_folder("run-1") / FAULT_FILE).unlink()
+    assert open_record(catalogue.find_folder("run-1")).fault is None
+
+
+def test_a_damaged_one_is_told_and_not_left_out(catalogue: Catalogue) -> None:
+    record_crash(catalogue)
+    (catalogue.find_folder("run-1") / FAULT_FILE).write_text('{"code": 7}')
+    with pytest.raises(RecordError, match=r"fault\.json of record run-1 is damaged"):
+        catalogue.open("run-1")
+
+
+def test_a_fault_that_was_cleared_before_the_run_is_not_of_the_run(tmp_path: Path) -> None:
+    recorder = svsa.Catalogue(tmp_path).record(build_header("run-1"))
+    recorder.write_fault(Fault("quick_stop", 0, 0, 0.0, "Stopped."))
+    recorder.write_fault(None)
+    recorder.close()
+    assert open_record(recorder.folder).fault is None

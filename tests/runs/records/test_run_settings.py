@@ -1,0 +1,183 @@
+"""The settings of a recorded run in words: true of its samples, and of nothing else."""
+
+from typing import Any
+
+import pytest
+
+from svsa.actuators.signals import CHANNELS
+from svsa.runs.command import build_command
+from svsa.runs.configuration import Configuration, Lane, LaneSetting, load_prototype
+from svsa.runs.paper import get_figure
+from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.settings import RunSettings, describe_settings, name_figure
+from svsa.simulation.plant.effects import RIG, Friction
+from svsa.simulation.plant.loads import MassLoad, PaperLoad, PulseLoad, PushLoad
+from svsa.simulation.reference.trajectories import ConstantPosition, ConstantStiffness
+
+TICKS = 8000
+
+
+def build_header(configuration: Configuration, **changes: Any) -> RecordHeader:
+    values = {
+        "version": "0.1.0",
+        "run_id": "run-1",
+        "created": "2026-01-02T03:04:05+00:00",
+        "session": "lab",
+        "lanes": tuple(f"lane{number + 1}" for number in range(len(configuration.lanes))),
+        "configuration": configuration.model_dump(mode="json"),
+        "seed": 0,
+        "period_s": 0.001,
+        "channels": CHANNELS,
+    }
+    return RecordHeader(**(values | changes))
+
+
+def describe(
+    *commands: tuple[int, str, Any],
+    figure: str = "4a",
+    first_tick: int = 0,
+    ticks: int = TICKS,
+    header: dict[str, Any] | None = None,
+    **changes: Any,
+) -> RunSettings:
+    configuration = get_figure(figure).build_configuration(load=False).changed(**changes)
+    written = [(tick, build_command(tick, kind, value).to_json()) for tick, kind, value in commands]
+    return describe_settings(
+        build_header(configuration, **(header or {})), written, first_tick, ticks
+    )
+
+
+def sigma(value: float) -> ConstantStiffness:
+    return ConstantStiffness(stiffness_nm_per_rad=value)
+
+
+def test_a_figure_with_its_load_is_named_as_people_say_it() -> None:
+    loads = (PaperLoad(start_s=5.0),)
+    settings = describe(figure="4b", loads=loads, rivals=(Lane(law="fl"),))
+    assert settings.name == "Fig. 4B · NDOBC vs FL · σ 60 · 3 kg"
+    assert (settings.figure, settings.law_kinds, settings.load_kinds) == (
+        "4b",
+        ("ndobc", "fl"),
+        ("paper",),
+    )
+    assert settings.stiffness_nm_per_rad == 60.0
+    assert (settings.realism, settings.own) == ("ideal", "")
+
+
+def test_a_load_that_the_record_never_reached_is_not_named() -> None:
+    loads = (PaperLoad(start_s=5.0),)
+    assert describe(loads=loads, ticks=5000).load == "no load"
+    assert describe(loads=loads, ticks=5001).load == "3 kg"
+    assert describe(loads=loads, ticks=5000).load_kinds == ("none",)
+
+
+def test_a_load_that_was_taken_off_before_the_record_is_not_named() -> None:
+    hung = ((100, "load", PaperLoad()), (900, "unload", 1))
+    assert describe(*hung, first_tick=900, ticks=100).load == "no load"
+    assert describe(*hung, first_tick=899, ticks=100).load == "3 kg"
+    pulse = PulseLoad(torque_nm=(5.0, 0.0, 0.0), duration_s=0.2)
+    assert describe((0, "load", pulse), first_tick=200).load == "no load"
+    assert describe((0, "load", pulse), first_tick=199).load == "pulse 5 N·m"
+
+
+def test_loads_are_told_apart_and_those_in_turn_are_counted() -> None:
+    again = ((0, "load", PaperLoad()), (100, "unload", 1), (200, "load", PaperLoad()))
+    assert describe(*again).load == "3 kg (2×)"
+    mass = MassLoad(mass_kg=1.5, arm_m=0.1)
+    assert describe((0, "load", PaperLoad()), (5, "load", mass)).load == (
+        "3 kg + 1.5 kg mass at 100 mm"
+    )
+
+
+def test_a_push_that_was_told_again_is_one_load() -> None:
+    """Held from 1 s to 1.3 s; a second one is another."""
+    told = [
+        (tick, "load", PushLoad(torque_nm=(tick / 1000, 0.0, 0.0), hold_s=0.2))
+        for tick in (1000, 1100, 1200)
+    ]
+    assert describe(*told, (1300, "unload", 1)).load == "push"
+    assert describe(*told, (1300, "unload", 1), first_tick=1300, ticks=50).load == "no load"
+    assert describe(*told, (2000, "load", told[0][2])).load == "push (2×)"
+
+
+def test_what_changed_while_it_was_recorded_stands_behind_an_arrow() -> None:
+    settings = describe((3000, "law", "fl"), (4000, "stiffness", sigma(60)))
+    assert settings.name == "From Fig. 4A · NDOBC → FL · σ 15 → 60 · no load"
+    assert settings.law_kinds == ("ndobc", "fl")
+    assert (settings.figure, name_figure(settings)) == ("4a", "from Fig. 4A")
+
+
+def test_what_changed_before_the_first_sample_or_after_the_last_did_not_happen_to_it() -> None:
+    changes = (
+        (1000, "law", "fl"),
+        (1000, "stiffness", sigma(60)),
+        (9000, "law", "ndobc"),
+    )
+    settings = describe(*changes, first_tick=1000, ticks=8000)
+    assert settings.name == "Fig. 4B · FL · σ 60 · no load"
+    assert settings.law_kinds == ("fl",)
+
+
+def test_of_many_steps_the_first_and_the_last_are_named() -> None:
+    steps = [(tick, "stiffness", sigma(15 + tick / 100)) for tick in (100, 200, 300, 400)]
+    assert describe(*steps).stiffness == "15 → … → 19"
+    assert describe((100, "stiffness", sigma(15))).stiffness == "15"
+
+
+def test_a_motion_of_ones_own_is_no_figure() -> None:
+    settings = describe(position=ConstantPosition(position_rad=0.5235987755982988))
+    assert settings.figure == ""
+    assert settings.name == "Held at 30° · NDOBC · σ 15 · no load"
+
+
+def test_how_a_figure_is_faded_in_makes_no_other_figure_of_it() -> None:
+    slowly = ConstantStiffness(stiffness_nm_per_rad=15, transition_s=3)
+    assert describe(stiffness=slowly).figure == "4a"
+
+
+def test_realism_and_a_design_of_ones_own_are_told() -> None:
+    assert describe(effects=RIG).name == "Fig. 4A · NDOBC · σ 15 · no load · rig"
+    rough = RIG.changed(friction=Friction())
+    assert describe(effects=rough).realism == "encoders, estimated velocities, friction, delay 1"
+    exact = load_prototype().actuator
+    assert describe(nominal=exact).own == "model"
+    assert describe(nominal=exact).name.endswith(" · own model")
+
+
+def test_a_bench_is_named_with_its_twin_and_its_own_figures() -> None:
+    header = {"plant": "emulated"}
+    settings = describe(header=header, rivals=(Lane(law="ndobc"),))
+    assert settings.name == "Fig. 6A · NDOBC vs twin · σ 15 · no load · emulated bench"
+
+
+@pytest.mark.parametrize(
+    "configuration",
+    [{}, {"law": "ndobc", "loads": []}, {"law": "of tomorrow", "loads": [{"kind": "new"}]}],
+)
+def test_what_cannot_be_read_is_left_out(configuration: dict) -> None:
+    header = build_header(get_figure("4a").build_configuration(load=False))
+    odd = header.changed(configuration=configuration)
+    commands = [(5, {"kind": "stiffness", "argument": {"kind": "of tomorrow"}}), (6, {})]
+    settings = describe_settings(odd, commands, 0, 10)
+    assert settings.figure == settings.motion == ""
+    assert settings.stiffness == ""
+
+
+def test_a_change_that_cannot_be_read_is_a_question_mark() -> None:
+    header = build_header(get_figure("4a").build_configuration(load=False))
+    unread = [(5, {"kind": "stiffness", "argument": {"kind": "of tomorrow"}})]
+    settings = describe_settings(header, unread, 0, 10)
+    assert (settings.stiffness, settings.figure_held) == ("15 → ?", False)
+
+
+def test_laws_that_changed_places_are_told_of_every_lane() -> None:
+    settings = describe((3000, "laws", ("fl", "ndobc")), rivals=(Lane(law="fl"),))
+    assert settings.name.split(" · ")[1] == "NDOBC → FL vs FL → NDOBC"
+    assert settings.law_kinds == ("ndobc", "fl")
+
+
+def test_a_lane_that_was_set_otherwise_is_told_as_one_beside() -> None:
+    setting = LaneSetting(lane=2, setting=Lane(law="fl_integral"))
+    assert (
+        describe((3000, "lane", setting), rivals=(Lane(law="fl"),)).laws == "NDOBC vs FL → FL + I"
+    )

@@ -1,0 +1,107 @@
+"""A command is one frozen value: written and read, done to a run, and told of a configuration."""
+
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import svsa
+from svsa.runs.command import COMMANDS, RemoveLoad, SetLaw, SetLaws, build_command, read_command
+from svsa.runs.loads import follow_loads
+from svsa.runs.replay import list_loads
+from svsa.runs.run import Run
+from tests.runs.session.scripts import ARGUMENTS, loads, scripted
+from tests.runs.session.sessions import build_configuration
+
+LANES = (svsa.Lane(law="fl"),)
+KINDS = sorted({*COMMANDS} - {"load", "unload"})
+given_kinds = st.sampled_from(KINDS).flatmap(lambda kind: st.tuples(st.just(kind), ARGUMENTS[kind]))
+
+
+@scripted
+@given(given_kinds)
+def test_a_configuration_becomes_what_the_run_has_after_the_command(drawn):
+    run = Run(build_configuration(rivals=LANES))
+    before = run.configuration
+    try:
+        command = build_command(0, *drawn)
+        command.apply(run)
+    except svsa.ParameterError:
+        assert run.configuration == before
+        return
+    assert command.configure(before) == run.configuration
+
+
+@scripted
+@given(
+    st.sampled_from(sorted(COMMANDS)).flatmap(
+        lambda kind: st.tuples(st.just(kind), ARGUMENTS[kind])
+    )
+)
+def test_a_command_is_read_as_it_was_written(drawn):
+    command = build_command(7, *drawn)
+    written = json.loads(json.dumps(command.to_json()))
+    assert list(written) == ["tick", "kind", "argument"]
+    assert read_command(written) == command
+    assert read_command(written | {"of_a_later_version": 1}) == command
+
+
+def test_a_command_cannot_be_changed_and_says_how_it_reads():
+    command = SetLaw(tick=3, argument="fl")
+    with pytest.raises(ValueError, match="frozen"):
+        command.tick = 4
+    assert command.changed(tick=4) == SetLaw(tick=4, argument="fl")
+    labels = [one.label for one in COMMANDS.values()]
+    assert all(labels) and len({*labels}) == len(labels)
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: SetLaw(tick=-1, argument="fl"), "tick"),
+        (lambda: SetLaws(tick=0, argument=()), "laws"),
+        (lambda: build_command(0, "laws", ()), "laws"),
+        (lambda: build_command(0, "unload", 1.5), "unload"),
+        (lambda: build_command(0, "load", {"kind": "push", "torque_nm": (0, 0, 0), "hold_s": -1}),
+         "hold_s"),
+        (lambda: build_command(0, "dance", None), "kind"),
+        (lambda: read_command({"tick": None, "kind": "law", "argument": "fl"}), "tick"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_a_command_is_called_by_its_name(make, name):
+    with pytest.raises(svsa.ParameterError) as refused:
+        make()
+    assert [violation.name for violation in refused.value.violations] == [name]
+
+
+def test_every_change_known_before_is_a_command():
+    fields = set(svsa.Change.model_fields) - {"at_s"}
+    assert fields <= set(COMMANDS)
+
+
+@scripted
+@given(st.lists(loads, min_size=1, max_size=5), st.integers(1, 5), st.integers(1, 400))
+def test_the_loads_of_a_run_are_those_that_its_commands_tell(given_loads, number, taken_at):
+    """Two readers, the run itself and whoever has its commands, follow one rule."""
+    commands = [
+        build_command(40 * position, "load", load) for position, load in enumerate(given_loads)
+    ]
+    commands.append(RemoveLoad(tick=200 + taken_at, argument=number))
+    run, taken = Run(build_configuration()), None
+    for command in commands:
+        run.tick = command.tick
+        try:
+            taken = command.apply(run)
+        except svsa.StateError:
+            return
+    told = {load.number: load for load in list_loads(run.configuration, commands)}
+    assert taken is not None
+    assert told[number] == taken._replace(end_tick=min(taken.end_tick, commands[-1].tick))
+    for load in run.loads:
+        assert told[load.number] == load
+
+
+def test_a_load_told_off_twice_ended_the_first_time():
+    (load,) = follow_loads([svsa.PaperLoad()], [(5, 1), (9, 1)], 0.001)
+    assert (load.start_tick, load.end_tick) == (0, 5)

@@ -1,0 +1,176 @@
+"""Metrics against signals whose numbers are known by hand."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
+from svsa.runs.metrics import SETTLED_S, RunningMetrics, compute_metrics
+
+T = 0.001
+
+
+def build_samples(ticks, **channels):
+    """Samples that are zero but for these channels."""
+    samples = np.zeros((ticks, len(CHANNELS)))
+    for name, values in channels.items():
+        samples[:, CHANNEL_INDEX[name]] = values
+    return samples
+
+
+def test_rms_and_peak_of_a_sine():
+    """A sine of amplitude 3 over whole periods: rms 3/√2, peak 3."""
+    t = np.arange(2000) * T
+    wave = 3.0 * np.sin(2.0 * np.pi * 5.0 * t)
+    metrics = compute_metrics(build_samples(2000, position_error_rad=wave), T)
+    assert metrics.duration_s == pytest.approx(2.0)
+    assert metrics.rms_position_error_rad == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-12)
+    assert metrics.peak_position_error_rad == pytest.approx(3.0, rel=1e-12)
+    assert metrics.rms_stiffness_error_nm_per_rad == 0.0
+
+
+def test_each_metric_reads_its_own_channel_and_the_sign_does_not_matter():
+    samples = build_samples(
+        100,
+        position_error_rad=-1.0,
+        stiffness_error_nm_per_rad=-2.0,
+        torque1_nm=-3.0,
+        torque2_nm=-4.0,
+    )
+    metrics = compute_metrics(samples, T)
+    assert metrics.rms_position_error_rad == metrics.peak_position_error_rad == 1.0
+    assert metrics.rms_stiffness_error_nm_per_rad == 2.0
+    assert metrics.peak_stiffness_error_nm_per_rad == 2.0
+    assert (metrics.peak_torque1_nm, metrics.peak_torque2_nm) == (3.0, 4.0)
+    assert metrics.integral_position_error_rad_s == pytest.approx(1.0 * 0.1)
+    assert metrics.effort_n2m2_s == pytest.approx((9.0 + 16.0) * 0.1)
+
+
+def test_integral_and_effort_of_sines():
+    """∫|3 sin| over whole periods is 6/π a second, ∫(2 sin)² + (2 cos)² is 4 a second."""
+    angle = 2.0 * np.pi * 5.0 * np.arange(2000) * T
+    samples = build_samples(
+        2000,
+        position_error_rad=3.0 * np.sin(angle),
+        torque1_nm=2.0 * np.sin(angle),
+        torque2_nm=2.0 * np.cos(angle),
+    )
+    metrics = compute_metrics(samples, T)
+    assert metrics.integral_position_error_rad_s == pytest.approx(2.0 * 6.0 / np.pi, rel=1e-3)
+    assert metrics.effort_n2m2_s == pytest.approx(2.0 * 4.0, rel=1e-12)
+
+
+def test_recovery_of_a_decaying_error():
+    """e^(−10 t) falls to 2 % at ln(50)/10 = 0.3912 s: the first sample inside is at 0.392."""
+    error = np.exp(-10.0 * np.arange(1000) * T)
+    metrics = compute_metrics(build_samples(1000, position_error_rad=error), T)
+    assert metrics.recovery_time_s == pytest.approx(0.392)
+
+
+def test_recovery_counts_from_the_start_to_the_last_time_outside():
+    """A second excursion undoes the first recovery; 2 % is of the highest peak."""
+    error = np.zeros(2000)
+    error[100:200] = 1.0
+    error[600:650] = -0.021
+    error[700:710] = 0.019
+    metrics = compute_metrics(build_samples(2000, position_error_rad=error), T)
+    assert metrics.recovery_time_s == pytest.approx(0.65)
+
+
+def test_an_error_that_stays_has_not_recovered():
+    """FL under a load: the error never comes back, and no number pretends that it did."""
+    metrics = compute_metrics(build_samples(3000, position_error_rad=0.2), T)
+    assert metrics.recovery_time_s is None
+
+
+def test_recovery_needs_half_a_second_inside():
+    """An error that has only just come in may go out again."""
+    late = np.zeros(1000)
+    inside = round(SETTLED_S / T)
+    late[: 1000 - inside + 1] = 1.0
+    assert compute_metrics(build_samples(1000, position_error_rad=late), T).recovery_time_s is None
+    late[1000 - inside] = 0.0
+    found = compute_metrics(build_samples(1000, position_error_rad=late), T).recovery_time_s
+    assert found == pytest.approx(0.5)
+
+
+def test_without_any_error_recovery_is_at_once():
+    assert compute_metrics(build_samples(1000), T).recovery_time_s == 0.0
+
+
+def test_no_samples_have_no_metrics():
+    running = RunningMetrics(T)
+    running.update(np.zeros((0, len(CHANNELS))))
+    assert running.summarize() is None
+
+
+def test_what_a_loop_missed_is_in_no_sum_and_no_peak_and_time_goes_on():
+    t = np.arange(2000) * T
+    wave = 3.0 * np.sin(2.0 * np.pi * 5.0 * t)
+    samples = build_samples(2000, position_error_rad=wave, torque1_nm=2.0)
+    samples[700:720] = np.nan
+    whole, known = compute_metrics(samples, T), np.delete(samples, np.s_[700:720], axis=0)
+    expected = vars(compute_metrics(known, T)) | {"duration_s": 2.0}
+    assert vars(whole) == pytest.approx(expected)
+    assert vars(whole)["settled_position_error_rad"] == pytest.approx(3.0 / np.sqrt(2.0))
+
+
+@pytest.mark.parametrize(("missed", "recovered_s"), [((300, 320), 0.2), ((190, 220), 0.22)])
+def test_ticks_that_are_missed_neither_end_nor_begin_a_recovery(missed, recovered_s):
+    """Inside before and after a gap: inside. Outside before it: outside until it is seen inside."""
+    error = np.where(np.arange(1500) < 200, 1.0, 0.001)
+    samples = build_samples(1500, position_error_rad=error)
+    samples[slice(*missed)] = np.nan
+    running = RunningMetrics(T)
+    for rows in np.array_split(samples, [1, 195, 310, 600]):
+        running.update(rows)
+    found = running.summarize()
+    assert found is not None
+    assert found.recovery_time_s == pytest.approx(recovered_s)
+    assert vars(found) == pytest.approx(vars(compute_metrics(samples, T)))
+
+
+@pytest.mark.parametrize("known", [0, 1000])
+def test_of_a_lane_that_has_ended_nothing_is_told(known):
+    """A twin beyond its deflection has no numbers from there on: what it had is no whole."""
+    samples = build_samples(2000, position_error_rad=1.0)
+    samples[known:] = np.nan
+    metrics = compute_metrics(samples, T)
+    assert np.isnan([metrics.rms_position_error_rad, metrics.peak_torque1_nm]).all()
+    assert np.isnan([metrics.integral_position_error_rad_s, metrics.effort_n2m2_s]).all()
+
+
+@settings(derandomize=True, max_examples=40, deadline=None)
+@given(st.lists(st.integers(0, 400), max_size=12), st.floats(0.0, 30.0))
+def test_taken_in_pieces_the_metrics_are_those_of_the_whole(cuts, rate):
+    """A session updates at every wake: where the wakes fall must not show."""
+    t = np.arange(1500) * T
+    error = np.exp(-rate * t) * np.sin(40.0 * t)
+    samples = build_samples(
+        1500, position_error_rad=error, stiffness_error_nm_per_rad=5.0 * error, torque1_nm=t
+    )
+    whole = compute_metrics(samples, T)
+    running, edges = RunningMetrics(T), np.minimum(np.cumsum([0, *cuts]), 1500)
+    for start, end in zip(edges, [*edges[1:], 1500], strict=True):
+        running.update(samples[start:end])
+    found = running.summarize()
+    assert found is not None
+    numbers, expected = dict(vars(found)), dict(vars(whole))
+    assert numbers.pop("recovery_time_s") == expected.pop("recovery_time_s")
+    assert numbers == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_settled_error_is_that_of_the_end_however_the_samples_come():
+    """4 for 2 s, then 3 sin of whole periods for the last 0.5 s: 3/√2, and none under 1 s."""
+    t = np.arange(500) * T
+    errors = np.concatenate([np.full(2000, 4.0), 3.0 * np.sin(2.0 * np.pi * 10.0 * t)])
+    samples = build_samples(2500, position_error_rad=errors)
+    running = RunningMetrics(T)
+    for rows in np.array_split(samples, [1, 990, 2004, 2490]):
+        running.update(rows)
+    assert running.summarize() == compute_metrics(samples, T)
+    settled = running.summarize().settled_position_error_rad
+    assert settled == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-12)
+    assert compute_metrics(samples[:999], T).settled_position_error_rad is None
+    assert compute_metrics(samples[:1000], T).settled_position_error_rad == pytest.approx(4.0)

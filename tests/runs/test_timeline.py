@@ -1,0 +1,259 @@
+"""Who controlled which lane from when on, and the windows between changes."""
+
+import itertools
+
+import pytest
+
+import svsa
+from svsa.control.installed import list_law_names
+from svsa.runs import controllers
+from svsa.runs.command import (
+    ApplyLoad,
+    RemoveLoad,
+    SetEffects,
+    SetGains,
+    SetLaw,
+    SetLaws,
+    SetObserver,
+    SetPosition,
+    SetRivals,
+    build_command,
+)
+from svsa.runs.controllers import name_controllers
+from svsa.runs.timeline import INK_COLORS, Timeline, Window, read_timeline
+from tests.runs.session.scripts import play_busy_session
+from tests.runs.session.sessions import build_configuration, build_session
+
+FL, NDOBC = svsa.Lane(law="fl"), svsa.Lane(law="ndobc")
+FASTER = svsa.ObserverBandwidth(bandwidth_rad_per_s=(120.0, 120.0, 120.0))
+STIFFER = svsa.Gains.from_poles([-80.0] * 4, [-60.0] * 2)
+
+
+def tell(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
+    """Of every lane: name, first tick, end."""
+    lanes = timeline.list_stretches()
+    names = name_controllers(one.controller for lane in lanes for one in lane)
+    return [[(names[one.controller], one.first_tick, one.end_tick) for one in x] for x in lanes]
+
+
+def test_laws_that_change_places_leave_the_past_its_names():
+    session = build_session(rivals=(FL,))
+    session.step(30)
+    session.change(SetLaws(argument=("fl", "ndobc")))
+    session.step(10)
+    assert tell(session.journal.timeline) == [
+        [("NDOBC", 0, 30), ("FL", 30, None)],
+        [("FL", 0, 30), ("NDOBC", 30, None)],
+    ]
+    inks = [[one.ink for one in lane] for lane in session.journal.timeline.list_stretches()]
+    first, other = (list_law_names().index(law) for law in ("ndobc", "fl"))
+    assert inks == [[first, other], [other, first]]
+
+
+def test_a_rival_begins_where_it_began_and_takes_nobodys_past():
+    session = build_session()
+    session.step(20)
+    session.change(SetRivals(argument=(FL,)))
+    session.step(20)
+    session.change(SetRivals(argument=(NDOBC, FL)))
+    assert tell(session.journal.timeline) == [
+        [("NDOBC", 0, None)],
+        [("NDOBC (2)", 40, None)],
+        [("FL", 20, None)],
+    ]
+
+
+def test_one_law_with_other_gains_is_told_apart_by_them():
+    session = build_session()
+    session.step(10)
+    session.change(SetObserver(argument=FASTER))
+    session.step(10)
+    session.change(SetGains(argument=STIFFER))
+    names = [name for name, _, _ in tell(session.journal.timeline)[0]]
+    assert names == ["NDOBC β 60 ωq 60 ωσ 40", "NDOBC β 120 ωq 60 ωσ 40", "NDOBC β 120 ωq 80 ωσ 60"]
+    assert len({one.ink for one in session.journal.timeline.list_stretches()[0]}) == 3
+
+
+def test_what_a_law_does_not_use_makes_it_no_other():
+    session = build_session(law="fl")
+    session.step(10)
+    session.change(SetObserver(argument=FASTER))
+    assert tell(session.journal.timeline) == [[("FL", 0, None)]]
+
+
+def test_a_change_and_back_within_a_tick_is_no_stretch():
+    session = build_session()
+    session.step(10)
+    session.change(SetLaw(argument="fl"))
+    session.change(SetLaw(argument="ndobc"))
+    assert tell(session.journal.timeline) == [[("NDOBC", 0, None)]]
+
+
+def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
+    timeline = Timeline(build_configuration(), kept_ticks=100)
+    session = build_session()
+    for tick, observer in ((10, FASTER), (200, session.run.configuration.observer)):
+        session.step(tick - session.run.tick)
+        session.change(SetObserver(argument=observer))
+        timeline.take(session.journal.commands[-1])
+    assert [one.ink for one in timeline.list_stretches()[0]] == [1, 0]
+
+
+def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their_own():
+    laws = list_law_names()
+    for rivals in itertools.combinations(laws[1:], 3):
+        lanes = tuple(svsa.Lane(law=law) for law in rivals)
+        timeline = Timeline(build_configuration(law=laws[0], rivals=lanes))
+        inks = [lane[-1].ink for lane in timeline.list_stretches()]
+        assert len({ink % INK_COLORS for ink in inks}) == len(inks), rivals
+        assert inks[0] == 0
+        assert inks[1] == 1 or rivals[0] != laws[1]
+
+
+def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
+    laws = list_law_names()
+    timeline = Timeline(build_configuration(law=laws[0]))
+    timeline.take(build_command(10, "law", laws[INK_COLORS]))
+    first, second = (one.ink for one in timeline.list_stretches()[0])
+    assert first % INK_COLORS != second % INK_COLORS
+
+
+def test_a_bench_and_its_twin_stay_in_the_names():
+    timeline = Timeline(build_configuration(rivals=(NDOBC, FL)), is_bench=True)
+    session = build_session(rivals=(NDOBC, FL))
+    session.step(5)
+    session.change(SetLaw(argument="fl"))
+    timeline.take(session.journal.commands[-1])
+    assert tell(timeline) == [
+        [("Bench NDOBC", 0, 5), ("Bench FL", 5, None)],
+        [("Twin NDOBC", 0, 5), ("Twin FL", 5, None)],
+        [("FL", 0, None)],
+    ]
+
+
+CHANGES = [
+    ("position", svsa.ConstantPosition(position_rad=0.1), "Motion changed"),
+    ("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0), "Stiffness changed"),
+    ("law", "fl", "NDOBC → FL"),
+    ("laws", ("fl",), "NDOBC → FL"),
+    ("gains", STIFFER, "Gains changed"),
+    ("observer", FASTER, "Observer changed"),
+    ("actuator", svsa.load_prototype().actuator, "Plant changed"),
+    ("nominal", svsa.load_prototype().nominal, "Nominal model changed"),
+    ("effects", svsa.RIG, "Effects changed"),
+    ("rivals", (FL,), "FL beside"),
+    ("rivals", (FL, svsa.Lane(law="adrc")), "FL, ADRC beside"),
+]
+
+
+@pytest.mark.parametrize(("kind", "argument", "label"), CHANGES)
+def test_every_change_begins_a_window_for_all_lanes(kind, argument, label):
+    session = build_session()
+    session.step(50)
+    assert session.journal.timeline.window == Window("start", "", 0)
+    session.change(build_command(0, kind, argument))
+    session.step(20)
+    assert session.journal.timeline.window == Window("change", label, 50)
+    durations = [lane.summarize().duration_s for lane in session.journal.metrics.in_window]
+    assert durations == pytest.approx([0.02] * len(durations))
+
+
+def test_recovery_is_latched_at_its_load():
+    """Realism, motion and law change after it: the 0.2 s that were read stay 0.2 s."""
+    session = build_session(rivals=(FL,))
+    session.step(100)
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
+    session.step(1500)
+    ndobc, fl = (lane.summarize() for lane in session.journal.metrics.since_load)
+    assert 0.1 < ndobc.recovery_time_s < 0.4
+    assert fl.recovery_time_s is None
+    session.change(SetEffects(argument=svsa.RIG))
+    session.change(SetPosition(argument=svsa.ConstantPosition(position_rad=0.5)))
+    session.step(1500)
+    session.change(SetLaws(argument=("fl", "ndobc")))
+    session.step(1500)
+    assert [lane.summarize() for lane in session.journal.metrics.since_load] == [ndobc, fl]
+    assert session.journal.timeline.load_window == Window("load", "3 kg load", 100, 1600)
+    assert session.journal.timeline.window == Window("change", "NDOBC → FL", 3100)
+
+
+def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
+    session = build_session(law="fl")
+    session.change(ApplyLoad(argument=svsa.PaperLoad()))
+    session.step(1500)
+    (fl,) = (lane.summarize() for lane in session.journal.metrics.in_window)
+    session.change(SetLaw(argument="ndobc"))
+    session.step(1000)
+    session.change(SetRivals(argument=(FL,)))
+    session.step(1)
+    first, rival = (lane.summarize() for lane in session.journal.metrics.in_window)
+    assert fl.peak_position_error_rad > 0.1
+    assert max(first.peak_position_error_rad, rival.peak_position_error_rad) < 0.01
+
+
+def test_changes_of_one_moment_are_one_window():
+    session = build_session()
+    session.step(50)
+    session.change(SetEffects(argument=svsa.RIG))
+    session.change(SetGains(argument=STIFFER))
+    session.change(SetGains(argument=STIFFER))
+    assert session.journal.timeline.windows == [
+        Window("start", "", 0, 50),
+        Window("change", "Effects changed, Gains changed", 50),
+    ]
+
+
+def test_what_is_set_before_the_first_tick_is_how_the_run_starts():
+    session = build_session()
+    session.change(SetGains(argument=STIFFER))
+    session.change(SetRivals(argument=(FL,)))
+    session.step(10)
+    assert session.journal.timeline.windows == [Window("start", "", 0)]
+    for lanes in (session.journal.metrics.since_start, session.journal.metrics.in_window):
+        assert [lane.summarize().duration_s for lane in lanes] == pytest.approx([0.01, 0.01])
+
+
+def test_a_recorded_run_has_the_timeline_that_its_session_had():
+    """One function of configuration and commands; loads come on and go at the same ticks."""
+    session = play_busy_session()
+    again = read_timeline(session.journal.initial, session.journal.commands, (-1, session.run.tick))
+    assert again.windows == session.journal.timeline.windows
+    assert again.load_window == session.journal.timeline.load_window
+    assert again.list_stretches() == session.journal.timeline.list_stretches()
+    assert {window.kind for window in again.windows} == {"start", "load", "unload", "change"}
+
+
+def test_the_label_of_a_window_stays_short_whatever_happens_at_one_tick():
+    """A paused session takes thousands of changes at the same tick."""
+    session = build_session()
+    session.step(10)
+    for mass in range(100):
+        session.change(ApplyLoad(argument={"kind": "mass", "mass_kg": 0.01 + 0.01 * mass}))
+        session.journal.timeline.take_off(session.run.loads[-1].load, session.run.tick)
+        session.change(RemoveLoad(argument=session.run.loads[-1].number))
+    label = session.journal.timeline.window.label
+    assert label.startswith("0.01 kg mass off, 0.02 kg mass off")
+    assert label.endswith(" …")
+    assert len(label) <= 202
+
+
+def test_names_of_many_are_worked_out_once_and_each_is_looked_at_once(monkeypatch):
+    """A slider that is drawn makes a controller of each step: telling them apart stays quick."""
+    session = build_session()
+    for step in range(60):
+        session.step(10)
+        bandwidth = svsa.ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3)
+        session.change(SetObserver(argument=bandwidth))
+    looked_at = []
+    describe = controllers._describe
+    monkeypatch.setattr(
+        controllers, "_describe", lambda one: looked_at.append(one) or describe(one)
+    )
+    timeline = session.journal.timeline
+    for _ in range(3):
+        names = timeline.name_stretches(timeline.list_stretches())
+    assert len(looked_at) == len(names) == 61
+    assert list(names.values())[:3] == ["NDOBC β 60", "NDOBC β 70", "NDOBC β 71"]
+    session.step(10)
+    session.change(SetLaw(argument="fl"))
+    assert timeline.name_stretches(timeline.list_stretches())[62] == "FL"

@@ -1,0 +1,195 @@
+"""Control in a class: asked for, waited for, handed over, locked, left; at times that are told."""
+
+import asyncio
+from types import SimpleNamespace
+
+import pytest
+
+from svsa.errors import StateError
+from svsa_server.leases.lease import ControlHand, HeldError, Holder
+from svsa_server.leases.queue import ControlQueue
+from svsa_server.sessions.hosted import HostedSession
+
+ADA, BOB, EVE = Holder("p-1", "Ada"), Holder("p-2", "Bob"), Holder("p-3", "Eve")
+TEACHER = Holder("instructor", "Instructor")
+IDLE_S, GONE_S = 90.0, 15.0
+
+
+@pytest.fixture
+def queue() -> ControlQueue:
+    return ControlQueue("lab", lambda client: client == TEACHER.client, IDLE_S)
+
+
+def ask(queue: ControlQueue, *people: Holder, now: float = 0.0) -> None:
+    for person in people:
+        queue.take(person, take_over=False, now=now)
+
+
+def settle(queue: ControlQueue, now: float, here: tuple[Holder, ...] = (ADA, BOB, EVE)) -> list:
+    for person in here:
+        queue.hear(person.client, now)
+    return queue.settle(now, GONE_S)
+
+
+def test_nobody_commands_a_free_session_but_the_instructor(queue: ControlQueue) -> None:
+    assert [queue.admits(one) for one in (None, "p-1", TEACHER.client)] == [False, False, True]
+    with pytest.raises(HeldError, match="Nobody is in control of session lab: ask for control"):
+        queue.check("p-1")
+
+
+def test_who_asks_first_has_it_and_the_others_wait_in_their_order(queue: ControlQueue) -> None:
+    ask(queue, ADA, BOB, EVE, BOB, ADA)
+    assert (queue.holder, queue.waiting) == (ADA, [BOB, EVE])
+    assert [queue.find_place(one.client) for one in (ADA, BOB, EVE)] == [None, 1, 2]
+    assert [queue.admits(one.client) for one in (ADA, BOB, TEACHER)] == [True, False, False]
+    with pytest.raises(HeldError, match="Ada is in control of session lab: ask for control, and"):
+        queue.check("p-2")
+
+
+def test_it_goes_on_when_it_is_given_back_and_who_leaves_the_queue_is_out(
+    queue: ControlQueue,
+) -> None:
+    ask(queue, ADA, BOB, EVE)
+    queue.give_back("p-2", 1.0)
+    assert (queue.holder, queue.waiting) == (ADA, [EVE])
+    queue.give_back("p-1", 2.0)
+    assert (queue.holder, queue.waiting) == (EVE, [])
+    queue.give_back("p-1", 3.0)
+    assert queue.holder == EVE, "who is in neither gives nothing back"
+    queue.give_back("p-3", 4.0)
+    assert queue.holder is None
+
+
+def test_its_holder_hands_it_to_one_who_waits_and_nobody_else_does(queue: ControlQueue) -> None:
+    ask(queue, ADA, BOB, EVE)
+    for other in ("p-2", None):
+        with pytest.raises(HeldError):
+            queue.hand_over(other, "p-3", 1.0)
+    with pytest.raises(StateError, match="who waits"):
+        queue.hand_over("p-1", "p-9", 1.0)
+    queue.hand_over("p-1", "p-3", 1.0)
+    assert (queue.holder, queue.waiting) == (EVE, [BOB])
+    queue.hand_over(TEACHER.client, "p-2", 2.0)
+    assert (queue.holder, queue.waiting) == (BOB, [])
+
+
+def test_an_idle_holder_loses_it_to_who_waits_and_to_nobody_else(queue: ControlQueue) -> None:
+    ask(queue, ADA)
+    assert not settle(queue, 1000.0)
+    assert queue.holder == ADA, "nobody waits"
+    ask(queue, ADA, now=1000.0)
+    queue.note_command("p-1", 1000.0)
+    ask(queue, BOB, now=1001.0)
+    queue.note_command("p-2", 1060.0)
+    assert not settle(queue, 1000.0 + IDLE_S)
+    assert queue.holder == ADA
+    assert settle(queue, 1000.1 + IDLE_S) == [(ADA, "idle")]
+    assert queue.holder == BOB
+    ask(queue, ADA, now=1100.0)
+    queue.note_command("p-2", 1150.0)
+    assert not settle(queue, 1230.0)
+    assert queue.holder == BOB, "a command counts"
+
+
+def test_who_is_gone_loses_it_and_their_place(queue: ControlQueue) -> None:
+    ask(queue, ADA, BOB, EVE)
+    assert not settle(queue, 14.0, (BOB,))
+    assert settle(queue, 16.0, (EVE,)) == [(ADA, "gone")]
+    assert (queue.holder, queue.waiting) == (BOB, [EVE])
+    assert not settle(queue, 30.0, (EVE,))
+    assert settle(queue, 32.0, ()) == [(BOB, "gone")]
+    assert (queue.holder, queue.waiting) == (EVE, [])
+    ask(queue, ADA, now=40.0)
+    assert settle(queue, 56.0, (EVE,)) == [(ADA, "gone_from_queue")]
+    assert (queue.holder, queue.waiting) == (EVE, [])
+    assert settle(queue, 72.0, ()) == [(EVE, "gone")]
+    assert queue.holder is None
+
+
+def test_the_instructor_takes_it_and_whoever_had_it_is_first_to_get_it_back(
+    queue: ControlQueue,
+) -> None:
+    ask(queue, ADA, BOB)
+    with pytest.raises(HeldError, match="Only the instructor"):
+        queue.take(BOB, take_over=True, now=1.0)
+    queue.take(TEACHER, take_over=True, now=1.0)
+    assert (queue.holder, queue.waiting) == (TEACHER, [ADA, BOB])
+    queue.give_back(TEACHER.client, 2.0)
+    assert (queue.holder, queue.waiting) == (ADA, [BOB])
+
+
+def test_while_it_is_locked_only_the_instructor_commands(queue: ControlQueue) -> None:
+    ask(queue, ADA, BOB)
+    queue.lock(True, 1.0)
+    assert (queue.holder, queue.waiting) == (None, [ADA, BOB])
+    with pytest.raises(HeldError, match="The instructor has locked control"):
+        queue.check("p-1")
+    ask(queue, EVE, now=2.0)
+    assert not settle(queue, 10.0)
+    assert queue.holder is None
+    assert queue.admits(TEACHER.client)
+    queue.lock(False, 20.0)
+    assert (queue.holder, queue.waiting) == (ADA, [BOB, EVE])
+
+
+class Bench(SimpleNamespace):
+    """A session that moves, and notes why it was brought to rest."""
+
+    def __init__(self, plant: str = "bench", status: str = "running") -> None:
+        super().__init__(name="lab", plant=plant, status=status, version=0, halts=[])
+
+    def halt(self, why: str) -> None:
+        self.halts.append(why)
+        self.status = "paused"
+
+
+def host(hand: ControlHand, bench: Bench) -> HostedSession:
+    return HostedSession(bench, hand=hand)  # type: ignore[arg-type]
+
+
+def test_a_bench_comes_to_rest_whenever_it_is_handed_on(queue: ControlQueue) -> None:
+    changes = (
+        lambda hosted: hosted.give_control_back("p-1"),
+        lambda hosted: hosted.hand_control_over("p-1", "p-2"),
+        lambda hosted: hosted.take_control(TEACHER, True),
+        lambda hosted: hosted.lock_control(True),
+        lambda hosted: hosted.free_hand_if_left(float("inf"), GONE_S),
+    )
+    for change in changes:
+        bench = Bench()
+        hosted = host(ControlQueue("lab", lambda client: client == TEACHER.client, 90.0), bench)
+        hosted.take_control(ADA, False)
+        hosted.take_control(BOB, False)
+        assert bench.halts == [], "asking moves nothing"
+        change(hosted)
+        assert hosted.hand.holder != ADA
+        assert bench.halts == ["control was handed over"]
+
+
+def test_a_simulation_goes_on_and_so_does_a_bench_that_everybody_may_command() -> None:
+    simulated, bench = Bench(plant="simulated"), Bench()
+    hosted = host(ControlQueue("lab", lambda _: False, 90.0), simulated)
+    hosted.take_control(ADA, False)
+    hosted.give_control_back("p-1")
+    free = host(ControlHand("lab"), bench)
+    free.take_control(ADA, False)
+    free.take_control(ADA, True)
+    free.give_control_back("p-1")
+    assert simulated.halts == bench.halts == []
+    free.take_control(ADA, False)
+    free.take_control(BOB, True)
+    assert bench.halts == ["control was handed over"]
+
+
+def test_streams_keep_a_place_in_the_queue() -> None:
+    hosted = host(ControlQueue("lab", lambda _: False, 1e9), Bench(status="paused"))
+    hosted.touch = lambda: None  # type: ignore[method-assign]
+
+    async def wait() -> None:
+        hosted.take_control(ADA, False)
+        hosted.take_control(BOB, False)
+        with hosted.streamed_to("p-1"), hosted.streamed_to("p-2"):
+            hosted.free_hand_if_left(1e8, GONE_S)
+        assert hosted.find_queue().find_place("p-2") == 1
+
+    asyncio.run(wait())

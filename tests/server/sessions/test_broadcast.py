@@ -1,0 +1,166 @@
+"""What streams are told of a change: once for all who are told the same, and what is over once."""
+
+import json
+import random
+
+import pytest
+
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.runs.command import ApplyLoad, Command, SetLaw, SetObserver, SetRivals
+from svsa.runs.configuration import Lane
+from svsa.runs.paper import get_figure
+from svsa.runs.session.simulated import SimulatedSession
+from svsa.simulation.plant.loads import PaperLoad
+from svsa_server.leases.lease import Holder, asking
+from svsa_server.sessions import broadcast
+from svsa_server.sessions.broadcast import News, Told
+from svsa_server.sessions.cursor import SampleCursor, StreamRequest
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.state import build_state
+
+
+@pytest.fixture
+def hosted():
+    return HostedSession(SimulatedSession("lab", get_figure("4a").build_configuration()))
+
+
+def slide(step: int) -> Command:
+    """A slider that is drawn: another observer each time."""
+    return SetObserver(argument=ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3))
+
+
+def read(told: News) -> dict:
+    return json.loads(told.text)
+
+
+def test_a_change_is_written_once_for_all_who_are_told_the_same(hosted, monkeypatch):
+    written = []
+    build = broadcast.build_state
+    monkeypatch.setattr(broadcast, "build_state", lambda *of: written.append(of) or build(*of))
+    told = Told.all_of(hosted)
+    messages = {broadcast.write_news(hosted, told) for _ in range(100)}
+    assert len(messages) == len(written) == 1
+    hosted.session.start()
+    assert read(broadcast.write_news(hosted, told))["state"]["status"] == "running"
+    assert len(written) == 2
+
+
+def test_who_came_at_different_times_is_told_the_same_from_the_first_change_on(hosted):
+    came = []
+    for _ in range(5):
+        hosted.session.step(10)
+        came.append(Told.all_of(hosted))
+    hosted.session.set_speed(2.0)
+    then = {broadcast.write_news(hosted, told) for told in came}
+    assert len({message.text for message in then}) == 5
+    assert len({message.told for message in then}) == 1
+
+
+def test_who_is_in_control_is_told_so_and_nobody_else(hosted):
+    hosted.take_control(Holder("ada", "Ada"), take_over=False)
+    told = Told.all_of(hosted)
+    for client, is_ada in (("ada", True), ("bob", False), ("ada", True), (None, False)):
+        asking.set(client)
+        control = read(broadcast.write_news(hosted, told))["state"]["control"]
+        assert (control["holder"], control["mine"]) == ("Ada", is_ada)
+
+
+def test_what_moves_by_itself_is_written_once_in_each_period(hosted, monkeypatch):
+    written = []
+    build = broadcast.build_progress
+    monkeypatch.setattr(broadcast, "build_progress", lambda *of: written.append(of) or build(*of))
+    told = Told.all_of(hosted)
+    assert len({broadcast.write_progress(hosted, told, period=7) for _ in range(100)}) == 1
+    broadcast.write_progress(hosted, told, period=8)
+    assert len(written) == 2
+    hosted.session.start()
+    assert read(broadcast.write_progress(hosted, told, period=8))["state"]["status"] == "running"
+    assert len(written) == 3
+
+
+def test_a_window_is_fresh_in_its_first_seconds(hosted):
+    assert broadcast.is_fresh(hosted)
+    for _ in range(4):
+        hosted.session.step(1000)
+    assert not broadcast.is_fresh(hosted)
+    hosted.session.change(SetLaw(argument="fl"))
+    assert broadcast.is_fresh(hosted)
+
+
+def test_a_message_does_not_grow_with_the_changes_of_a_minute(hosted):
+    """A slider that is drawn tells a hundred browsers of each of its steps."""
+    told, sizes = Told.all_of(hosted), []
+    for step in range(200):
+        hosted.session.step(20)
+        hosted.session.change(slide(step))
+        message = broadcast.write_news(hosted, told)
+        told = message.told
+        sizes.append(len(message.text))
+    assert len(build_state(hosted).model_dump_json()) > 10 * sizes[-1]
+    assert max(sizes[5:]) < 1.2 * sizes[5]
+
+
+def join(known: dict, message: dict) -> dict:
+    """What a reader knows after a message, as the schema says."""
+    since, state = message["since_tick"], message["state"]
+    was = {lane["id"]: lane["stretches"] for lane in known["lanes"]}
+    for lane in state["lanes"]:
+        over = [one for one in was.get(lane["id"], []) if one["end_tick"] is not None]
+        lane["stretches"] = [o for o in over if o["end_tick"] < since] + lane["stretches"]
+    if "events" in state:
+        before = [event for event in known["events"] if event["tick"] < since]
+        state["events"] = before + state["events"]
+        over = [window for window in known["ended_windows"] if window["end_tick"] < since]
+        state["ended_windows"] = over + state["ended_windows"]
+    return known | state
+
+
+def do_something(session: SimulatedSession, dice: random.Random) -> None:
+    match 3 if session.status == "fault" else dice.randrange(8):
+        case 0:
+            laws = dice.choices(("fl", "ndobc"), k=dice.randrange(3))
+            session.change(SetRivals(argument=tuple(Lane(law=law) for law in laws)))
+        case 1:
+            session.change(SetLaw(argument=dice.choice(("fl", "ndobc"))))
+        case 2:
+            session.change(ApplyLoad(argument=PaperLoad()))
+        case 3:
+            session.reset()
+        case _:
+            session.change(slide(dice.randrange(4)))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_who_joins_the_messages_knows_what_the_session_knows(hosted, seed):
+    """Also of a reader that hears of some changes late, together."""
+    dice, session = random.Random(seed), hosted.session  # noqa: S311
+    told, known = Told.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
+    for number in range(100):
+        do_something(session, dice)
+        session.journal.advance(dice.choice((0, 1, 5, 40)))
+        if dice.random() < 0.3:
+            continue
+        message = broadcast.write_news(hosted, told)
+        told, known = message.told, join(known, read(message))
+        version = hosted.version
+        session.journal.advance(dice.choice((0, 1, 40)))
+        if hosted.version != version:
+            continue
+        message = broadcast.write_progress(hosted, told, number)
+        told, known = message.told, join(known, read(message))
+        there = json.loads(build_state(hosted).model_dump_json())
+        for told_of in ("events", "ended_windows", "lanes"):
+            assert known[told_of][-50:] == there[told_of][-50:], told_of
+
+
+def test_samples_are_packed_once_for_all_who_are_at_the_same_place(hosted):
+    def open_cursor(*channels: str) -> SampleCursor:
+        return SampleCursor(hosted.session, StreamRequest(), channels, hosted.batches)
+
+    alike = [open_cursor("position_rad") for _ in range(3)]
+    other = open_cursor("stiffness_nm_per_rad")
+    for _ in range(2):
+        hosted.session.step(50)
+        batches = [cursor.take_batch(slow=False) for cursor in alike]
+        assert len({id(batch) for batch in batches}) == 1
+        assert batches[0] != other.take_batch(slow=False)

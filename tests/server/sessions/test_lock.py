@@ -1,0 +1,196 @@
+"""A command that waits for a bench: it comes to its end in order, and holds up nobody."""
+
+import asyncio
+import threading
+import time
+import types
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from svsa.errors import StateError
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime import launch
+from svsa.hardware.realtime.launch import BenchError, BenchProcesses
+from svsa.hardware.realtime.link import Link, build_links
+from svsa.hardware.session import supervised_loop
+from svsa.hardware.session.supervised_loop import SupervisedLoop
+from svsa.runs.paper import get_figure
+from svsa_server.sessions import laboratory
+from svsa_server.sessions.laboratory import RigHands
+from svsa_server.sessions.lock import let_pass, take_turn
+from tests.hardware.wired_bench import RIG_BENCH
+
+LONG_S = 60.0
+
+
+async def count_turns_of_the_loop(counted: list[int]) -> None:
+    while True:
+        counted[0] += 1
+        await asyncio.sleep(0)
+
+
+def take_beside(do: Any, *arguments: Any) -> tuple[Any, int]:
+    """What a turn returns, and how often the event loop went on meanwhile."""
+
+    async def run() -> tuple[Any, int]:
+        counted = [0]
+        other = asyncio.create_task(count_turns_of_the_loop(counted))
+        try:
+            return await take_turn(do, *arguments), counted[0]
+        finally:
+            other.cancel()
+
+    return asyncio.run(run())
+
+
+def test_others_go_on_while_it_lets_time_pass() -> None:
+    def wait(times: int) -> str:
+        for _ in range(times):
+            let_pass(0.005)
+        return "done"
+
+    answer, turns = take_beside(wait, 10)
+    assert answer == "done"
+    assert turns >= 20
+
+
+def test_what_it_raises_comes_out_and_a_cancelled_one_is_unwound() -> None:
+    def fail() -> None:
+        let_pass(0.001)
+        raise BenchError("no")
+
+    with pytest.raises(BenchError, match="no"):
+        take_beside(fail)
+    unwound = []
+
+    def wait() -> None:
+        try:
+            let_pass(LONG_S)
+        finally:
+            unwound.append(True)
+
+    async def cancel() -> None:
+        task = asyncio.create_task(take_turn(wait))
+        await asyncio.sleep(0.01)
+        task.cancel()
+        await asyncio.gather(task, return_exceptions=True)
+
+    asyncio.run(cancel())
+    assert unwound == [True]
+
+
+def test_outside_of_a_turn_time_passes_for_all() -> None:
+    begin = time.monotonic()
+    let_pass(0.02)
+    assert time.monotonic() - begin >= 0.02
+
+
+def test_a_rig_that_does_not_answer_is_waited_for_in_a_bounded_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(laboratory, "LONGEST_HANDS_S", 0.05)
+    hands, answered = RigHands(1), threading.Event()
+    hands._thread.submit(answered.wait, LONG_S)
+    try:
+        with pytest.raises(StateError, match="not set to its marks"):
+            take_beside(hands.set_to_marks)
+    finally:
+        answered.set()
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[BenchProcesses, Link]]:
+    """The processes of a bench that there are not: the loop's end of the link is the test's."""
+    ours, theirs = build_links()
+    theirs.send({"event": "ready", "notes": []})
+    process = types.SimpleNamespace(
+        poll=lambda: None, wait=lambda: 0, terminate=lambda: None, kill=lambda: None
+    )
+    held = types.SimpleNamespace(fileno=theirs.fileno, close=lambda: None)
+    monkeypatch.setattr(launch, "build_links", lambda: (ours, held))
+    monkeypatch.setattr(launch, "_start", lambda *_: process)
+    monkeypatch.setattr(launch, "_watch", lambda *_: types.SimpleNamespace(stop=lambda _: None))
+    monkeypatch.setattr(launch, "END_S", 0.0)
+    configuration = get_figure("4a").build_configuration()
+    processes = BenchProcesses(Path("bench.toml"), configuration, let_pass)
+    processes.wait_until_ready(LONG_S, lambda *_: None)
+    theirs.receive(LONG_S)
+    yield processes, theirs
+    theirs.close()
+    processes.end()
+    processes.free()
+
+
+def test_a_loop_that_does_not_answer_is_not_waited_for_by_the_event_loop(
+    asked: tuple[BenchProcesses, Link],
+) -> None:
+    processes, _ = asked
+
+    def ask() -> str:
+        with pytest.raises(BenchError, match="did not answer") as raised:
+            processes.request("arm")
+        return str(raised.value)
+
+    _, turns = take_beside(ask)
+    assert turns >= 20
+
+
+@pytest.mark.parametrize(("loop_s", "patience_s"), [(0.02, 0.5), (1.0, 2.0)])
+def test_a_loop_is_silent_later_than_its_supervisor_waits_for_it(
+    monkeypatch: pytest.MonkeyPatch, loop_s: float, patience_s: float
+) -> None:
+    """What may be late by a second, the bench file says, is not given up after half of one."""
+    asked: list[Any] = []
+    nothing = types.SimpleNamespace(memory=None)
+    monkeypatch.setattr(
+        supervised_loop, "BenchProcesses", lambda *told: asked.extend(told) or nothing
+    )
+    bench = read_bench(RIG_BENCH)
+    bench = bench.changed(safety=bench.safety.changed(loop_s=loop_s))
+    loop = SupervisedLoop(RIG_BENCH, bench)
+    loop.launch(get_figure("4a").build_configuration())
+    assert asked[-1] == patience_s
+
+
+def test_a_silent_loop_is_not_asked_at_all(
+    asked: tuple[BenchProcesses, Link], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    processes, theirs = asked
+    monkeypatch.setattr(processes.beats, "age_s", lambda slot: 3.0)
+
+    def never(seconds: float) -> None:
+        raise AssertionError("it waited")
+
+    monkeypatch.setattr(processes, "_rest", never)
+    with pytest.raises(BenchError, match=r"silent since 3\.0 s"):
+        processes.request("stop", "a test")
+    processes.tell("stop", "a test")
+    assert theirs.receive() == []
+
+
+def test_requests_that_wait_together_end_in_their_order(
+    asked: tuple[BenchProcesses, Link],
+) -> None:
+    processes, theirs = asked
+    processes.patience_s = LONG_S
+    ended = []
+
+    def ask(name: str) -> None:
+        processes.request(name)
+        ended.append(name)
+
+    async def run() -> None:
+        turns = [asyncio.create_task(take_turn(ask, name)) for name in ("one", "two", "three")]
+        numbers = []
+        while len(numbers) < 3:
+            await asyncio.sleep(0.001)
+            numbers += [message["number"] for message in theirs.receive()]
+        for number in reversed(numbers):
+            theirs.send({"answer": number})
+        await asyncio.gather(*turns)
+
+    asyncio.run(run())
+    assert ended == ["one", "two", "three"]

@@ -1,0 +1,99 @@
+"""Every exercise played over the API by a script: all points, and fewer where it is wrong."""
+
+import pytest
+
+from svsa.teaching.course.file import list_exercise_files, read_exercise
+from svsa.teaching.course.steps import Explain, Predict
+from tests.exhaustive import exhaust
+from tests.lab_in_process import run_lab_in_process
+from tests.teaching.course.student import Student
+
+pytestmark = pytest.mark.long
+BANDWIDTH = {"observer": {"bandwidth_rad_per_s": [80.0, 80.0, 80.0]}}
+RIGHT = {
+    "mechanism": (
+        {"predict-lever": 0.704, "predict-soft": 8.6, "predict-lost": 0.544, "why": "geometry"},
+        {},
+    ),
+    "feedback-linearization": (
+        {
+            "predict-error": 12.1,
+            "predict-stiffness": 0.04,
+            "predict-better-model": 17.7,
+            "why": "knowledge",
+        },
+        {},
+    ),
+    "observer": (
+        {"predict-rise": 1 / 60, "windup": "applied", "why": "counts"},
+        {"rig": BANDWIDTH},
+    ),
+    "mismatch": (
+        {
+            "predict-seen": 0.0087,
+            "why-works": "torque",
+            "predict-place": 39.0,
+            "gamma": "match",
+        },
+        {},
+    ),
+    "stiffness": (
+        {"predict-pd": 4.0, "predict-ndobc": 1000.0, "which": "law", "decouple": "both"},
+        {},
+    ),
+    "real-thing": (
+        {"predict-rig": 0.01, "guess": "fault", "why": "less-haste"},
+        {"rescue": {"law": {"law": "ndobc_w"}}},
+    ),
+    "own-law": ({"predict-peak": 2.8, "why": "tuned"}, {}),
+}
+
+
+@pytest.fixture(scope="module")
+def lab():
+    with run_lab_in_process() as lab:
+        yield lab
+
+
+@pytest.fixture(scope="module")
+def another_lab():
+    with run_lab_in_process() as lab:
+        yield lab
+
+
+EXERCISES = sorted((read_exercise(path) for path in list_exercise_files()), key=lambda e: e.number)
+
+
+def test_the_course_is_played_whole():
+    assert [exercise.name for exercise in EXERCISES] == list(RIGHT)
+
+
+@pytest.mark.parametrize(
+    "exercise", exhaust(EXERCISES, EXERCISES[:-1]), ids=lambda exercise: exercise.name
+)
+def test_from_start_to_full_points(lab, exercise):
+    judgement = Student(lab, exercise).play(*RIGHT[exercise.name])
+
+    lost = [one for one in judgement["criteria"] if one["points"] < one["max_points"]]
+    assert lost == []
+    assert judgement["points"] == exercise.max_points
+
+
+@pytest.mark.parametrize(
+    "exercise", exhaust(EXERCISES, EXERCISES[:2]), ids=lambda exercise: exercise.name
+)
+def test_wrong_answers_and_settings_have_fewer(another_lab, exercise):
+    answers = {}
+    for step in exercise.steps:
+        if isinstance(step, Predict):
+            answers[step.name] = step.high
+        elif isinstance(step, Explain):
+            answers[step.name] = next(one.name for one in step.options if not one.right)
+    judgement = Student(another_lab, exercise).play(answers, {})
+
+    told = {one["step"]: one for one in judgement["criteria"]}
+    assert [told[name]["points"] for name in answers] == [0.0] * len(answers)
+    assert all(one["feedback"] for one in judgement["criteria"])
+    is_free = any(getattr(step, "free", ()) for step in exercise.steps)
+    own = [one["points"] for one in judgement["criteria"] if one["step"] not in answers]
+    assert (sum(own) < exercise.max_points - sum(told[n]["max_points"] for n in answers)) == is_free

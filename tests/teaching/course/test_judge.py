@@ -1,0 +1,169 @@
+"""Judging: right and wrong predictions, wrong runs, what differs and where it shows."""
+
+import math
+
+import pytest
+
+import svsa
+from svsa.errors import ParameterError, StateError
+from svsa.teaching.course.judge import check_answer, judge_hand_in
+from svsa.teaching.course.submission import HandIn, read_hand_in, write_hand_in
+from tests.teaching.course.runs import find_exercise, simulate_step
+
+NAME = "feedback-linearization"
+RIGHT = {
+    "predict-error": 12.0,
+    "predict-stiffness": 0.05,
+    "predict-better-model": 17.7,
+    "why": "knowledge",
+}
+RUNS = {"load": "load", "exact-model": "exact-model"}
+
+
+def judge(answers=RIGHT, runs=RUNS, open_run=lambda step: simulate_step(NAME, step)):
+    exercise = find_exercise(NAME)
+    hand_in = HandIn(student="Ada", exercise=NAME, answers=answers, runs=runs)
+    judgement = judge_hand_in(exercise, hand_in, open_run)
+    assert judgement.max_points == exercise.max_points
+    return judgement
+
+
+def find(judgement, step):
+    return next(one for one in judgement.criteria if one.step == step)
+
+
+def test_all_right_has_all_points():
+    judgement = judge()
+
+    assert judgement.points == judgement.max_points
+    assert find(judgement, "load").channel == "position_error_rad"
+
+
+def test_a_prediction_a_little_off_has_half_of_the_points_a_wrong_one_none():
+    assert find(judge(RIGHT | {"predict-error": 10.0}), "predict-error").points == 1.5
+    wrong = find(judge(RIGHT | {"predict-error": 1.0}), "predict-error")
+
+    assert wrong.points == 0.0
+    assert "You predicted 1°; the run gave 12.1°" in wrong.feedback
+    assert wrong.channel == "position_error_rad"
+    assert 8.0 <= wrong.time_s <= 12.0
+
+
+def test_a_wrong_choice_tells_why():
+    wrong = find(judge(RIGHT | {"why": "stiffness"}), "why")
+
+    assert wrong.points == 0.0
+    assert "At σ = 60" in wrong.feedback
+
+
+def test_nothing_handed_in_has_no_points():
+    judgement = judge({}, {})
+
+    assert judgement.points == 0.0
+    assert "no run" in find(judgement, "load").feedback
+
+
+def open_other(**changes):
+    wanted = find_exercise(NAME).find_step("load").configuration
+    return lambda _: svsa.simulate(wanted, duration_s=9.0, **changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said", "time_s"),
+    [
+        ({"law": "ndobc"}, "law was not as the step sets it", 0.0),
+        ({"loads": ()}, "loads was not", 0.0),
+        ({"commands": [svsa.Change(at_s=3.0, law="ndobc")]}, "law was changed at 3 s", 3.0),
+        (
+            {"commands": [svsa.Change(at_s=2.0, load=svsa.PaperLoad())]},
+            "loads was changed at 2 s",
+            2.0,
+        ),
+    ],
+)
+def test_a_run_of_another_setup_has_no_points_and_says_what_differs(changes, said, time_s):
+    judgement = judge(runs={"load": "x"}, open_run=open_other(**changes))
+    result = find(judgement, "load")
+
+    assert result.points == 0.0
+    assert said in result.feedback
+    assert result.time_s == pytest.approx(time_s)
+
+
+def test_a_run_that_ended_too_early_says_so():
+    judgement = judge(runs={"load": "x"}, open_run=open_other())
+    late = [one for one in judgement.criteria if one.step == "load"][1]
+
+    assert late.points == 0.0
+    assert "ended before 12 s" in late.feedback
+    assert late.time_s == pytest.approx(8.999)
+
+
+def test_a_run_that_cannot_be_opened_has_no_points():
+    def refuse(_):
+        raise StateError("It is gone.")
+
+    assert "It is gone." in find(judge(open_run=refuse), "load").feedback
+
+
+def test_a_hand_in_of_another_exercise_or_step_is_refused():
+    exercise = find_exercise(NAME)
+    with pytest.raises(ParameterError, match="exercise"):
+        judge_hand_in(exercise, HandIn(student="Ada", exercise="other"), lambda _: None)
+    with pytest.raises(ParameterError, match="step"):
+        hand_in = HandIn(student="Ada", exercise=NAME, runs={"nowhere": "x"})
+        judge_hand_in(exercise, hand_in, lambda _: None)
+
+
+@pytest.mark.parametrize(
+    ("step", "answer"),
+    [("predict-error", 91.0), ("predict-error", "much"), ("why", "x"), ("load", 1.0)],
+)
+def test_what_is_no_answer_is_refused(step, answer):
+    with pytest.raises(ParameterError):
+        check_answer(find_exercise(NAME).find_step(step), answer)
+
+
+def test_a_hand_in_is_read_as_it_was_written(tmp_path):
+    hand_in = HandIn(student="Ada", exercise=NAME, answers=RIGHT, runs=RUNS, law_file="law.py")
+    path = tmp_path / "ada.json"
+    write_hand_in(path, hand_in)
+
+    assert read_hand_in(path) == hand_in
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{", "Invalid JSON"),
+        ('{"exercise": "a"}', "student is missing"),
+        ('{"student": "Ada", "exercise": "../a"}', "exercise"),
+        ('{"student": "Ada", "exercise": "a", "points": 9}', "points"),
+    ],
+)
+def test_a_wrong_hand_in_names_its_file(tmp_path, text, said):
+    path = tmp_path / "ada.json"
+    path.write_text(text)
+
+    with pytest.raises(ParameterError, match=r"ada\.json") as refused:
+        read_hand_in(path)
+    assert said in str(refused.value)
+
+
+def test_the_error_that_is_foretold_is_that_of_the_formula_in_the_text():
+    c0, c2, c3 = 60.0**4, 6 * 60.0**2, 240.0
+    M, D, B1, sigma = 0.0153, 0.007, 0.0284, 15.0
+    gain = (c2 / M - c3 * D / M**2 - sigma / M**2) * 2.0 + sigma / (M * B1) * 2.0
+
+    assert (
+        find(judge(RIGHT | {"predict-error": math.degrees(gain / c0)}), "predict-error").points == 3
+    )
+
+
+def test_an_order_of_magnitude_is_as_good_above_as_below():
+    points = [
+        find(judge(RIGHT | {"predict-stiffness": guess}), "predict-stiffness").points
+        for guess in (0.0, 0.0402 / 30, 0.0402 / 6, 0.0402 / 4, 0.0402 * 4, 0.0402 * 6, 0.0402 * 30)
+    ]
+
+    assert points == [0.0, 0.0, 0.5, 1.0, 1.0, 0.5, 0.0]

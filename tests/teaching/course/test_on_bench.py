@@ -1,0 +1,178 @@
+"""A step that is run on a bench asks for nothing that a bench has not, nor measures."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
+from svsa.errors import ParameterError
+from svsa.runs.command import ApplyLoad, Command, SetObserver, Stop
+from svsa.runs.configuration import Configuration
+from svsa.runs.paper import get_figure
+from svsa.runs.records.header import PlantKind
+from svsa.runs.result.result import Result
+from svsa.teaching.course.exercise import Exercise
+from svsa.teaching.course.file import parse_exercise
+from svsa.teaching.course.judge import judge_step
+from svsa.teaching.course.judgement import CriterionResult
+from svsa.teaching.course.steps import Experiment
+from tests.teaching.course.test_exercise_file import EXERCISE
+
+BENCH = """
+[steps.bench]
+by_hand = "hang 3 kg on the cable"
+loads = [{ kind = "constant", start_s = 5.0, torque_nm = [2.0, 0.0, 0.0] }]
+
+[[steps.bench.criteria]]
+title = "It stays there, too"
+measure = "error"
+high = 1.0
+"""
+ON_BENCH = EXERCISE.replace('figure = "4a"\n', f'figure = "4a"\n{BENCH}', 1)
+
+
+def read(text: str = ON_BENCH) -> Exercise:
+    return parse_exercise(text, "first", "first.md")
+
+
+def find_step(exercise: Exercise) -> Experiment:
+    step = exercise.find_step("run")
+    assert isinstance(step, Experiment)
+    return step
+
+
+def test_a_bench_has_loads_and_criteria_in_place_of_the_simulation_s() -> None:
+    step = find_step(read())
+    assert step.configuration.loads[0].kind == "paper"
+    assert step.bench_configuration.loads[0].kind == "constant"
+    assert [one.title for one in step.list_criteria(is_bench=True)] == ["It stays there, too"]
+    assert [one.title for one in step.list_criteria(is_bench=False)] == ["It stays"]
+    assert find_step(read(EXERCISE)).bench is None
+
+
+def test_the_lecturer_s_bench_in_the_docs_can_be_read() -> None:
+    text = (Path(__file__).parents[3] / "docs" / "course.md").read_text(encoding="utf-8")
+    example = text.split("```markdown\n")[1].split("```\n<!-- /example -->")[0]
+    bench = text.split("<!-- bench -->\n```toml\n")[1].split("```")[0]
+    place = "[[steps.measures]]"
+    own = example.replace('rivals = ["ndobc"]', "rivals = []").replace(
+        place, f"{bench}\n{place}", 1
+    )
+    step = parse_exercise(own, "push", "docs/course.md").find_step("push")
+    assert isinstance(step, Experiment)
+    assert step.bench is not None
+
+
+WRONG = {
+    "a disturbance that nobody measures": (
+        'channel = "position_error_rad"\nstatistic = "rms"',
+        'channel = "disturbance_link_nm"\nstatistic = "rms"',
+        "nobody measures the true disturbance",
+    ),
+    "a level of one": (
+        'statistic = "rms"',
+        'statistic = "crossing"\nof = "disturbance_link_nm"\nlevel = 1.0',
+        "nobody measures the true disturbance",
+    ),
+    "its twin's samples": ('statistic = "rms"', 'statistic = "rms"\nlane = 2', "lane"),
+    "a setting that is the bench's own": (
+        'channel = "position_error_rad"\nstatistic = "rms"',
+        'setting = "nominal.link_inertia_kg_m2"\nstatistic = "mean"',
+        "all else is the bench's own",
+    ),
+    "another plant": (
+        'figure = "4a"\n',
+        'figure = "4a"\n"actuator.link_inertia_kg_m2" = 0.02\n',
+        "a bench has its own",
+    ),
+    "rivals": ('law = "fl"', 'law = "fl"\nrivals = ["ndobc"]', "its simulated twin"),
+    "effects to choose": ('law = "fl"', 'law = "fl"\nfree = ["effects"]', "cannot be chosen"),
+    "a torque on a motor": ("[2.0, 0.0, 0.0]", "[2.0, 2.0, 0.0]", "on the link alone"),
+    "a load from the start": ("start_s = 5.0, ", "", "from a time on"),
+    "a load that nobody is told of": ('by_hand = "hang 3 kg on the cable"\n', "", "by_hand"),
+    "points of its own": ("high = 1.0\n", "high = 1.0\npoints = 3\n", "1 points in all"),
+    "a criterion of no measure": (
+        'measure = "error"\nhigh = 1.0',
+        'measure = "size"\nhigh = 1.0',
+        "one of error",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_no_bench_can_do_is_refused_with_its_reason(case: str) -> None:
+    old, new, reason = WRONG[case]
+    assert old in ON_BENCH
+    text = ON_BENCH.replace(old, new, 1)
+    if case in (
+        "a disturbance that nobody measures",
+        "a level of one",
+        "a setting that is the bench's own",
+    ):
+        text = text.replace('unit = "°"\n', "", 2)
+    with pytest.raises(ParameterError) as refused:
+        read(text)
+    assert "first.md" in str(refused.value)
+    assert reason in str(refused.value)
+
+
+def test_the_same_step_may_do_all_that_where_it_is_simulated_only() -> None:
+    simulated = EXERCISE.replace('law = "fl"', 'law = "fl"\nrivals = ["ndobc"]\nfree = ["effects"]')
+    assert find_step(read(simulated)).bench is None
+
+
+def judge(
+    configuration: Configuration, plant: PlantKind = "emulated", commands: tuple[Command, ...] = ()
+) -> CriterionResult:
+    """The one criterion of the step, of a run with an error of 0.5°."""
+    samples = np.zeros((8000, len(CHANNELS)))
+    samples[:, CHANNEL_INDEX["time_s"]] = 0.001 * np.arange(8000)
+    samples[:, CHANNEL_INDEX["position_error_rad"]] = np.radians(0.5)
+    run = Result(configuration, samples, law="fl", commands=commands, plant=plant)
+    exercise = read()
+    return judge_step(exercise, exercise.find_step("run"), {}, {"run": run})[0]
+
+
+def as_set_up() -> Configuration:
+    """A bench of another plant and other limits, set to the step."""
+    asked = find_step(read()).bench_configuration
+    plant = asked.actuator.changed(link_inertia_kg_m2=0.02)
+    limits = asked.limits.changed(torque1_nm=10.0)
+    return asked.changed(actuator=plant, nominal=plant, limits=limits)
+
+
+def test_a_run_of_a_bench_is_judged_by_what_is_asked_there() -> None:
+    found = judge(as_set_up())
+    assert (found.name, found.points) == ("It stays there, too", 1.0)
+    assert judge(as_set_up(), commands=(Stop(tick=8000),)).points == 1.0
+
+
+@pytest.mark.parametrize(
+    ("commands", "said"),
+    [
+        ((Stop(tick=7000),), "the bench was stopped at 7 s, before its end"),
+        ((SetObserver(tick=0, argument={"bandwidth_rad_per_s": [9, 9, 9]}),), "observer was not"),
+        ((ApplyLoad(tick=3000, argument={"kind": "mass"}),), "loads was changed at 3 s"),
+    ],
+)
+def test_a_run_of_a_bench_that_is_another_says_so(commands: tuple[Command, ...], said: str) -> None:
+    found = judge(as_set_up(), commands=commands)
+    assert found.points == 0.0
+    assert said in found.feedback
+
+
+def test_the_simulation_s_load_is_not_the_bench_s() -> None:
+    simulated = find_step(read()).configuration
+    assert "loads was not as the step sets it" in judge(simulated).feedback
+    assert judge(simulated, plant="simulated").name == "It stays"
+
+
+def test_a_run_of_a_bench_is_none_of_a_step_that_is_simulated_only() -> None:
+    exercise = read(EXERCISE)
+    samples = np.zeros((8000, len(CHANNELS)))
+    configuration = get_figure("4a").build_configuration("fl")
+    run = Result(configuration, samples, law="fl", plant="bench")
+    found = judge_step(exercise, exercise.find_step("run"), {}, {"run": run})[0]
+    assert found.points == 0.0
+    assert "recorded on a bench, and this step is simulated" in found.feedback

@@ -1,0 +1,200 @@
+"""A grade comes from exact replay and from draws that nobody knew; it is given once."""
+
+import csv
+import io
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+import svsa
+from svsa.cli import app
+from svsa.errors import StateError
+from svsa.evaluation.ranking.samples import build_draws
+from svsa.evaluation.ranking.seeds import PUBLIC_SEED
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.teaching.course.file import parse_exercise
+from svsa.teaching.course.kept_law import MAX_LAW_BYTES
+from svsa.teaching.course.submission import HandIn, write_hand_in
+from svsa.teaching.grading import law_runs
+from svsa.teaching.grading.grade import grade
+from svsa.teaching.grading.gradebook import Book
+from svsa.teaching.grading.report import write_csv, write_page
+from svsa.teaching.grading.submission import Submission
+from svsa.teaching.isolation import confinement
+from svsa.teaching.isolation.probe import check_isolation
+from svsa.teaching.isolation.refusal import NotIsolatedError
+from tests.teaching.course.runs import find_exercise
+from tests.teaching.grading.submissions import (
+    EXERCISE,
+    GOOD,
+    LAW_EXERCISE,
+    LAZY,
+    hand_in_law,
+    record_step,
+    write_course,
+)
+from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
+
+OWN_LAW = parse_exercise(LAW_EXERCISE, "own-law")
+SECRET = bytes(range(32))
+
+
+@pytest.fixture(autouse=True)
+def few_draws(monkeypatch):
+    monkeypatch.setattr(law_runs, "DRAWS", 3)
+
+
+def run(*arguments):
+    words = ["grade", *map(str, arguments)]
+    return CliRunner().invoke(app, words, catch_exceptions=False, env={"COLUMNS": "200"})
+
+
+def hand_in(law=LAZY, student="Ada"):
+    return Submission(HandIn(student=student, exercise="own-law", law_file="law.py"), law)
+
+
+def test_a_run_that_replays_has_its_points(tmp_path):
+    catalogue = Catalogue(tmp_path)
+    runs = {step: record_step(catalogue, step) for step in ("load", "exact-model")}
+    given = HandIn(student="Ada", exercise=EXERCISE, runs=runs)
+    found = grade(Submission(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
+    assert found.seed is None
+    assert found.points > 0
+    assert {one.step for one in found.criteria if one.points} >= {"load"}
+
+
+def test_a_run_of_which_one_bit_was_changed_is_refused(tmp_path):
+    """Not the run's text but its simulation decides."""
+    catalogue = Catalogue(tmp_path)
+    runs = {"load": record_step(catalogue, "load", flip=True)}
+    given = HandIn(student="Ada", exercise=EXERCISE, runs=runs)
+    found = grade(Submission(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
+    assert found.points == 0
+    told = [one.feedback for one in found.criteria if one.step == "load"]
+    assert told
+    assert all("does not replay" in one and "at tick 7000" in one for one in told)
+
+
+def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
+    """Who has the submission alone cannot tell them; the same law has the same, whose it is."""
+    drawn = []
+
+    def run_draws(law, seed, place):
+        drawn.append(seed)
+        return []
+
+    monkeypatch.setattr("svsa.teaching.grading.grade.run_draws", run_draws)
+    for one, secret in (
+        (hand_in(), SECRET),
+        (hand_in(), SECRET),
+        (hand_in(), SECRET[::-1]),
+        (hand_in(GOOD), SECRET),
+        (hand_in(student="Bo"), SECRET),
+    ):
+        grade(one, OWN_LAW, None, secret)
+    assert drawn[0] == drawn[1] == drawn[4]
+    assert len({*drawn, PUBLIC_SEED}) == 4
+    assert build_draws(drawn[0])[0] != build_draws(PUBLIC_SEED)[0]
+
+
+def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):
+    good, lazy = (grade(hand_in(law), OWN_LAW, tmp_path, SECRET) for law in (GOOD, LAZY))
+    assert good.is_isolated
+    assert good.max_points == lazy.max_points == 10
+    assert good.points > 5 > lazy.points
+    assert "of 3 did" in good.criteria[0].feedback
+
+
+def test_a_law_that_fails_is_told_why_and_not_asked_again(tmp_path):
+    found = grade(hand_in(b"def law(*given): return 1 / 0"), OWN_LAW, tmp_path, SECRET)
+    assert found.points == 0
+    assert "ZeroDivisionError" in found.criteria[0].feedback
+
+
+def test_no_law_has_no_points_and_a_law_that_nobody_asked_for_is_refused(tmp_path):
+    given = HandIn(student="Ada", exercise="own-law")
+    assert grade(Submission(given, None), OWN_LAW, tmp_path, SECRET).points == 0
+    given = HandIn(student="Ada", exercise=EXERCISE, law_file="law.py")
+    with pytest.raises(svsa.ParameterError, match="asks for no law"):
+        grade(Submission(given, LAZY), find_exercise(EXERCISE), tmp_path, SECRET)
+
+
+def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_path, monkeypatch):
+    check_isolation.cache_clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(confinement.shutil, "which", lambda name: None)
+        with pytest.raises(NotIsolatedError, match="cannot be isolated"):
+            grade(hand_in(), OWN_LAW, tmp_path, SECRET)
+        practice = grade(hand_in(), OWN_LAW, tmp_path, None)
+    check_isolation.cache_clear()
+    assert not practice.is_isolated
+    assert "not isolated" in write_page([practice])
+    with pytest.raises(StateError, match="no grade in a class"):
+        Book(tmp_path / "class").keep(practice)
+
+
+def test_a_law_stays_in_its_folder(tmp_path):
+    (tmp_path / "other.py").write_bytes(GOOD)
+    path = hand_in_law(tmp_path / "ada", LAZY, law_file="../other.py")
+    with pytest.raises(svsa.ParameterError, match="a file beside the hand-in"):
+        Submission.read(path)
+    (tmp_path / "ada" / "link.py").symlink_to(tmp_path / "other.py")
+    path = hand_in_law(tmp_path / "ada", LAZY, law_file="link.py")
+    with pytest.raises(svsa.ParameterError, match="a file beside the hand-in"):
+        Submission.read(path)
+    path = hand_in_law(tmp_path / "ada", b"#" * (MAX_LAW_BYTES + 1))
+    with pytest.raises(svsa.ParameterError, match="at most 65536 bytes"):
+        Submission.read(path)
+
+
+def test_a_class_is_graded_once_and_told_as_page_and_csv(tmp_path):
+    """What does not fit is refused by name, and the others have their grades."""
+    course, book = write_course(tmp_path / "course"), tmp_path / "class"
+    ada = hand_in_law(tmp_path / "ada", LAZY, "<b>Ada</b>")
+    eve = hand_in_law(tmp_path / "eve", LAZY, "=Eve", exercise="none-such")
+    page, table = tmp_path / "grades.html", tmp_path / "grades.csv"
+    options = ("--class", book, "--course", course, "--runs", tmp_path, "--page", page,
+               "--csv", table)  # fmt: skip
+    assert run(ada, *options).exit_code == 0
+    answer = run(eve, *options)
+    assert answer.exit_code == 1
+    assert "none-such" in answer.output
+    (kept,) = (book / "grades").iterdir()
+    assert (book / "secret").stat().st_mode & 0o077 == 0
+    before = kept.read_bytes()
+    kept.write_bytes(before.replace(b'"points": ', b'"points": 1e-3, "points": ', 1))
+    marked = kept.read_bytes()
+    assert run(ada, *options).exit_code == 0
+    assert kept.read_bytes() == marked, "graded again"
+    (row,) = csv.DictReader(io.StringIO(table.read_text()))
+    assert row["student"] == "<b>Ada</b>"
+    assert row["seed"] == json.loads(before)["seed"]
+    text = page.read_text()
+    assert "&lt;b&gt;Ada&lt;/b&gt;" in text
+    assert "<b>Ada" not in text
+    (grade_again,) = Book(book).list()
+    assert write_csv([grade_again.changed(student="=Eve")]).splitlines()[1].startswith("'=Eve,")
+
+
+def test_many_are_graded_side_by_side_and_one_that_does_not_fit_stops_none(tmp_path):
+    course, book = write_course(tmp_path / "course"), tmp_path / "class"
+    files = []
+    for number, exercise in enumerate(("none-such", EXERCISE, EXERCISE)):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        files.append(folder / "hand-in.json")
+        hand_in = HandIn(student=f"Student {number}", exercise=exercise)
+        write_hand_in(files[-1], hand_in)
+    answer = run(*files, "--class", book, "--course", course, "--runs", tmp_path)
+    assert answer.exit_code == 1
+    assert "none-such" in answer.output
+    assert [one.student for one in Book(book).list()] == ["Student 1", "Student 2"]
+
+
+def test_a_class_or_practice_is_said(tmp_path):
+    path = hand_in_law(tmp_path / "ada", LAZY)
+    with pytest.raises(svsa.ParameterError, match="or else --practice"):
+        run(path)
+    with pytest.raises(svsa.ParameterError, match="left out with --practice"):
+        run(path, "--class", tmp_path, "--practice")

@@ -1,0 +1,59 @@
+"""A law is tried before it is handed in, in isolation, and told plainly what came of it."""
+
+import pytest
+
+from svsa.teaching.grading import law_trial
+from svsa.teaching.grading.law_runs import LawRun
+from svsa.teaching.grading.law_trial import judge_trial, try_law
+from svsa.teaching.isolation import confinement
+from svsa.teaching.isolation.probe import check_isolation
+from tests.teaching.course.runs import find_exercise
+from tests.teaching.course.student import find_law
+from tests.teaching.grading.submissions import LAZY
+from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
+
+WHOLE = LawRun("draw_0", True, 0.2, cost_us=24.0)
+
+
+def test_the_law_that_the_exercise_begins_with_holds():
+    found = try_law(find_law(find_exercise("own-law")))
+    assert found.verdict == "held"
+    assert "went to its end" in found.feedback
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict", "told"),
+    [
+        ("def law(:", "failed", "SyntaxError"),
+        ("def law(*given): return 1 / 0", "failed", "ZeroDivisionError"),
+        ("import socket; socket.socket()", "failed", "PermissionError"),
+    ],
+)
+def test_a_law_that_fails_is_told_what_it_printed(text, verdict, told):
+    found = try_law(text)
+    assert found.verdict == verdict
+    assert found.text == text
+    assert told in found.output
+
+
+def test_a_run_is_judged_by_how_far_it_goes():
+    assert try_law(LAZY.decode()).verdict in ("ran", "ended")
+    assert judge_trial("", WHOLE).verdict == "held"
+    assert judge_trial("", WHOLE._replace(held=False)).verdict == "ran"
+    ended = judge_trial("", WHOLE._replace(rms_deg=None, held=False, problem="Too far."))
+    assert ended.verdict == "ended"
+    assert "Too far." in ended.feedback
+
+
+def test_where_nothing_isolates_a_law_is_kept_untried(monkeypatch):
+    def fail(*given, **named):
+        raise AssertionError("it ran")
+
+    check_isolation.cache_clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(confinement.shutil, "which", lambda name: None)
+        patched.setattr(law_trial, "run_law", fail)
+        found = try_law(LAZY.decode())
+    check_isolation.cache_clear()
+    assert found.verdict == "untried"
+    assert "cannot be isolated" in found.feedback

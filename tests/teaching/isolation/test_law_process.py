@@ -1,0 +1,193 @@
+"""A law in a process of its own does what it does in this one, and its faults have names."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import svsa
+from svsa.actuators.dynamics import build_actuator
+from svsa.runs.blocks import compute_start_ratio
+from svsa.teaching.isolation import confinement, system_calls
+from svsa.teaching.isolation.confinement import Bounds, confine, leave_open
+from svsa.teaching.isolation.probe import check_isolation
+from svsa.teaching.isolation.process import LawProcess
+from svsa.teaching.isolation.refusal import LawFaultError, NotIsolatedError, tell_last_words
+from tests.teaching.isolation.attackers import MODEL, TOLD
+from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
+
+ROOT = Path(__file__).parents[3]
+FIGURE = svsa.paper.get_figure("4a").build_configuration()
+FEEDBACK_LINEARIZATION = b"""
+from svsa.actuators.linearization import compute_linearization, solve_decoupling
+
+def build(model):
+    def law(time_s, reference, x, w):
+        now = compute_linearization(model, x)
+        error = (reference.q - now.q, reference.dq - now.dq, reference.ddq - now.ddq,
+                 reference.dddq - now.dddq)
+        gains = (60.0**4, 4 * 60.0**3, 6 * 60.0**2, 4 * 60.0)
+        y1 = reference.ddddq - now.ddddq + sum(g * e for g, e in zip(gains, error))
+        y2 = (reference.ddsigma - now.ddsigma + 40.0**2 * (reference.sigma - now.sigma)
+              + 2 * 40.0 * (reference.dsigma - now.dsigma))
+        return tuple(solve_decoupling(now, y1, y2))
+    return law
+"""
+
+
+def run(source, duration_s=0.5, place=confine, **changes):
+    model = build_actuator(FIGURE.nominal, compute_start_ratio(FIGURE))
+    with LawProcess(source, model, place=place) as law:
+        result = svsa.simulate(FIGURE, law, duration_s=duration_s, **changes)
+    return result, law.cost_s
+
+
+@pytest.mark.parametrize("place", [confine, leave_open])
+def test_the_papers_law_written_as_a_file_is_the_labs_own(place):
+    """With the lab's equations as plain Python, which round otherwise in the last digits."""
+    result, cost_s = run(FEEDBACK_LINEARIZATION, place=place)
+    fl = svsa.simulate(FIGURE, "fl", duration_s=0.5)
+    assert result.fault is None
+    assert len(cost_s) == len(result.samples) == 500
+    assert min(cost_s) > 0.0
+    np.testing.assert_allclose(result.position_rad, fl.position_rad, atol=1e-9)
+    np.testing.assert_allclose(result.torque1_nm, fl.torque1_nm, atol=1e-6)
+
+
+def test_a_law_may_use_numpy_remember_and_write_into_its_folder():
+    source = b"""
+import numpy as np
+seen = []
+def law(time_s, reference, x, w):
+    seen.append(time_s)
+    with open("notes", "w") as file:
+        file.write(str(len(seen)))
+    return np.array([len(seen), float(open("notes").read())])
+"""
+    with LawProcess(source, MODEL) as law:
+        assert [law(0.0, *TOLD) for _ in range(3)] == [(1, 1), (2, 2), (3, 3)]
+
+
+def test_a_law_that_asks_for_no_numpy_is_started_without_it():
+    """Most of a start was numpy's; a law is started anew for each of its draws."""
+    source = b"import sys\ndef law(*given): return float('numpy' in sys.modules), 1.0"
+    with LawProcess(source, MODEL) as law:
+        assert law(0.0, *TOLD) == (0.0, 1.0)
+
+
+def test_every_run_begins_in_an_empty_folder():
+    source = b"import os\nopen('left', 'w').close()\ndef law(*given): return len(os.listdir()), 0"
+    for _ in range(2):
+        with LawProcess(source, MODEL) as law:
+            assert law(0.0, *TOLD) == (1, 0)
+
+
+@pytest.mark.parametrize(
+    ("source", "told"),
+    [
+        (b"def law(:", "SyntaxError"),
+        (b"x = 1", "law.py must define law"),
+        (b"law = 3", "law.py must define law"),
+        (b"\xff\xfe", "UnicodeDecodeError"),
+        (b"def law(*given): return None", "two torques (u1, u2) in N·m, not None"),
+        (b"def law(*given): return 1.0", "two torques (u1, u2) in N·m, not 1.0"),
+        (b"def law(*given): return 1, 2, 3", "two torques (u1, u2) in N·m, not (1, 2, 3)"),
+        (b"def law(*given): return 'a', 'b'", "two torques (u1, u2) in N·m, not ('a', 'b')"),
+        (b"def law(*given):\n    return 1 / 0", 'File "law.py", line 2'),
+    ],
+)
+def test_a_law_that_is_none_is_an_error_with_what_python_says(source, told):
+    with pytest.raises(LawFaultError) as raised:
+        run(source)
+    assert raised.value.code == "error"
+    assert told in raised.value.output
+
+
+def test_huge_torques_are_limited_and_no_number_ends_the_run():
+    result, _ = run(b"def law(*given): return 1e308, -1e308", 0.003, effects=svsa.RIG)
+    assert 0.0 < abs(result.torque1_nm).max() < 1e3
+    assert np.isfinite(result.samples).all()
+    result, _ = run(b"def law(*given): return float('nan'), 0.0")
+    assert result.fault is not None
+    assert result.fault.code == "not_finite"
+
+
+@pytest.mark.parametrize(
+    ("bounds", "told"),
+    [
+        (Bounds(answer_s=0.2), "did not answer within 0.2 s"),
+        (Bounds(answer_s=9.0, whole_s=0.5), "took more than 0.5 s"),
+    ],
+)
+def test_a_law_that_hangs_is_told_how_long_it_had(bounds, told):
+    with (
+        pytest.raises(LawFaultError, match=told),
+        LawProcess(b"def law(*given):\n    while True: pass\n", MODEL, bounds, leave_open) as law,
+    ):
+        svsa.simulate(FIGURE, law, duration_s=0.5)
+
+
+def test_without_its_tools_a_machine_says_that_it_is_not_isolated(monkeypatch):
+    """And a law is not run at all."""
+    check_isolation.cache_clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(shutil, "which", lambda name: None)
+        with pytest.raises(NotIsolatedError, match="bwrap is not installed"):
+            check_isolation()
+    with monkeypatch.context() as patched:
+        patched.setattr(confinement.sys, "platform", "darwin")
+        with pytest.raises(NotIsolatedError, match="it runs darwin"):
+            check_isolation()
+    check_isolation()
+
+
+def test_a_sandbox_with_a_hole_is_none(monkeypatch):
+    """The probe tries the ways out: here the filter lets sockets through."""
+    check_isolation.cache_clear()
+    system_calls.compile_filter.cache_clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(system_calls, "ALLOWED", (*system_calls.ALLOWED, "socket"))
+        with pytest.raises(NotIsolatedError, match="of 6 ways out 1 are open"):
+            check_isolation()
+    system_calls.compile_filter.cache_clear()
+    check_isolation.cache_clear()
+    check_isolation()
+
+
+def test_a_sandbox_that_does_not_start_is_none(monkeypatch, tmp_path):
+    """As bwrap ends where a container forbids namespaces."""
+    fake = tmp_path / "bwrap"
+    fake.write_text("#!/bin/sh\necho 'bwrap: No permissions to create new namespace' >&2\nexit 1\n")
+    fake.chmod(0o755)
+    check_isolation.cache_clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(confinement.shutil, "which", lambda name: str(fake))
+        with pytest.raises(NotIsolatedError, match="No permissions to create new namespace"):
+            check_isolation()
+    check_isolation.cache_clear()
+
+
+def test_of_what_a_law_said_the_last_line_is_told_with_the_line_of_its_file():
+    with pytest.raises(LawFaultError) as raised:
+        run(b"def inner(): return spring\n\ndef law(*given):\n    return inner()\n")
+    assert "child.py" not in raised.value.output
+    assert tell_last_words(raised.value.output) == (
+        "line 1: NameError: name 'spring' is not defined"
+    )
+    assert tell_last_words("only this\n") == "only this"
+    assert tell_last_words(" \n") == ""
+
+
+def test_a_law_process_keeps_what_was_answered():
+    with LawProcess(b"def law(time_s, *others): return time_s, 2.0", MODEL) as law:
+        given = [law(number, *TOLD) for number in (1.0, 3.0)]
+        assert law.torques == given == [(1.0, 2.0), (3.0, 2.0)]
+
+
+def test_the_leaderboards_example_is_a_law_that_follows_the_reference():
+    source = (ROOT / "frontend/web/src/teaching/leaderboard/example.py").read_bytes()
+    result, _ = run(source)
+    assert result.fault is None
+    assert np.degrees(abs(result.position_error_rad[-1])) < 0.05, "poles at -45 rad/s for 0.5 s"
+    assert np.abs(result.stiffness_error_nm_per_rad).max() < 0.05

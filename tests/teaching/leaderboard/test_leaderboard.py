@@ -1,0 +1,204 @@
+"""A law's place comes from draws that nobody knows, is given once, and stands beside the lab's."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+import svsa
+from svsa.cli import app
+from svsa.control.installed import list_law_names
+from svsa.errors import StateError
+from svsa.evaluation.ranking.measure import Entry as ArenaEntry
+from svsa.evaluation.ranking.measure import measure_law
+from svsa.evaluation.ranking.scenarios import SINGLE
+from svsa.evaluation.ranking.seeds import PUBLIC_SEED
+from svsa.evaluation.ranking.sweeps import SEED, build_sweeps
+from svsa.inputs.release import __version__
+from svsa.teaching.grading.law_runs import LawRun, run_installed
+from svsa.teaching.isolation import confinement
+from svsa.teaching.isolation.probe import check_isolation
+from svsa.teaching.isolation.refusal import NotIsolatedError
+from svsa.teaching.leaderboard import board as boards
+from svsa.teaching.leaderboard.board import Board, measure_missing, submit
+from svsa.teaching.leaderboard.season import Season, build_season
+from svsa.teaching.leaderboard.standing import measure_standing
+from tests.teaching.grading.submissions import GOOD, LAZY
+from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
+
+
+def build_short_season(seed):
+    whole = build_season(seed)
+    sweeps = tuple(
+        one._replace(values=one.values[:1], runs=(one.runs[0][:1],)) for one in whole.sweeps[:2]
+    )
+    return Season(whole.singles[:1], whole.draws[:3], sweeps)
+
+
+@pytest.fixture
+def short_season(monkeypatch):
+    monkeypatch.setattr(boards, "build_season", build_short_season)
+    monkeypatch.setattr(boards, "list_law_names", lambda: ("fl", "ndobc"))
+
+
+def run(*arguments):
+    words = ["arena", *map(str, arguments)]
+    return CliRunner().invoke(app, words, catch_exceptions=False, env={"COLUMNS": "200"})
+
+
+def stand(season, go):
+    """The standing of a law that is not broken off."""
+    found = measure_standing(season, go)
+    assert found is not None
+    return found.standing
+
+
+def go_with(results):
+    """Every run holds with an error of 0.5°, but those that are given by name."""
+
+    def go(scenario):
+        return results.get(scenario.name, LawRun(scenario.name, True, 0.5, tick_us=3.0))
+
+    return go
+
+
+def test_a_season_is_the_arenas_suite_with_other_chance():
+    season, other = build_season(5), build_season(6)
+    assert season.singles == SINGLE
+    assert not set(season.draws) & set(other.draws)
+    published = {one.name: one for one in build_sweeps()}
+    for one in season.sweeps:
+        by_chance = one.name in ("velocity_noise", "torque_noise", "perturbation")
+        known = [run for runs in published[one.name].runs for run in runs]
+        hidden = [run for runs in one.runs for run in runs]
+        assert len(hidden) == len(known)
+        assert any(run in known for run in hidden) is not by_chance
+    names = [run.name for one in season.sweeps for runs in one.runs for run in runs]
+    names += [run.name for run in (*season.singles, *season.draws)]
+    assert len(set(names)) == len(names) == season.run_count
+
+
+@pytest.mark.exhaustive
+def test_on_the_public_seeds_a_law_has_the_arenas_score():
+    """One measure of a law: only the season differs."""
+    season = build_season(PUBLIC_SEED)._replace(sweeps=build_sweeps(SEED))
+    standing = stand(season, lambda one: run_installed("fl", one))
+    row = measure_law(ArenaEntry("fl"))
+    assert standing.score == row.score
+    assert standing.parts == row.parts
+    assert standing.sweeps == row.sweeps
+    assert standing.draws - standing.draws_held == row.draws_fails
+    assert standing.tick_us is not None
+    assert standing.tick_us > 0
+
+
+def test_the_interval_is_what_the_draws_leave_open():
+    """Wilson for 50 of 100: 0.404 to 0.596, of which a score has three tenths."""
+    season = build_season(5)
+    failed = {one.name: LawRun(one.name, False, 2.0, tick_us=3.0) for one in season.draws[:50]}
+    standing = stand(season, go_with(failed))
+    assert standing.parts.draws == 0.5
+    assert standing.low == pytest.approx(standing.score - 0.3 * (0.5 - 0.4038), abs=1e-4)
+    assert standing.high == pytest.approx(standing.score + 0.3 * (0.5962 - 0.5), abs=1e-4)
+
+
+def test_the_worst_run_is_one_that_ended_early_before_a_large_error():
+    season = build_season(5)
+    large, ended = (season.singles[number].name for number in (2, 4))
+    found = {large: LawRun(large, False, 9.0, tick_us=3.0)}
+    assert stand(season, go_with(found)).worst.rms_deg == 9.0
+    found[ended] = LawRun(ended, False, None, "Too far", tick_us=3.0)
+    worst = stand(season, go_with(found)).worst
+    assert (worst.scenario, worst.rms_deg, worst.problem) == (ended, None, "Too far")
+
+
+def test_a_law_that_fails_in_its_first_run_is_refused_with_what_it_said():
+    season = build_season(5)
+    name = season.singles[0].name
+    failed = LawRun(name, False, None, "error: it raised", "Traceback\nNameError: spring\n")
+    with pytest.raises(StateError, match="it raised It said: NameError: spring"):
+        measure_standing(season, go_with({name: failed}))
+
+
+def test_one_that_is_broken_off_has_no_standing_and_says_how_far_it_was():
+    told = []
+    season = build_season(5)
+    assert (
+        measure_standing(
+            season,
+            go_with({}),
+            lambda done, total: told.append((done, total)),
+            lambda: len(told) == 3,
+        )
+        is None
+    )
+    assert told == [(count, season.run_count) for count in (1, 2, 3)]
+
+
+@pytest.mark.usefixtures("short_season")
+def test_a_law_is_put_through_once_and_stands_beside_the_labs(tmp_path):
+    file, folder = tmp_path / "mine.py", tmp_path / "board"
+    file.write_bytes(GOOD)
+    (first,) = [
+        one
+        for one in json.loads(run("submit", file, "--board", folder, "--json").stdout)
+        if not one["is_installed"]
+    ]
+    again = run("submit", file, "--name", "Another", "--board", folder, "--json").stdout
+    entries = json.loads(again)
+    assert first in entries, "measured again, or another name for the same law"
+    assert first["name"] == "mine"
+    assert {one["key"] for one in entries if one["is_installed"]} == {"fl", "ndobc"}
+    scores = [one["standing"]["score"] for one in entries]
+    assert scores == sorted(scores, reverse=True)
+    assert first["standing"]["draws_held"] > 0
+    assert (folder / "secret").stat().st_mode & 0o077 == 0
+    table = run("leaderboard", "--board", folder).stdout
+    assert "mine *" in table
+    assert "NDOBC" in table
+
+
+@pytest.mark.usefixtures("short_season")
+def test_an_installed_law_is_measured_again_in_another_version_of_the_lab(tmp_path, monkeypatch):
+    board = Board(tmp_path)
+    assert measure_missing(board)
+    assert board.list_missing() == []
+    monkeypatch.setattr(boards, "__version__", __version__ + "+1")
+    assert board.list_missing() == ["fl", "ndobc"]
+    assert not measure_missing(board, is_cancelled=lambda: True)
+    assert board.list() == []
+
+
+@pytest.mark.usefixtures("short_season")
+def test_a_board_of_an_earlier_suite_shows_none_of_it(tmp_path, monkeypatch):
+    board = Board(tmp_path)
+    measure_missing(board)
+    monkeypatch.setattr(boards, "SUITE_VERSION", "another")
+    assert board.list() == []
+
+
+@pytest.mark.exhaustive
+@pytest.mark.usefixtures("short_season")
+def test_where_nothing_isolates_nothing_is_entered_and_practice_says_so(tmp_path, monkeypatch):
+    file = tmp_path / "law.py"
+    file.write_bytes(LAZY)
+    monkeypatch.setattr("svsa.teaching.leaderboard.cli.build_season", build_short_season)
+    check_isolation.cache_clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(confinement.shutil, "which", lambda name: None)
+        with pytest.raises(NotIsolatedError, match="cannot be isolated"):
+            submit(Board(tmp_path / "board"), "law", LAZY)
+        shown = run("submit", file, "--practice", "--board", tmp_path / "board").stdout
+    check_isolation.cache_clear()
+    assert "not isolated" in shown
+    assert Board(tmp_path / "board").list() == []
+
+
+@pytest.mark.parametrize("name", ["", " ", "two\nlines", "n" * 61])
+def test_a_name_is_one_line_of_letters(name):
+    with pytest.raises(svsa.ParameterError, match="name"):
+        boards.build_entry("key", name, False, stand(build_season(5), go_with({})))
+
+
+def test_the_labs_laws_are_all_on_the_board(tmp_path):
+    assert Board(tmp_path).list_missing() == list(list_law_names())
