@@ -53,7 +53,7 @@ class Lab(NamedTuple):
     def begin_anew(self) -> None:
         """On Figure 4A: one lane, no load, no recording."""
         self.client.delete(self.session + "/recording")
-        self.client.put(self.session + "/lanes", json={"rivals": []}).raise_for_status()
+        self.client.put(self.session + "/lanes", json={"comparisons": []}).raise_for_status()
         self.load_figure()
 
     def jump(self, seconds: float) -> dict:

@@ -66,7 +66,7 @@ class ViolationModel(BaseModel):
 
     name: str = Field(
         examples=["frequency_hz"],
-        description="Path of the field in what was sent, such as rivals[0].law",
+        description="Path of the field in what was sent, such as comparisons[0].law",
     )
     value: Any = Field(examples=[9.0], description="As it was given; cut short when long")
     unit: str = Field(examples=["Hz"])

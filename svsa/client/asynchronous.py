@@ -47,7 +47,7 @@ class Settings(TypedDict, total=False):
     effects: Effects
     actuator: ActuatorParameters
     nominal: ActuatorParameters
-    rivals: Sequence[Lane]
+    comparisons: Sequence[Lane]
 
 
 async def connect_async(

@@ -84,7 +84,7 @@ class Lab:
     ) -> RemoteSession:
         """A private simulated session, running; it ends by itself when nobody uses it.
 
-        settings: load, rivals, effects, seed, as of `POST /sessions`.
+        settings: load, comparisons, effects, seed, as of `POST /sessions`.
         """
         state = self.connection.call("POST", "/sessions", {"figure": figure, "law": law} | settings)
         return self.open_session(state["session"])
@@ -108,7 +108,7 @@ class Lab:
 
         Asks for control of it, and in a class waits for its turn as a person does. A bench stays
         armed and at home, is watched by this script while the block lasts, and moves from the first
-        `run_until` on: somebody has to stand beside it. settings: load, rivals, effects.
+        `run_until` on: somebody has to stand beside it. settings: load, comparisons, effects.
         """
         session = self.session
         session.take_control()
@@ -152,8 +152,10 @@ class Lab:
         wanted = experiment.changed(**(changes if law is None else changes | {"law": law}))
         period = wanted.sampling.period_s
         check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
-        rivals = [dump_lane(lane) for lane in wanted.rivals]
-        with self.private(law=wanted.law, load=False, rivals=rivals, seed=wanted.seed) as session:
+        comparisons = [dump_lane(lane) for lane in wanted.comparisons]
+        with self.private(
+            law=wanted.law, load=False, comparisons=comparisons, seed=wanted.seed
+        ) as session:
             session.pause()
             _check_fixed(session, wanted)
             for setting in SETTINGS:

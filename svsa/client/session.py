@@ -151,21 +151,21 @@ class RemoteSession(MovingDoor):
         self.call("PATCH", "/nominal", nominal.model_dump(mode="json"))
 
     @property
-    def rivals(self) -> tuple[Lane, ...]:
+    def comparisons(self) -> tuple[Lane, ...]:
         """The controllers beside the first, each on a plant of its own."""
-        return tuple(Lane.model_validate(lane) for lane in self._read("rivals"))
+        return tuple(Lane.model_validate(lane) for lane in self._read("comparisons"))
 
-    @rivals.setter
-    def rivals(self, rivals: Sequence[Lane]) -> None:
-        self.call("PUT", "/lanes", {"rivals": [dump_lane(lane) for lane in rivals]})
+    @comparisons.setter
+    def comparisons(self, comparisons: Sequence[Lane]) -> None:
+        self.call("PUT", "/lanes", {"comparisons": [dump_lane(lane) for lane in comparisons]})
 
     def set_lane(self, number: int, lane: Lane) -> None:
         """Control one lane beside the first otherwise; number: 2 is the first beside."""
         self.call("PUT", f"/lanes/{number}", dump_lane(lane))
 
-    def set_laws(self, law: str, *rival_laws: str) -> None:
+    def set_laws(self, law: str, *comparison_laws: str) -> None:
         """Other laws for the first lanes; every plant stays where it is."""
-        self.call("PUT", "/law", {"law": law, "rival_laws": rival_laws})
+        self.call("PUT", "/law", {"law": law, "comparison_laws": comparison_laws})
 
     def set_parameters(self, law: str, **values: float) -> None:
         """Parameters of a law that has its own; what is left out stays."""

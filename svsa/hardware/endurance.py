@@ -43,7 +43,7 @@ def find_endurance(
 
     configuration: of the bench, see `build_bench_configuration`. loads: all that are on then.
     """
-    run = Run(configuration.changed(rivals=(), loads=()))
+    run = Run(configuration.changed(comparisons=(), loads=()))
     limits = configuration.limits
     windings = (
         Winding(bench.motor1, limits.torque1_nm),

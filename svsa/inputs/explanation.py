@@ -59,8 +59,8 @@ def _is_noise(
     if problem["type"] == "too_short":
         return inside
     nearer = any(
-        other == path and rival["type"] not in _MISMATCHES
-        for other, rival in zip(paths, problems, strict=True)
+        other == path and comparison["type"] not in _MISMATCHES
+        for other, comparison in zip(paths, problems, strict=True)
     )
     return problem["type"] in _MISMATCHES and (inside or nearer)
 

@@ -175,15 +175,15 @@ class SetEffects(_Command):
         run.set_effects(self.argument)
 
 
-class SetRivals(_Command):
+class SetComparisons(_Command):
     """Other controllers beside the first, in their order."""
 
-    kind: Literal["rivals"] = "rivals"
+    kind: Literal["comparisons"] = "comparisons"
     argument: tuple[Lane, ...]
     label: ClassVar[str] = "Lanes changed"
 
     def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_rivals(self.argument)
+        run.set_comparisons(self.argument)
 
 
 class SetLane(_Command):
@@ -257,7 +257,7 @@ Command = Annotated[
     | SetActuator
     | SetNominal
     | SetEffects
-    | SetRivals
+    | SetComparisons
     | SetLane
     | ApplyLoad
     | RemoveLoad

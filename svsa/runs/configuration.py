@@ -96,7 +96,7 @@ class Configuration(Design):
     """Everything that decides a run, besides the commands given while it runs."""
 
     law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
-    rivals: tuple[Lane, ...] = quantity(
+    comparisons: tuple[Lane, ...] = quantity(
         "",
         "Controllers that run beside the first, each on a plant of its own",
         default=(),
@@ -119,8 +119,8 @@ class Configuration(Design):
 
     @property
     def lanes(self) -> tuple[Lane, ...]:
-        """The run's own controller and its rivals."""
-        return (Lane(law=self.law), *self.rivals)
+        """The run's own controller and its comparisons."""
+        return (Lane(law=self.law), *self.comparisons)
 
     def get_parameters(self, lane: Lane) -> LawParameters:
         """What the law of a lane is set to: the lane's own, the run's, or its defaults.
@@ -152,9 +152,9 @@ class Configuration(Design):
             bound = f"1 to {len(self.lanes)} laws, one a lane from the first on"
             raise ParameterError(Violation("laws", list(laws), "", bound))
         changed = [
-            lane.controlled_by(law) for lane, law in zip(self.rivals, laws[1:], strict=False)
+            lane.controlled_by(law) for lane, law in zip(self.comparisons, laws[1:], strict=False)
         ]
-        return self.changed(law=laws[0], rivals=(*changed, *self.rivals[len(changed) :]))
+        return self.changed(law=laws[0], comparisons=(*changed, *self.comparisons[len(changed) :]))
 
     def with_lane(self, setting: LaneSetting) -> Self:
         """One lane beside with this controller; raises `ParameterError` where there is none."""
@@ -163,8 +163,8 @@ class Configuration(Design):
             bound = f"2 to {lanes}, of the lanes that run" if lanes > 1 else "none: one lane runs"
             raise ParameterError(Violation("lane", setting.lane, "", bound))
         at = setting.lane - 2
-        rivals = (*self.rivals[:at], setting.setting, *self.rivals[at + 1 :])
-        return self.changed(rivals=rivals)
+        comparisons = (*self.comparisons[:at], setting.setting, *self.comparisons[at + 1 :])
+        return self.changed(comparisons=comparisons)
 
 
 def read_design(path: Path | str) -> Design:

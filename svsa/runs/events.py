@@ -5,7 +5,15 @@ from dataclasses import dataclass
 
 from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad, SetLane, SetLaw, SetLaws, SetRivals
+from svsa.runs.command import (
+    ApplyLoad,
+    Command,
+    RemoveLoad,
+    SetComparisons,
+    SetLane,
+    SetLaw,
+    SetLaws,
+)
 from svsa.runs.configuration import Configuration
 from svsa.runs.fault_labels import label_fault
 from svsa.runs.replay import list_loads
@@ -71,10 +79,10 @@ def describe_change(command: Command, law: LawName) -> str:
     match command:
         case SetLane(argument=argument):
             return f"{get_title(argument.setting.law)} set beside"
-        case SetRivals(argument=()):
+        case SetComparisons(argument=()):
             return "Nothing beside"
-        case SetRivals(argument=rivals):
-            return f"{', '.join(get_title(lane.law) for lane in rivals)} beside"
+        case SetComparisons(argument=comparisons):
+            return f"{', '.join(get_title(lane.law) for lane in comparisons)} beside"
     return command.label
 
 

@@ -205,14 +205,17 @@ class Run:
         """Switch effects on and off."""
         self._configure(effects=effects)
 
-    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
+    def set_comparisons(self, comparisons: tuple[Lane, ...]) -> None:
         """Run these controllers beside the first, in this order.
 
-        A rival that ran before goes on; a new one begins where the first lane is.
+        A comparison that ran before goes on; a new one begins where the first lane is.
         """
-        before, configuration = self.configuration, self.configuration.changed(rivals=rivals)
+        before, configuration = (
+            self.configuration,
+            self.configuration.changed(comparisons=comparisons),
+        )
         check_laws(configuration)
-        origins = find_origins(before.rivals, rivals)
+        origins = find_origins(before.comparisons, comparisons)
         self._connect(configuration)
         self.lanes = [
             _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
@@ -260,12 +263,12 @@ class Run:
 def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | None]:
     """For each lane the number of the lane that it continues, 0 being the first; None is new.
 
-    before, after: the rivals of a run.
+    before, after: the comparisons of a run.
     """
     left: list[Lane | None] = [None, *before]
     origins: list[int | None] = [0]
-    for rival in after:
-        origin = left.index(rival) if rival in left else None
+    for comparison in after:
+        origin = left.index(comparison) if comparison in left else None
         if origin is not None:
             left[origin] = None
         origins.append(origin)
@@ -278,7 +281,7 @@ def check_laws(configuration: Configuration) -> None:
         try:
             check_installed(lane.law)
         except ParameterError as error:
-            raise error.within(f"rivals[{number - 1}].law" if number else "law") from None
+            raise error.within(f"comparisons[{number - 1}].law" if number else "law") from None
 
 
 def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:

@@ -16,13 +16,13 @@ from svsa.runs.command import (
     ApplyLoad,
     Command,
     RemoveLoad,
+    SetComparisons,
     SetGains,
     SetLane,
     SetLaw,
     SetLaws,
     SetObserver,
     SetParameters,
-    SetRivals,
     Stop,
 )
 from svsa.runs.configuration import Configuration
@@ -111,8 +111,8 @@ class Timeline:
         """A command was given; for one that changed lanes, what each continues (None: new)."""
         before, origins = self._configuration, None
         self._configuration = _configure(before, command, self._is_bench)
-        if isinstance(command, SetRivals):
-            origins = find_origins(before.rivals, self._configuration.rivals)
+        if isinstance(command, SetComparisons):
+            origins = find_origins(before.comparisons, self._configuration.comparisons)
             self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
             self.lane_ids = [
                 next(self._new_lane_ids) if lane is None else self.lane_ids[lane]
@@ -289,6 +289,6 @@ def _configure(configuration: Configuration, command: Command, is_bench: bool) -
             return configuration.controlled_by(complete_laws((command.argument,), is_bench))
         case SetLaws():
             return configuration.controlled_by(complete_laws(command.argument, is_bench))
-        case SetGains() | SetParameters() | SetObserver() | SetRivals() | SetLane():
+        case SetGains() | SetParameters() | SetObserver() | SetComparisons() | SetLane():
             return command.configure(configuration)
     return configuration

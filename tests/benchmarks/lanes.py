@@ -29,8 +29,8 @@ EFFECTS = {"ideal": svsa.IDEAL, "rig": svsa.RIG, "every effect": EVERY_EFFECT}
 def build_configuration(effects: svsa.Effects, lanes: int) -> Configuration:
     """Figure 4A with its load, NDOBC in every lane."""
     configuration = svsa.paper.get_figure("4a").build_configuration()
-    rivals = (svsa.Lane(law="ndobc"),) * (lanes - 1)
-    return configuration.changed(effects=effects, rivals=rivals)
+    comparisons = (svsa.Lane(law="ndobc"),) * (lanes - 1)
+    return configuration.changed(effects=effects, comparisons=comparisons)
 
 
 def measure(work: Callable[[], int]) -> float:

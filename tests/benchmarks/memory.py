@@ -10,7 +10,7 @@ from svsa.runs.command import ApplyLoad
 from svsa.runs.session.simulated import SimulatedSession
 from tests.runs.session.sessions import EVERY_EFFECT
 
-RIVALS = (svsa.Lane(law="fl"), svsa.Lane(law="ndobc"), svsa.Lane(law="fl"))
+COMPARISONS = (svsa.Lane(law="fl"), svsa.Lane(law="ndobc"), svsa.Lane(law="fl"))
 MINUTE_S = 60.0
 
 
@@ -38,7 +38,9 @@ def main() -> None:
     """Print the resident memory after the first minute and after each of the others."""
     minutes = int(sys.argv[1]) if len(sys.argv) > 1 else 10
     configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
-    session = SimulatedSession("memory", configuration.changed(rivals=RIVALS, effects=EVERY_EFFECT))
+    session = SimulatedSession(
+        "memory", configuration.changed(comparisons=COMPARISONS, effects=EVERY_EFFECT)
+    )
     session.start()
     print(f"start                     {read_resident_mb():8.1f} MB")
     run_at_full_speed(session, MINUTE_S)

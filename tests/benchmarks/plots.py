@@ -89,7 +89,7 @@ def main() -> None:
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 10.0
     port = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     with run_lab(port=port) as lab, sync_playwright() as playwright:
-        lab.client.put(lab.session + "/lanes", json={"rivals": LANES}).raise_for_status()
+        lab.client.put(lab.session + "/lanes", json={"comparisons": LANES}).raise_for_status()
         browser = playwright.chromium.launch(executable_path=find_chromium(), args=ARGUMENTS)
         page = open_page(browser, lab)
         show("With the 3D view", measure(page, seconds))

@@ -168,7 +168,7 @@ def lab_without_runs(shared_lab: Lab) -> Lab:
     """The shared lab with one lane; the runs that others have recorded are in the trash."""
     client = shared_lab.client
     client.delete(shared_lab.session + "/recording")
-    client.put(shared_lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+    client.put(shared_lab.session + "/lanes", json={"comparisons": []}).raise_for_status()
     while runs := client.get("/api/v1/runs").raise_for_status().json()["runs"]:
         for run in runs:
             wait_for_run(shared_lab, run["id"])

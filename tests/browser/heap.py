@@ -34,7 +34,7 @@ def measure_heap(devtools: CDPSession) -> Heap:
 
 def prepare_lab(lab: Lab, page: Page) -> None:
     """Two lanes, and 60 s on screen."""
-    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]}).raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     page.add_init_script("localStorage.setItem('svsa.window_s', '60')")
 
 

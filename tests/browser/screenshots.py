@@ -20,7 +20,7 @@ LONGEST_MS = 90_000
 def compare(lab: Lab, seconds: float = 9.0) -> None:
     """FL beside NDOBC, so long into Figure 4A."""
     lab.load_figure()
-    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]}).raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     lab.jump(seconds)
     lab.client.post(lab.session + "/start").raise_for_status()
 

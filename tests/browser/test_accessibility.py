@@ -42,7 +42,7 @@ IS_STILL = "() => !document.getAnimations().some((one) => one instanceof CSSTran
 def recorded(lab_without_runs: Lab) -> Lab:
     """A lab with two runs and FL beside NDOBC under the load."""
     lab = lab_without_runs
-    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]}).raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     lab.load_figure()
     for name in ("One", "Another"):
         lab.client.post(lab.session + "/pause").raise_for_status()
@@ -103,8 +103,8 @@ def open_equation(page: Page, lab: Lab) -> None:
 
 
 def open_laws(page: Page, lab: Lab) -> None:
-    rivals = {"rivals": [{"law": "fl_integral"}]}
-    lab.client.put(lab.session + "/lanes", json=rivals).raise_for_status()
+    comparisons = {"comparisons": [{"law": "fl_integral"}]}
+    lab.client.put(lab.session + "/lanes", json=comparisons).raise_for_status()
     open_lab(page, lab)
     page.get_by_role("button", name=re.compile("^Settings of FL")).press("Enter")
     page.get_by_role("button", name=re.compile("^Control law: ")).press("Enter")

@@ -64,7 +64,7 @@ def test_fl_beside_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, still
     switch.click()
     expect(switch).not_to_be_checked()
     expect(table).to_have_count(0)
-    assert still_lab.read()["configuration"]["rivals"] == []
+    assert still_lab.read()["configuration"]["comparisons"] == []
     before = page.evaluate(LAST_TIME)
     still_lab.jump(1)
     wait_for_samples(page, before)
@@ -87,7 +87,7 @@ def test_everything_for_the_work_is_seen_while_comparing(page: Page, still_lab: 
 
 
 @pytest.mark.exhaustive
-def test_the_law_and_its_rival_change_places(page: Page, still_lab: Lab) -> None:
+def test_the_law_and_its_comparison_change_places(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     find_switch(page).click()
     expect(find_switch(page)).to_be_checked()
@@ -127,7 +127,7 @@ def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still
     assert [lane["id"] for lane in still_lab.read()["lanes"]] == ids
     remove.press("Enter")
     expect(beside).to_have_count(0)
-    assert still_lab.read()["configuration"]["rivals"] == []
+    assert still_lab.read()["configuration"]["comparisons"] == []
 
 
 def test_a_recording_is_begun_told_and_ended(page: Page, still_lab: Lab) -> None:

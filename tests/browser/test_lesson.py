@@ -102,8 +102,8 @@ def walk(hand: Hand) -> None:
 def test_the_table_of_the_lanes_stays_in_its_column(page: Page, still_lab: Lab) -> None:
     """With the longest name and the longest values: a load that has made errors of both."""
     still_lab.load_figure(load=True)
-    rivals = {"rivals": [{"law": "prescribed_performance"}]}
-    still_lab.client.put(still_lab.session + "/lanes", json=rivals).raise_for_status()
+    comparisons = {"comparisons": [{"law": "prescribed_performance"}]}
+    still_lab.client.put(still_lab.session + "/lanes", json=comparisons).raise_for_status()
     still_lab.jump(7)
     page.goto(still_lab.url + "/?learn=mechanism")
     expect(page.locator(".comparison .is-best").first).to_be_visible()

@@ -38,7 +38,7 @@ def test_the_rig_is_one_choice_and_a_figure_keeps_it(
         page.get_by_role("button", name="Fig. 4B").click()
     assert Effects.model_validate(read(lab)["effects"]) == RIG
     expect(realism.get_by_role("radio", name="Rig")).to_be_checked()
-    assert [rival["law"] for rival in read(lab)["rivals"]] == ["fl"]
+    assert [comparison["law"] for comparison in read(lab)["comparisons"]] == ["fl"]
     assert lab.read()["loads"][0]["start_s"] == 5.0
 
 

@@ -110,8 +110,8 @@ FIND_LABEL_PROBLEMS = """async () => {
 @pytest.mark.exhaustive
 def test_labels_lie_on_the_picture_clear_of_each_other(view: Page, lab: Lab) -> None:
     page = view
-    rivals = {"rivals": [{"law": "fl"}, {"law": "ndobc"}]}
-    lab.client.put(lab.session + "/lanes", json=rivals).raise_for_status()
+    comparisons = {"comparisons": [{"law": "fl"}, {"law": "ndobc"}]}
+    lab.client.put(lab.session + "/lanes", json=comparisons).raise_for_status()
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
     problems = []
 

@@ -50,9 +50,9 @@ def get_least_plot_px(visited: Page, request: pytest.FixtureRequest) -> int:
 
 
 def compare(page: Page, lab: Lab, is_on: bool, laws: tuple[str, ...] = ("fl",)) -> None:
-    rivals = [{"law": law} for law in laws] if is_on else []
-    lab.client.put(lab.session + "/lanes", json={"rivals": rivals}).raise_for_status()
-    rows = 1 + len(rivals) if is_on else 0
+    comparisons = [{"law": law} for law in laws] if is_on else []
+    lab.client.put(lab.session + "/lanes", json={"comparisons": comparisons}).raise_for_status()
+    rows = 1 + len(comparisons) if is_on else 0
     page.wait_for_function(
         f"() => document.querySelectorAll('.comparison tbody tr').length === {rows}"
     )

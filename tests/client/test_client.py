@@ -37,7 +37,7 @@ def test_what_is_set_is_what_is_read_and_says_when_it_acted(lab: Lab) -> None:
             "effects": svsa.RIG,
             "nominal": session.nominal.changed(link_inertia_kg_m2=0.02),
             "actuator": session.actuator.changed(link_damping_nms_per_rad=0.01),
-            "rivals": (svsa.Lane(law="fl"),),
+            "comparisons": (svsa.Lane(law="fl"),),
             "law": "fl_integral",
         }.items():
             setattr(session, name, value)
@@ -90,14 +90,14 @@ def test_a_run_in_the_lab_is_the_run_of_the_library_to_the_bit(lab: Lab) -> None
     settings = {
         "effects": svsa.RIG,
         "seed": 7,
-        "rivals": (svsa.Lane(law="fl_integral"),),
+        "comparisons": (svsa.Lane(law="fl_integral"),),
         "loads": (svsa.ConstantLoad(start_s=0.2, torque_nm=(0.5, 0.0, 0.0)),),
         "gains": svsa.Gains.from_poles((-50,) * 4, (-30,) * 2),
     }
     here = svsa.simulate("5", duration_s=0.6, commands=CHANGES, **settings)
     there = lab.run(svsa.paper.FIGURES["5"], duration_s=0.6, commands=CHANGES, **settings)
     assert np.array_equal(there.samples, here.samples)
-    assert np.array_equal(there.rivals[0].samples, here.rivals[0].samples)
+    assert np.array_equal(there.comparisons[0].samples, here.comparisons[0].samples)
     assert there.metrics == here.metrics
 
 

@@ -88,14 +88,14 @@ def test_the_paper_s_laws_come_through_the_door_that_everybody_s_come_through():
 def test_a_law_that_is_not_installed_is_refused_with_those_that_are(law):
     with pytest.raises(svsa.ParameterError, match=r"law is '.*installed here: ndobc, fl, "):
         svsa.simulate("4a", law, duration_s=0.01)
-    with pytest.raises(svsa.ParameterError, match=r"rivals\[1\]\.law|law is"):
-        svsa.simulate("4a", rivals=(INTEGRAL, svsa.Lane(law=law)), duration_s=0.01)
+    with pytest.raises(svsa.ParameterError, match=r"comparisons\[1\]\.law|law is"):
+        svsa.simulate("4a", comparisons=(INTEGRAL, svsa.Lane(law=law)), duration_s=0.01)
 
 
 def test_a_refused_law_changes_nothing():
-    run = Run(build_configuration(rivals=(INTEGRAL,)))
+    run = Run(build_configuration(comparisons=(INTEGRAL,)))
     before, lanes = run.configuration, list(run.lanes)
-    for kind, argument in (("law", "no_law"), ("rivals", (svsa.Lane(law="no_law"),))):
+    for kind, argument in (("law", "no_law"), ("comparisons", (svsa.Lane(law="no_law"),))):
         with pytest.raises(svsa.ParameterError):
             build_command(0, kind, argument).apply(run)
     assert run.configuration == before
@@ -140,7 +140,7 @@ def test_a_call_of_the_loop_leaves_the_state_that_it_begins_with():
 
 
 def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
-    configuration = build_configuration(PULSE, law="fl_integral", rivals=(INTEGRAL,))
+    configuration = build_configuration(PULSE, law="fl_integral", comparisons=(INTEGRAL,))
     session = SimulatedSession("cut", configuration)
     for ticks, kind, argument in (
         (90, "parameters", {"fl_integral": FASTER}),
@@ -164,7 +164,9 @@ def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
 def test_a_lane_that_goes_on_past_another_s_fault_is_brought_back_with_its_memory():
     fragile = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-900.0] * 4, [-900.0] * 2))
     effects = svsa.RIG
-    run = Run(build_configuration(law="fl_integral", rivals=(fragile, INTEGRAL), effects=effects))
+    run = Run(
+        build_configuration(law="fl_integral", comparisons=(fragile, INTEGRAL), effects=effects)
+    )
     samples = np.empty((3, 2000, len(CHANNELS)))
     done = run.advance(samples)
     assert run.fault is not None
@@ -175,7 +177,9 @@ def test_a_lane_that_goes_on_past_another_s_fault_is_brought_back_with_its_memor
 
 
 def test_a_law_that_comes_remembers_nothing_and_one_that_stays_remembers():
-    run = Run(build_configuration(PULSE, law="fl_integral", rivals=(svsa.Lane(law="fl"), INTEGRAL)))
+    run = Run(
+        build_configuration(PULSE, law="fl_integral", comparisons=(svsa.Lane(law="fl"), INTEGRAL))
+    )
     advance(run, 200)
     first, _, third = (lane.memory.copy() for lane in run.lanes)
     assert np.all(third != 0.0)
@@ -189,7 +193,7 @@ def test_a_law_that_comes_remembers_nothing_and_one_that_stays_remembers():
 
 def test_twice_the_same_law_with_other_parameters_is_two_controllers():
     other = svsa.Lane(law="fl_integral", parameters=FASTER)
-    configuration = build_configuration(law="fl_integral", rivals=(other,))
+    configuration = build_configuration(law="fl_integral", comparisons=(other,))
     session = SimulatedSession("two", configuration)
     names = [lane[-1].controller for lane in session.journal.timeline.lanes]
     assert list(name_controllers(names).values()) == ["FL + I a 54.6", "FL + I a 70"]
@@ -206,7 +210,7 @@ def test_parameters_are_checked_by_their_law_and_written_as_they_were_given():
         svsa.Lane(law="ndobc", parameters={})
     configuration = build_configuration(
         parameters={"fl_integral": FASTER},
-        rivals=(svsa.Lane(law="fl_integral", parameters=FASTER),),
+        comparisons=(svsa.Lane(law="fl_integral", parameters=FASTER),),
     )
     written = configuration.model_dump(mode="json")
     assert written["parameters"]["fl_integral"]["position_pole_rad_per_s"] == 70.0

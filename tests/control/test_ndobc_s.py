@@ -109,9 +109,9 @@ def test_under_five_times_the_noise_it_errs_and_shakes_less_than_both():
         assert run.fault is None
         error = math.degrees(run.measure(8.0, 12.0).rms_position_error_rad)
         found[law] = (error, compute_shake(run))
-    for rival in ("ndobc", "ndobc_w"):
-        assert found["ndobc_s"][0] < found[rival][0]
-        assert found["ndobc_s"][1] < 0.9 * found[rival][1]
+    for comparison in ("ndobc", "ndobc_w"):
+        assert found["ndobc_s"][0] < found[comparison][0]
+        assert found["ndobc_s"][1] < 0.9 * found[comparison][1]
 
 
 @pytest.mark.parametrize("number", [0, 6, 12])

@@ -32,12 +32,12 @@ from svsa.runs.records.writer import write_record
 from tests.runs.records.records import build_header
 
 slow = svsa.Lane(law="motor_pd", parameters={"frequency_rad_per_s": 20.0})
-result = svsa.simulate("4a", "motor_pd", rivals=(slow,), duration_s=1.0)
+result = svsa.simulate("4a", "motor_pd", comparisons=(slow,), duration_s=1.0)
 print(",".join(list_law_names()))
-print(result.metrics.rms_position_error_rad, result.rivals[0].metrics.rms_position_error_rad)
+print(result.metrics.rms_position_error_rad, result.comparisons[0].metrics.rms_position_error_rad)
 configuration = result.configuration.model_dump(mode="json")
 header = build_header("example", lanes=("PD 60", "PD 20"), configuration=configuration)
-samples = [lane.samples for lane in (result, *result.rivals)]
+samples = [lane.samples for lane in (result, *result.comparisons)]
 write_record(Path(sys.argv[1]), header, [], 0, np.stack(samples, axis=1))
 assert svsa.resimulate(Path(sys.argv[1])).identical
 """
@@ -83,8 +83,8 @@ def test_its_record_opens_where_it_is_not_installed_and_says_so_by_name(made):
     assert result.configuration.law == "motor_pd"
     assert "motor_pd (not installed)" in repr(result)
     assert len(result.samples) == 1000
-    assert np.array_equal(result.rivals[0].samples, record.samples[:, 1])
-    parameters = result.configuration.rivals[0].parameters.model_dump()
+    assert np.array_equal(result.comparisons[0].samples, record.samples[:, 1])
+    parameters = result.configuration.comparisons[0].parameters.model_dump()
     assert parameters == {"frequency_rad_per_s": 20.0, "damping": 1.0}
 
 

@@ -22,7 +22,7 @@ given_kinds = st.sampled_from(KINDS).flatmap(lambda kind: st.tuples(st.just(kind
 @scripted
 @given(given_kinds)
 def test_a_configuration_becomes_what_the_run_has_after_the_command(drawn):
-    run = Run(build_configuration(rivals=LANES))
+    run = Run(build_configuration(comparisons=LANES))
     before = run.configuration
     try:
         command = build_command(0, *drawn)

@@ -7,7 +7,7 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
-from svsa.runs.command import SetLane, SetRivals
+from svsa.runs.command import SetComparisons, SetLane
 from svsa.runs.configuration import Lane, LaneSetting
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.run import Run
@@ -33,14 +33,14 @@ NOISY = {"effects": EVERY_EFFECT, "seed": 11}
 
 def test_the_same_law_twice_gives_the_same_bits():
     """Noise, load and reference are one realisation for all lanes."""
-    run = Run(build_configuration(PULSE, rivals=(NDOBC, NDOBC, NDOBC), **NOISY))
+    run = Run(build_configuration(PULSE, comparisons=(NDOBC, NDOBC, NDOBC), **NOISY))
     samples = advance(run, 300)
     for lane in samples[1:]:
         np.testing.assert_array_equal(lane, samples[0])
 
 
 def test_different_laws_share_time_reference_and_load():
-    samples = advance(Run(build_configuration(PULSE, rivals=(FL,), **NOISY)), 300)
+    samples = advance(Run(build_configuration(PULSE, comparisons=(FL,), **NOISY)), 300)
     np.testing.assert_array_equal(samples[0][:, SHARED], samples[1][:, SHARED])
     assert np.any(samples[0] != samples[1])
 
@@ -48,11 +48,11 @@ def test_different_laws_share_time_reference_and_load():
 @pytest.mark.parametrize("effects", [svsa.IDEAL, EVERY_EFFECT], ids=["ideal", "every effect"])
 def test_fl_beside_ndobc_is_two_single_runs_bit_for_bit(effects):
     """A lane beside changes nothing; Figure 4A through its load."""
-    both = svsa.simulate("4a", "ndobc", rivals=(FL,), effects=effects, duration_s=6.0)
-    (fl,) = both.rivals
+    both = svsa.simulate("4a", "ndobc", comparisons=(FL,), effects=effects, duration_s=6.0)
+    (fl,) = both.comparisons
     for result in (both, fl):
         alone = svsa.simulate("4a", result.law, effects=effects, duration_s=6.0)
-        assert alone.rivals == ()
+        assert alone.comparisons == ()
         np.testing.assert_array_equal(result.samples, alone.samples)
     assert (both.law, fl.law) == ("ndobc", "fl")
     errors = [result.metrics.rms_position_error_rad for result in (both, fl)]
@@ -62,7 +62,9 @@ def test_fl_beside_ndobc_is_two_single_runs_bit_for_bit(effects):
 def test_a_lane_has_gains_and_an_observer_of_its_own_or_those_of_the_run():
     """Each lane equals the run that has its settings as its own."""
     lanes = (SLOW, WIDE, FL)
-    beside = svsa.simulate(build_configuration(PULSE, rivals=lanes), duration_s=0.3).rivals
+    beside = svsa.simulate(
+        build_configuration(PULSE, comparisons=lanes), duration_s=0.3
+    ).comparisons
     for lane, result in zip(lanes, beside, strict=True):
         own = {key: value for key, value in lane if value is not None}
         alone = svsa.simulate(build_configuration(PULSE, **own), duration_s=0.3)
@@ -71,12 +73,12 @@ def test_a_lane_has_gains_and_an_observer_of_its_own_or_those_of_the_run():
 
 def test_the_gains_of_the_run_are_those_of_lanes_without_their_own():
     """A change while it runs reaches the lanes that left theirs out, and no other."""
-    run = Run(build_configuration(PULSE, rivals=(NDOBC, SLOW)))
+    run = Run(build_configuration(PULSE, comparisons=(NDOBC, SLOW)))
     advance(run, 40)
     run.set_gains(SLOW.gains)
     samples = advance(run, 100)
     np.testing.assert_array_equal(samples[0], samples[1])
-    run = Run(build_configuration(PULSE, rivals=(SLOW,)))
+    run = Run(build_configuration(PULSE, comparisons=(SLOW,)))
     unchanged = advance(run, 140)[1]
     np.testing.assert_array_equal(samples[2], unchanged[40:])
 
@@ -86,10 +88,10 @@ def test_a_fault_in_one_lane_ends_all_at_its_tick_and_names_the_lane(number):
     """Gains that the delay makes unstable, in the first lane or beside it."""
     lanes = [NDOBC, NDOBC, NDOBC]
     lanes[number] = FRAGILE
-    changes = {"law": lanes[0].law, "rivals": tuple(lanes[1:]), "effects": svsa.RIG}
+    changes = {"law": lanes[0].law, "comparisons": tuple(lanes[1:]), "effects": svsa.RIG}
     if number == 0:
         changes["gains"] = FRAGILE.gains
-        changes["rivals"] = (SLOW, SLOW)
+        changes["comparisons"] = (SLOW, SLOW)
     run = Run(build_configuration(**changes))
     samples = advance(run, 2000)
     fault = run.fault
@@ -105,10 +107,10 @@ def test_a_fault_in_one_lane_ends_all_at_its_tick_and_names_the_lane(number):
     assert advance(run, 10).shape[1] == 0
 
 
-def test_a_rival_added_in_a_run_begins_where_the_first_is():
+def test_a_comparison_added_in_a_run_begins_where_the_first_is():
     run = Run(build_configuration(PULSE, **NOISY))
     advance(run, 100)
-    run.set_rivals((FL, NDOBC))
+    run.set_comparisons((FL, NDOBC))
     assert run.lanes == [run.lanes[0]] * 3
     samples = advance(run, 200)
     np.testing.assert_array_equal(samples[2], samples[0])
@@ -119,41 +121,41 @@ def test_a_rival_added_in_a_run_begins_where_the_first_is():
     np.testing.assert_array_equal(samples[1], advance(changed, 200)[0])
 
 
-def test_a_rival_that_stays_goes_on_where_it_is():
+def test_a_comparison_that_stays_goes_on_where_it_is():
     """One more beside it, or one less behind it, does not set it back."""
-    whole = advance(Run(build_configuration(PULSE, rivals=(FL,))), 300)[1]
-    run = Run(build_configuration(PULSE, rivals=(FL,)))
+    whole = advance(Run(build_configuration(PULSE, comparisons=(FL,))), 300)[1]
+    run = Run(build_configuration(PULSE, comparisons=(FL,)))
     advance(run, 100)
-    run.set_rivals((FL, SLOW))
+    run.set_comparisons((FL, SLOW))
     advance(run, 100)
-    run.set_rivals((FL,))
+    run.set_comparisons((FL,))
     np.testing.assert_array_equal(advance(run, 100)[1], whole[200:])
 
 
-def test_a_rival_put_in_the_place_of_another_leaves_the_third_where_it_is():
+def test_a_comparison_put_in_the_place_of_another_leaves_the_third_where_it_is():
     """(FL, slow) → (wide, slow): the new one begins where the first is, slow goes on."""
-    run = Run(build_configuration(PULSE, rivals=(FL, SLOW)))
+    run = Run(build_configuration(PULSE, comparisons=(FL, SLOW)))
     advance(run, 100)
     first, _, slow = run.lanes
-    run.set_rivals((WIDE, SLOW))
+    run.set_comparisons((WIDE, SLOW))
     assert run.lanes == [first, first, slow]
 
 
 def test_four_lanes_are_the_most():
     """Refused at the start and in a run, which goes on as if nothing had been asked."""
-    with pytest.raises(svsa.ParameterError, match="rivals"):
-        build_configuration(rivals=(FL,) * 4)
-    run = Run(build_configuration(rivals=(FL,) * 3))
+    with pytest.raises(svsa.ParameterError, match="comparisons"):
+        build_configuration(comparisons=(FL,) * 4)
+    run = Run(build_configuration(comparisons=(FL,) * 3))
     advance(run, 10)
     before = run.configuration, list(run.lanes)
-    with pytest.raises(svsa.ParameterError, match="rivals"):
-        run.set_rivals((FL,) * 4)
+    with pytest.raises(svsa.ParameterError, match="comparisons"):
+        run.set_comparisons((FL,) * 4)
     assert (run.configuration, run.lanes) == before
     assert advance(run, 10).shape[0] == 4
 
 
 def test_every_lane_has_its_metrics_since_the_start_and_since_the_load():
-    session = build_session(PULSE, rivals=(FL, SLOW))
+    session = build_session(PULSE, comparisons=(FL, SLOW))
     session.step(130)
     for lane in range(3):
         samples = read_samples(session, lane)
@@ -171,7 +173,7 @@ def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
     """What the first lane did before is not what the new one did."""
     session = build_session(PULSE)
     session.step(60)
-    session.change(SetRivals(argument=(FL,)))
+    session.change(SetComparisons(argument=(FL,)))
     session.step(40)
     first, second = read_samples(session, 0), read_samples(session, 1)
     assert np.all(np.isnan(second[:60]))
@@ -185,13 +187,13 @@ def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
 
 def test_laws_change_places_and_no_plant_moves():
     """Lane 1 goes on with the law of lane 2 from where it is, and the other way round."""
-    run = Run(build_configuration(PULSE, rivals=(FL, SLOW), **NOISY))
+    run = Run(build_configuration(PULSE, comparisons=(FL, SLOW), **NOISY))
     advance(run, 60)
     before = list(run.lanes)
     run.set_laws(("fl", "ndobc"))
     assert run.lanes == before
     assert [lane.law for lane in run.configuration.lanes] == ["fl", "ndobc", "ndobc"]
-    assert run.configuration.rivals[1] == SLOW
+    assert run.configuration.comparisons[1] == SLOW
     changed = Run(build_configuration(PULSE, **NOISY))
     advance(changed, 60)
     changed.set_law("fl")
@@ -200,13 +202,13 @@ def test_laws_change_places_and_no_plant_moves():
 
 @pytest.mark.parametrize("laws", [(), ("fl", "fl", "fl")])
 def test_as_many_laws_as_lanes_at_most(laws):
-    run = Run(build_configuration(rivals=(FL,)))
+    run = Run(build_configuration(comparisons=(FL,)))
     with pytest.raises(svsa.ParameterError, match=r"1 to 2 laws"):
         run.set_laws(laws)
 
 
-def test_a_session_with_rivals_can_be_reset_and_starts_them_from_rest():
-    session = build_session(PULSE, rivals=(FL,))
+def test_a_session_with_comparisons_can_be_reset_and_starts_them_from_rest():
+    session = build_session(PULSE, comparisons=(FL,))
     session.step(80)
     samples = [read_samples(session, lane) for lane in (0, 1)]
     session.reset()
@@ -221,7 +223,7 @@ def build_integral(pole: float) -> Lane:
 
 def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
     """The same samples as a run whose own law has these parameters, changed at that tick."""
-    run = Run(build_configuration(PULSE, rivals=(build_integral(40.0), FL), **NOISY))
+    run = Run(build_configuration(PULSE, comparisons=(build_integral(40.0), FL), **NOISY))
     advance(run, 90)
     before = list(run.lanes)
     run.set_lane(LaneSetting(lane=2, setting=build_integral(60.0)))
@@ -241,10 +243,10 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
 
 
 @pytest.mark.parametrize(
-    ("rivals", "lane", "bound"), [((), 2, "none: one lane runs"), ((FL,), 3, "2 to 2")]
+    ("comparisons", "lane", "bound"), [((), 2, "none: one lane runs"), ((FL,), 3, "2 to 2")]
 )
-def test_only_a_lane_that_runs_is_set_otherwise(rivals, lane, bound):
-    run = Run(build_configuration(rivals=rivals))
+def test_only_a_lane_that_runs_is_set_otherwise(comparisons, lane, bound):
+    run = Run(build_configuration(comparisons=comparisons))
     with pytest.raises(svsa.ParameterError, match=f"lane is {lane}: it must be {bound}"):
         run.set_lane(LaneSetting(lane=lane, setting=NDOBC))
     with pytest.raises(svsa.ParameterError, match="lane"):
@@ -253,7 +255,7 @@ def test_only_a_lane_that_runs_is_set_otherwise(rivals, lane, bound):
 
 def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
     """The curve before keeps the name and ink of the law that drew it."""
-    session = build_session(PULSE, law="fl_integral", rivals=(Lane(law="fl_integral"),))
+    session = build_session(PULSE, law="fl_integral", comparisons=(Lane(law="fl_integral"),))
     session.step(60)
     (second_id,) = session.journal.timeline.lane_ids[1:]
     session.change(SetLane(argument=LaneSetting(lane=2, setting=build_integral(40.0))))

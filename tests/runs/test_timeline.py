@@ -10,13 +10,13 @@ from svsa.runs import controllers
 from svsa.runs.command import (
     ApplyLoad,
     RemoveLoad,
+    SetComparisons,
     SetEffects,
     SetGains,
     SetLaw,
     SetLaws,
     SetObserver,
     SetPosition,
-    SetRivals,
     build_command,
 )
 from svsa.runs.controllers import name_controllers
@@ -37,7 +37,7 @@ def tell(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
 
 
 def test_laws_that_change_places_leave_the_past_its_names():
-    session = build_session(rivals=(FL,))
+    session = build_session(comparisons=(FL,))
     session.step(30)
     session.change(SetLaws(argument=("fl", "ndobc")))
     session.step(10)
@@ -50,12 +50,12 @@ def test_laws_that_change_places_leave_the_past_its_names():
     assert inks == [[first, other], [other, first]]
 
 
-def test_a_rival_begins_where_it_began_and_takes_nobodys_past():
+def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
     session = build_session()
     session.step(20)
-    session.change(SetRivals(argument=(FL,)))
+    session.change(SetComparisons(argument=(FL,)))
     session.step(20)
-    session.change(SetRivals(argument=(NDOBC, FL)))
+    session.change(SetComparisons(argument=(NDOBC, FL)))
     assert tell(session.journal.timeline) == [
         [("NDOBC", 0, None)],
         [("NDOBC (2)", 40, None)],
@@ -101,13 +101,13 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
 
 def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their_own():
     laws = list_law_names()
-    for rivals in itertools.combinations(laws[1:], 3):
-        lanes = tuple(svsa.Lane(law=law) for law in rivals)
-        timeline = Timeline(build_configuration(law=laws[0], rivals=lanes))
+    for comparisons in itertools.combinations(laws[1:], 3):
+        lanes = tuple(svsa.Lane(law=law) for law in comparisons)
+        timeline = Timeline(build_configuration(law=laws[0], comparisons=lanes))
         inks = [lane[-1].ink for lane in timeline.list_stretches()]
-        assert len({ink % INK_COLORS for ink in inks}) == len(inks), rivals
+        assert len({ink % INK_COLORS for ink in inks}) == len(inks), comparisons
         assert inks[0] == 0
-        assert inks[1] == 1 or rivals[0] != laws[1]
+        assert inks[1] == 1 or comparisons[0] != laws[1]
 
 
 def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
@@ -119,8 +119,8 @@ def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
 
 
 def test_a_bench_and_its_twin_stay_in_the_names():
-    timeline = Timeline(build_configuration(rivals=(NDOBC, FL)), is_bench=True)
-    session = build_session(rivals=(NDOBC, FL))
+    timeline = Timeline(build_configuration(comparisons=(NDOBC, FL)), is_bench=True)
+    session = build_session(comparisons=(NDOBC, FL))
     session.step(5)
     session.change(SetLaw(argument="fl"))
     timeline.take(session.journal.commands[-1])
@@ -141,8 +141,8 @@ CHANGES = [
     ("actuator", svsa.load_prototype().actuator, "Plant changed"),
     ("nominal", svsa.load_prototype().nominal, "Nominal model changed"),
     ("effects", svsa.RIG, "Effects changed"),
-    ("rivals", (FL,), "FL beside"),
-    ("rivals", (FL, svsa.Lane(law="adrc")), "FL, ADRC beside"),
+    ("comparisons", (FL,), "FL beside"),
+    ("comparisons", (FL, svsa.Lane(law="adrc")), "FL, ADRC beside"),
 ]
 
 
@@ -160,7 +160,7 @@ def test_every_change_begins_a_window_for_all_lanes(kind, argument, label):
 
 def test_recovery_is_latched_at_its_load():
     """Realism, motion and law change after it: the 0.2 s that were read stay 0.2 s."""
-    session = build_session(rivals=(FL,))
+    session = build_session(comparisons=(FL,))
     session.step(100)
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(1500)
@@ -184,11 +184,11 @@ def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
     (fl,) = (lane.summarize() for lane in session.journal.metrics.in_window)
     session.change(SetLaw(argument="ndobc"))
     session.step(1000)
-    session.change(SetRivals(argument=(FL,)))
+    session.change(SetComparisons(argument=(FL,)))
     session.step(1)
-    first, rival = (lane.summarize() for lane in session.journal.metrics.in_window)
+    first, comparison = (lane.summarize() for lane in session.journal.metrics.in_window)
     assert fl.peak_position_error_rad > 0.1
-    assert max(first.peak_position_error_rad, rival.peak_position_error_rad) < 0.01
+    assert max(first.peak_position_error_rad, comparison.peak_position_error_rad) < 0.01
 
 
 def test_changes_of_one_moment_are_one_window():
@@ -206,7 +206,7 @@ def test_changes_of_one_moment_are_one_window():
 def test_what_is_set_before_the_first_tick_is_how_the_run_starts():
     session = build_session()
     session.change(SetGains(argument=STIFFER))
-    session.change(SetRivals(argument=(FL,)))
+    session.change(SetComparisons(argument=(FL,)))
     session.step(10)
     assert session.journal.timeline.windows == [Window("start", "", 0)]
     for lanes in (session.journal.metrics.since_start, session.journal.metrics.in_window):

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 import viser
 
-from svsa_scene import RivalPose
+from svsa_scene import ComparisonPose
 from svsa_scene.arrows import SMALLEST_NM, compute_arc
 from svsa_scene.scene import ActuatorScene
 from tests.server.scene.poses import make_pose
@@ -89,13 +89,13 @@ def test_each_torque_has_an_arrow_of_its_own(server: viser.ViserServer) -> None:
 
 def test_other_lanes_are_outlines_with_their_law(server: viser.ViserServer) -> None:
     scene = ActuatorScene(server)
-    scene.update(make_pose(rivals=(RivalPose("FL", 0.5),)))
+    scene.update(make_pose(comparisons=(ComparisonPose("FL", 0.5),)))
     outline = get_node(server, "/a/r0")
     assert outline.visible
     assert outline.wxyz[3] == pytest.approx(math.sin(0.25))
     assert get_node(server, "/a/r0/t").text == "FL"
     assert not get_node(server, "/a/r1").visible
-    scene.update(make_pose(rivals=(RivalPose("FL", math.nan),)))
+    scene.update(make_pose(comparisons=(ComparisonPose("FL", math.nan),)))
     assert outline.wxyz[3] == pytest.approx(math.sin(0.25))
     scene.update(make_pose())
     assert not outline.visible

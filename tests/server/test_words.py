@@ -46,7 +46,7 @@ def test_the_ends_of_a_range_are_low_and_high_and_other_words_for_them_deprecate
 def test_a_figure_has_its_load_whatever_starts_it() -> None:
     schemas = SCHEMA["components"]["schemas"]
     session, experiment = schemas["SessionRequest"], schemas["ExperimentRequest"]
-    for name in ("law", "load", "rivals", "effects"):
+    for name in ("law", "load", "comparisons", "effects"):
         default = experiment["properties"][name]["default"]
         assert session["properties"][name]["default"] == default, name
 

@@ -5,7 +5,7 @@ import math
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.loads import get_hung_mass
-from svsa_scene import ActuatorPose, RivalPose
+from svsa_scene import ActuatorPose, ComparisonPose
 from svsa_scene.pose import POSE_CHANNELS, draw_nothing_unknown
 from svsa_server.runs.lanes import list_session_stretches
 
@@ -19,12 +19,12 @@ def read_pose(session: Session) -> ActuatorPose | None:
     values = {channel: float(newest[CHANNEL_INDEX[channel]]) for channel in POSE_CHANNELS}
     return ActuatorPose(
         **draw_nothing_unknown(values),
-        rivals=_read_rivals(session),
+        comparisons=_read_comparisons(session),
         load_mass_kg=_find_hung_mass(session),
     )
 
 
-def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
+def _read_comparisons(session: Session) -> tuple[ComparisonPose, ...]:
     """Where the links of the other lanes are; none before a lane's first sample."""
     poses = []
     for number, stretches in enumerate(list_session_stretches(session)[1:], start=1):
@@ -32,7 +32,7 @@ def _read_rivals(session: Session) -> tuple[RivalPose, ...]:
         position = math.nan if newest is None else float(newest[CHANNEL_INDEX["position_rad"]])
         if math.isfinite(position):
             present = stretches[-1]
-            poses.append(RivalPose(present.name, position, present.ink))
+            poses.append(ComparisonPose(present.name, position, present.ink))
     return tuple(poses)
 
 

@@ -165,7 +165,7 @@ def _build_configuration(session: Session) -> ConfigurationState:
         limits=configuration.limits,
         actuator=configuration.actuator,
         nominal=configuration.nominal,
-        rivals=configuration.rivals,
+        comparisons=configuration.comparisons,
         effects=configuration.effects,
         seed=configuration.seed,
     )

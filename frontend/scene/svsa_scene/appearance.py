@@ -43,7 +43,7 @@ INKS: tuple[Rgb, ...] = (
     (214, 140, 10),
 )
 """The `INK_COLORS` of curves, in the order of the page: `frontend/web/src/core/plots/inks.ts`."""
-MAX_RIVALS = 3
+MAX_COMPARISONS = 3
 
 _STIFFNESS_RANGE = (1.7, 150.56)
 _STIFFNESS_STEPS = 32

@@ -161,14 +161,14 @@ def build_ghost() -> Group:
     return [look.paint(join([ring, arm]), look.GHOST)]
 
 
-def compute_rival_tip(number: int) -> float:
+def compute_comparison_tip(number: int) -> float:
     """Where the outline of another lane's arm ends, from the axis: each a little farther."""
     return 1.5 + 0.22 * number
 
 
-def build_rival(finish: look.Finish, number: int) -> Group:
+def build_comparison(finish: look.Finish, number: int) -> Group:
     """Frame of a link's arm where another lane has it, each a little longer than the last."""
-    tip = compute_rival_tip(number)
+    tip = compute_comparison_tip(number)
     sides = [make_bar((0.98, y, 0.022), (tip, 0.75 * y, 0.022), (0.8, 0.9)) for y in (-0.2, 0.2)]
     cross = make_bar((tip, -0.15, 0.022), (tip, 0.15, 0.022), (0.8, 0.9))
     ring = make_ring(0.935, 0.965, (0.8, 0.88), bevel=0.0)

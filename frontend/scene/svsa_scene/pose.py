@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 @dataclass(frozen=True)
-class RivalPose:
+class ComparisonPose:
     """Where the link of another lane is.
 
     name: of who controls it, as it is read. position_rad: its q. ink: colour of its curves.
@@ -72,7 +72,7 @@ class ActuatorPose:
     disturbance_motor1_nm, disturbance_motor2_nm: w4, w6, likewise on the motors; see
     `draw_nothing_unknown` for a bench, which does not know them.
     load_mass_kg: mass hung on the link, 0 when none is (the paper's load shows as 3 kg).
-    deflection_limit_rad: largest |φ| allowed at this μ, where φ = q − θ1. rivals: the other
+    deflection_limit_rad: largest |φ| allowed at this μ, where φ = q − θ1. comparisons: the other
     lanes.
     """
 
@@ -89,10 +89,10 @@ class ActuatorPose:
     deflection_limit_rad: float
     disturbance_motor1_nm: float = 0.0
     disturbance_motor2_nm: float = 0.0
-    rivals: tuple[RivalPose, ...] = ()
+    comparisons: tuple[ComparisonPose, ...] = ()
 
     @property
     def is_finite(self) -> bool:
         """Whether every number of it can be drawn."""
         numbers = (value for value in vars(self).values() if isinstance(value, float | int))
-        return all(map(math.isfinite, (*numbers, *(r.position_rad for r in self.rivals))))
+        return all(map(math.isfinite, (*numbers, *(r.position_rad for r in self.comparisons))))

@@ -77,7 +77,7 @@ def record_motion(
             values = zip(POSE_CHANNELS, samples[tick, 0, columns].tolist(), strict=True)
             pose = draw_nothing_unknown(dict(values))
             mass = float(load_mass_kg[tick])
-            scene.update(ActuatorPose(**pose, load_mass_kg=mass, rivals=()))
+            scene.update(ActuatorPose(**pose, load_mass_kg=mass, comparisons=()))
             for lane, ghost in enumerate(ghosts, start=1):
                 angle = float(samples[tick, lane, position])
                 if math.isfinite(angle):

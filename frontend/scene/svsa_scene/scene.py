@@ -10,7 +10,7 @@ import viser
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.arrows import TorqueArrows
-from svsa_scene.comparisons import Rivals
+from svsa_scene.comparisons import Comparisons
 from svsa_scene.geometry import join, make_helix, make_sector, scale_sector, turn
 from svsa_scene.limits import DeflectionLimit
 from svsa_scene.linkage import (
@@ -59,7 +59,7 @@ class ActuatorScene:
             self._limit.show(pose.deflection_limit_rad)
             self._move_load(pose.position_rad, pose.load_mass_kg)
             self._arrows.show(pose)
-            self._rivals.show(pose.rivals)
+            self._comparisons.show(pose.comparisons)
             self._color_springs(look.compute_stiffness_step(pose.stiffness_nm_per_rad))
 
     def _build(self) -> None:
@@ -82,7 +82,7 @@ class ActuatorScene:
         self._add_sector()
         self._add_labels()
         self._arrows = TorqueArrows(self._server, self._moved)
-        self._rivals = Rivals(self._server, self._moved)
+        self._comparisons = Comparisons(self._server, self._moved)
 
     def _add(self, name: str, build: Callable[[], mechanism.Group]) -> viser.SceneNodeHandle:
         scene = self._server.scene

@@ -79,7 +79,7 @@ def find_fates(
         configuration.changed(
             position=ConstantPosition(),
             stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
-            rivals=(),
+            comparisons=(),
             loads=(),
         )
     )

@@ -131,7 +131,7 @@ def linearize_law(configuration: Configuration, sigma: float) -> LawDerivatives:
         stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
         actuator=configuration.nominal,
         effects=IDEAL.changed(torque_limits=False),
-        rivals=(),
+        comparisons=(),
         loads=(),
     )
     run = Run(c)

@@ -107,7 +107,7 @@ def simulate_ramp(configuration: Configuration, sigma: float, rate: float) -> Ra
             position=ConstantPosition(),
             stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
             effects=IDEAL,
-            rivals=(),
+            comparisons=(),
             loads=(SeriesLoad(time_s=(0.0, RAMP_S), torque_nm=((0.0, 0.0, 0.0), (end, 0.0, 0.0))),),
         )
     )

@@ -123,7 +123,9 @@ def measure_demand(configuration: Configuration) -> TorqueDemand:
 def _simulate_load(configuration: Configuration, effects: Effects) -> tuple[np.ndarray, str]:
     """|u1|, |u2| from a moment before the load on, (ticks, 2), and why the run ended, or ""."""
     run = Run(
-        configuration.changed(position=ConstantPosition(), rivals=(), loads=(), effects=effects)
+        configuration.changed(
+            position=ConstantPosition(), comparisons=(), loads=(), effects=effects
+        )
     )
     run.set_position(configuration.position)
     period = run.period_s

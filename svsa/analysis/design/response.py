@@ -35,7 +35,7 @@ def simulate_load(configuration: Configuration, sigma: float) -> LoadResponse:
         configuration.changed(
             position=ConstantPosition(),
             stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
-            rivals=(),
+            comparisons=(),
             loads=(PaperLoad(start_s=ONSET_S),),
         )
     )

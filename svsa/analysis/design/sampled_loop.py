@@ -54,7 +54,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
             position=ConstantPosition(),
             stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
             effects=smooth,
-            rivals=(),
+            comparisons=(),
             loads=(),
         )
     )

@@ -54,7 +54,7 @@ def find_steady_error(
             position=ConstantPosition(),
             stiffness=ConstantStiffness(stiffness_nm_per_rad=sigma),
             effects=smooth,
-            rivals=(),
+            comparisons=(),
             loads=(ConstantLoad(torque_nm=(w.w2, w.w4, w.w6)),),
         )
     )

@@ -1,4 +1,4 @@
-"""A law against a rival on the rehearsal: column by column, and who is better."""
+"""A law against a comparison on the rehearsal: column by column, and who is better."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -49,16 +49,16 @@ class Contest(NamedTuple):
 
 
 class Standing(NamedTuple):
-    """What a law and its rival show in a contest."""
+    """What a law and its comparison show in a contest."""
 
     contest: Contest
     law: float
-    rival: float
+    comparison: float
 
     @property
     def is_no_worse(self) -> bool:
         """Whether the law is as good, and never ends early where that counts."""
-        return self.law <= self.rival and self.law < math.inf
+        return self.law <= self.comparison and self.law < math.inf
 
 
 def _mean(read: Callable[[Passage], float]) -> Callable[[Sequence[Passage]], float]:
@@ -147,15 +147,15 @@ def rehearse(
 
 def compare(
     entry: Entry,
-    rival: Entry,
+    comparison: Entry,
     contests: Sequence[Contest] = CONTESTS,
     tell: Tell = lambda done: None,
 ) -> tuple[Standing, ...]:
-    """A law beside its rival in each contest."""
+    """A law beside its comparison in each contest."""
     asked = {one.runs for one in contests}
     runs = {name: scenarios for name, scenarios in build_rehearsal().items() if name in asked}
     mine = rehearse(entry, runs, lambda done: tell(0.5 * done))
-    theirs = rehearse(rival, runs, lambda done: tell(0.5 + 0.5 * done))
+    theirs = rehearse(comparison, runs, lambda done: tell(0.5 + 0.5 * done))
     return tuple(
         Standing(one, one.combine(mine[one.runs]), one.combine(theirs[one.runs]))
         for one in contests

@@ -1,4 +1,4 @@
-"""`svsa arena against`: a law beside a rival, on runs that the table has not."""
+"""`svsa arena against`: a law beside a comparison, on runs that the table has not."""
 
 import json
 from typing import Annotated
@@ -16,50 +16,50 @@ from svsa.evaluation.ranking.measure import Entry
 
 def against(
     law: Annotated[str, typer.Argument(help="Name of a law that is installed.")],
-    rival: Annotated[str, typer.Option(help="Name of the law beside it.")] = PAPERS_LAW,
+    comparison: Annotated[str, typer.Option(help="Name of the law beside it.")] = PAPERS_LAW,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Compare two laws column by column on the rehearsal: runs that are not in the table."""
     check_installed(law)
-    check_installed(rival)
+    check_installed(comparison)
     with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(f"{get_title(law)} and {get_title(rival)}", total=1.0)
+        task = bar.add_task(f"{get_title(law)} and {get_title(comparison)}", total=1.0)
         standings = compare(
-            Entry(law), Entry(rival), tell=lambda done: bar.update(task, completed=done)
+            Entry(law), Entry(comparison), tell=lambda done: bar.update(task, completed=done)
         )
     if as_json:
         typer.echo(json.dumps({"contests": [_to_json(one) for one in standings]}, indent=2))
     else:
-        Console().print(_build_table(law, rival, standings))
+        Console().print(_build_table(law, comparison, standings))
 
 
 def _to_json(standing: Standing) -> dict[str, str | float | bool | None]:
-    law, rival = (
-        None if value == float("inf") else value for value in (standing.law, standing.rival)
+    law, comparison = (
+        None if value == float("inf") else value for value in (standing.law, standing.comparison)
     )
     return {
         "title": standing.contest.title,
         "unit": standing.contest.unit,
         "law": law,
-        "rival": rival,
+        "comparison": comparison,
         "is_no_worse": standing.is_no_worse,
     }
 
 
-def _build_table(law: str, rival: str, standings: tuple[Standing, ...]) -> Table:
+def _build_table(law: str, comparison: str, standings: tuple[Standing, ...]) -> Table:
     better = sum(one.is_no_worse for one in standings)
     table = Table(
         box=SIMPLE_HEAD,
         title=f"{get_title(law)} is no worse in {better} of {len(standings)}",
         title_justify="left",
     )
-    for heading in ("On the rehearsal", get_title(law), get_title(rival), "ratio"):
+    for heading in ("On the rehearsal", get_title(law), get_title(comparison), "ratio"):
         table.add_column(heading, justify="left" if heading == "On the rehearsal" else "right")
     for one in standings:
         table.add_row(
             one.contest.title,
-            *(_tell(value, one.contest.unit) for value in (one.law, one.rival)),
-            f"{one.law / one.rival:.2f}" if 0.0 < one.rival < float("inf") else "",
+            *(_tell(value, one.contest.unit) for value in (one.law, one.comparison)),
+            f"{one.law / one.comparison:.2f}" if 0.0 < one.comparison < float("inf") else "",
         )
     return table
 

@@ -1,4 +1,4 @@
-"""`svsa arena bench`: laws in the paper's bench figures, on the emulated rig, beside a rival."""
+"""`svsa arena bench`: laws in the paper's bench figures, on the emulated rig, beside a comparison."""
 
 import json
 from pathlib import Path
@@ -23,7 +23,7 @@ def bench(
     laws: Annotated[
         list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
     ] = None,
-    rival: Annotated[str, typer.Option(help="Name of the law beside them.")] = PAPERS_LAW,
+    comparison: Annotated[str, typer.Option(help="Name of the law beside them.")] = PAPERS_LAW,
     figure: Annotated[
         list[str] | None, typer.Option(help="6a, 6b or 7; all three if left out.")
     ] = None,
@@ -36,25 +36,25 @@ def bench(
         Path | None, typer.Option(help="Show what was kept there, and measure nothing.")
     ] = None,
 ) -> None:
-    """Run laws through Figures 6A, 6B and 7 on the emulated rig: 12 numbers beside a rival's."""
+    """Run laws through Figures 6A, 6B and 7 on the emulated rig: 12 numbers beside a comparison's."""
     kept = read_bench_runs(save) if save is not None and save.exists() else None
     figures = tuple(dict.fromkeys(_check_figure(key) for key in figure or BENCH_FIGURES))
     if results is None:
         names = [check_installed(name) for name in laws or list_law_names()]
-        found = _measure(tuple(dict.fromkeys([check_installed(rival), *names])), figures)
+        found = _measure(tuple(dict.fromkeys([check_installed(comparison), *names])), figures)
     else:
         shown = read_bench_runs(results)
-        found = shown.choose(tuple(dict.fromkeys([rival, *(laws or shown.laws)])))
+        found = shown.choose(tuple(dict.fromkeys([comparison, *(laws or shown.laws)])))
         found = found.changed(runs=tuple(run for run in found.runs if run.figure in figures))
     if save is not None:
         write_bench_runs(save, kept.renew(found) if kept else found)
     if as_json:
-        print(json.dumps(found.to_json(rival), indent=2))
+        print(json.dumps(found.to_json(comparison), indent=2))
     elif markdown:
-        print(format_bench(found, rival))
+        print(format_bench(found, comparison))
     else:
         screen = Console()
-        Console(width=max(screen.width, MIN_WIDTH)).print(build_table(found, rival))
+        Console(width=max(screen.width, MIN_WIDTH)).print(build_table(found, comparison))
 
 
 def _check_figure(key: str) -> str:

@@ -1,4 +1,4 @@
-"""The paper's bench figures under any law, on the emulated rig, as a file and beside a rival.
+"""The paper's bench figures under any law, on the emulated rig, as a file and beside a comparison.
 
 Through CAN, in lockstep: twelve numbers a law, which are the same every time.
 """
@@ -29,9 +29,9 @@ class BenchRun(Checked):
     fault: str | None = quantity("", "Code of the fault that ended the run")
     errors: RigErrors = quantity("", "Position errors")
 
-    def is_no_worse(self, rival: "BenchRun", number: str) -> bool:
-        """Whether this number is there, and no greater than the rival's if that is there."""
-        mine, theirs = (getattr(one.errors, number) for one in (self, rival))
+    def is_no_worse(self, comparison: "BenchRun", number: str) -> bool:
+        """Whether this number is there, and no greater than the comparison's if that is there."""
+        mine, theirs = (getattr(one.errors, number) for one in (self, comparison))
         return mine is not None and (theirs is None or mine <= theirs)
 
 
@@ -61,27 +61,30 @@ class BenchRuns(Checked):
         runs = {(run.law, run.figure): run for run in (*self.runs, *newer.runs)}
         return self.changed(runs=tuple(runs.values()))
 
-    def to_json(self, rival: str) -> dict[str, Any]:
+    def to_json(self, comparison: str) -> dict[str, Any]:
         """What `svsa arena bench --json` prints."""
-        return {"rival": rival, "laws": [self._tell_law(law, rival) for law in self.laws]}
+        return {
+            "comparison": comparison,
+            "laws": [self._tell_law(law, comparison) for law in self.laws],
+        }
 
-    def _tell_law(self, law: str, rival: str) -> dict[str, Any]:
-        no_worse, count = self.count_no_worse(law, rival)
+    def _tell_law(self, law: str, comparison: str) -> dict[str, Any]:
+        no_worse, count = self.count_no_worse(law, comparison)
         figures = {
             run.figure: {**run.errors.model_dump(), "fault": run.fault}
             for run in self.list_runs(law)
         }
         return {"law": law, "figures": figures, "no_worse": no_worse, "numbers": count}
 
-    def count_no_worse(self, law: str, rival: str) -> tuple[int, int]:
-        """In how many numbers a law is no worse than its rival, and of how many."""
-        pairs = self.pair(law, rival)
+    def count_no_worse(self, law: str, comparison: str) -> tuple[int, int]:
+        """In how many numbers a law is no worse than its comparison, and of how many."""
+        pairs = self.pair(law, comparison)
         held = [one.is_no_worse(other, number) for one, other in pairs for number in NUMBERS]
         return sum(held), len(held)
 
-    def pair(self, law: str, rival: str) -> tuple[tuple[BenchRun, BenchRun], ...]:
-        """The runs of a law, each with its rival's, in the figures that both have."""
-        theirs = {run.figure: run for run in self.list_runs(rival)}
+    def pair(self, law: str, comparison: str) -> tuple[tuple[BenchRun, BenchRun], ...]:
+        """The runs of a law, each with its comparison's, in the figures that both have."""
+        theirs = {run.figure: run for run in self.list_runs(comparison)}
         mine = self.list_runs(law)
         return tuple((run, theirs[run.figure]) for run in mine if run.figure in theirs)
 

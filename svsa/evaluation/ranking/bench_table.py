@@ -20,16 +20,16 @@ def tell_number(run: BenchRun, number: str, unit: bool = True) -> str:
     return f"{value:.3g}{(' s' if number == 'recovery_s' else '°') if unit else ''}"
 
 
-def build_table(runs: BenchRuns, rival: str) -> Table:
-    """A row a law; bold where it is no worse than the rival."""
-    figures = [run.figure for run in runs.list_runs(rival)]
+def build_table(runs: BenchRuns, comparison: str) -> Table:
+    """A row a law; bold where it is no worse than the comparison."""
+    figures = [run.figure for run in runs.list_runs(comparison)]
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
         title="Position errors [°] as the emulated rig measures them, through CAN",
         title_justify="left",
         caption=f"Before: rms 1–5 s; peak 5–7 s; settled: rms 8–20 s; recov.: s. No worse: in how"
-        f" many numbers than {get_title(rival)}, in bold. A load of 2 N·m on the link from 5 s on.",
+        f" many numbers than {get_title(comparison)}, in bold. A load of 2 N·m on the link from 5 s on.",
         caption_justify="left",
     )
     table.add_column("law", no_wrap=True)
@@ -40,34 +40,34 @@ def build_table(runs: BenchRuns, rival: str) -> Table:
     for law in runs.laws:
         cells = {
             (mine.figure, number): _build_cell(mine, other, number)
-            for mine, other in runs.pair(law, rival)
+            for mine, other in runs.pair(law, comparison)
             for number in NUMBERS
         }
         row = [cells.get((figure, number), "") for figure in figures for number in NUMBERS]
-        no_worse, count = runs.count_no_worse(law, rival)
-        table.add_row(get_title(law), *row, "" if law == rival else f"{no_worse} of {count}")
+        no_worse, count = runs.count_no_worse(law, comparison)
+        table.add_row(get_title(law), *row, "" if law == comparison else f"{no_worse} of {count}")
     return table
 
 
-def _build_cell(run: BenchRun, rival: BenchRun, number: str) -> Text:
-    is_better = run.law != rival.law and run.is_no_worse(rival, number)
+def _build_cell(run: BenchRun, comparison: BenchRun, number: str) -> Text:
+    is_better = run.law != comparison.law and run.is_no_worse(comparison, number)
     return Text(tell_number(run, number, unit=False), style="bold" if is_better else "")
 
 
-def format_bench(runs: BenchRuns, rival: str) -> str:
+def format_bench(runs: BenchRuns, comparison: str) -> str:
     """A row a law as Markdown, a figure a cell: before / peak / settled / recovery."""
-    figures = [run.figure for run in runs.list_runs(rival)]
+    figures = [run.figure for run in runs.list_runs(comparison)]
     titles = [f"{figure.upper()}: {' / '.join(SHORT.values())} s" for figure in figures]
-    head = ("law", *titles, f"no worse than {get_title(rival)}")
+    head = ("law", *titles, f"no worse than {get_title(comparison)}")
     lines = [head, ("---",) * len(head)]
     for law in runs.laws:
         cells = {
             run.figure: " / ".join(tell_number(run, number, unit=False) for number in NUMBERS)
             for run in runs.list_runs(law)
         }
-        no_worse, count = runs.count_no_worse(law, rival)
+        no_worse, count = runs.count_no_worse(law, comparison)
         row = [cells.get(figure, "") for figure in figures]
-        lines.append((get_title(law), *row, "" if law == rival else f"{no_worse} of {count}"))
+        lines.append((get_title(law), *row, "" if law == comparison else f"{no_worse} of {count}"))
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 

@@ -22,7 +22,7 @@ def build_seen(scenario: Scenario, law: str) -> Seen:
     measured, goes on for longer than the other's.
     """
     compared = scenario.build_compared(law)
-    (beside,) = compared.rivals
+    (beside,) = compared.comparisons
     ticks = len(run_scenario(scenario, Entry(law)).samples)
     alone = explain_alone(scenario, get_title(law), beside.law, ticks)
     return Seen(scenario.build_configuration(law) if alone else compared, alone)

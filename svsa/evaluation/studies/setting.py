@@ -24,7 +24,7 @@ _PART = re.compile(r"[A-Za-z_]\w*|\[\d+\]")
 _PATH = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*|\[\d+\])*")
 NAMED = {"effects": {"ideal": IDEAL, "rig": RIG, "every": EVERY}}
 """Values that have a name, by the path of their setting."""
-NOT_VARIED = ("law", "rivals", "seed")
+NOT_VARIED = ("law", "comparisons", "seed")
 
 
 def scale_position_poles(gains: Gains, bandwidth: float) -> Gains:

@@ -25,7 +25,7 @@ def read_bench_design(bench: BenchFile) -> Design:
 
 
 def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Configuration:
-    """`wanted` (law, references, loads) on a bench, with its simulated twin as a rival.
+    """`wanted` (law, references, loads) on a bench, with its simulated twin as a comparison.
 
     The twin has what is known of the bench: counts, estimated velocities, a sample of
     delay and the lag of the current loop.
@@ -50,7 +50,7 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
     return Configuration(
         **dict(design.changed(parameters=parameters)),
         law=wanted.law,
-        rivals=(Lane(law=wanted.law),),
+        comparisons=(Lane(law=wanted.law),),
         effects=effects,
         position=wanted.position,
         stiffness=wanted.stiffness,

@@ -112,7 +112,7 @@ def list_changes(configuration: Configuration, laws: list[str]) -> list[tuple[st
         ("actuator", c["actuator"]),
         ("nominal", c["nominal"]),
         ("effects", EVERY.model_dump(mode="json")),
-        ("rivals", [lane, lane]),
+        ("comparisons", [lane, lane]),
         ("lane", {"lane": 2, "setting": lane}),
         *(("load", load) for load in loads),
         ("unload", 1),

@@ -8,7 +8,7 @@ from svsa.errors import StateError
 from svsa.hardware.realtime.configuration import check_loads, check_takes_no_time
 from svsa.hardware.realtime.launch import Rest
 from svsa.hardware.session.run import TWIN
-from svsa.runs.command import ApplyLoad, Command, SetLane, SetPosition, SetRivals, SetStiffness
+from svsa.runs.command import ApplyLoad, Command, SetComparisons, SetLane, SetPosition, SetStiffness
 from svsa.runs.configuration import Configuration, Lane
 from svsa.runs.session.journal import Journal
 
@@ -73,7 +73,7 @@ class BenchCommands:
                 f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
                 " of the bench: set those, or a lane after it."
             )
-        if isinstance(command, SetRivals):
+        if isinstance(command, SetComparisons):
             self._wait()
             twin = Lane(law=self._journal.run.configuration.law)
             others = tuple(lane for lane in command.argument if lane != twin)

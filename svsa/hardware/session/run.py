@@ -40,7 +40,7 @@ class SampleSource(Protocol):
 class BenchRun(Run):
     """Lane 1 comes from the loop's memory; the other lanes follow it tick for tick.
 
-    The first rival is the bench's twin: the same law, commands and loads on the simulated
+    The first comparison is the bench's twin: the same law, commands and loads on the simulated
     plant. A twin that leaves the domain of the model ends, with NaN from there on; the bench
     goes on. Ticks that the bench's loop missed have a time and no numbers in lane 1.
     is_still: it stands until another run begins, and has none of the samples of the one before.
@@ -94,9 +94,9 @@ class BenchRun(Run):
         """As `Run.set_laws`; the twin has the law of the bench."""
         super().set_laws(complete_laws(laws, is_bench=True))
 
-    def set_rivals(self, rivals: tuple[Lane, ...]) -> None:
-        """As `Run.set_rivals`; a new rival begins where the twin is."""
-        origins = find_origins(self.configuration.rivals, rivals)
+    def set_comparisons(self, comparisons: tuple[Lane, ...]) -> None:
+        """As `Run.set_comparisons`; a new comparison begins where the twin is."""
+        origins = find_origins(self.configuration.comparisons, comparisons)
         self.lanes[0] = self.lanes[min(TWIN, len(self.lanes) - 1)]
-        super().set_rivals(rivals)
+        super().set_comparisons(comparisons)
         self._ended = {lane for lane, origin in enumerate(origins) if origin in self._ended}

@@ -18,7 +18,7 @@ _COMMANDED = (
     "position",
     "stiffness",
     "law",
-    "rivals",
+    "comparisons",
     "gains",
     "parameters",
     "observer",
@@ -57,31 +57,31 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
     A command at a sample's tick acts on that sample: one given after the last acted on none.
     """
     end = first_tick + max(ticks, 1)
-    commands = _tell_by_lanes(header.configuration.get("rivals"), commands)
+    commands = _tell_by_lanes(header.configuration.get("comparisons"), commands)
     return Acting(
         {name: _follow(name, header.configuration, commands, first_tick, end) for name in SETTINGS},
         _find_loads(header, commands, first_tick, end),
     )
 
 
-def _tell_by_lanes(rivals: Any, commands: Commands) -> Commands:
+def _tell_by_lanes(comparisons: Any, commands: Commands) -> Commands:
     """What was given to some lanes, as a law of the first and all lanes beside it."""
     split: Commands = []
     for tick, command in commands:
         kind, argument = command.get("kind"), command.get("argument")
-        if kind == "rivals":
-            rivals = argument
+        if kind == "comparisons":
+            comparisons = argument
         laws = _read_setting("laws", argument) if kind == "laws" else None
         one = _read_setting("lane", argument) if kind == "lane" else None
-        lanes = _read_setting("rivals", rivals) if laws or one else None
+        lanes = _read_setting("comparisons", comparisons) if laws or one else None
         if laws and lanes is not None:
             given = [lane.controlled_by(law) for lane, law in zip(lanes, laws[1:], strict=False)]
-            rivals = (*given, *lanes[len(given) :])
+            comparisons = (*given, *lanes[len(given) :])
             split += [(tick, {"kind": "law", "argument": laws[0]})]
-            split += [(tick, {"kind": "rivals", "argument": rivals})]
+            split += [(tick, {"kind": "comparisons", "argument": comparisons})]
         elif one and lanes is not None and one.lane <= len(lanes) + 1:
-            rivals = (*lanes[: one.lane - 2], one.setting, *lanes[one.lane - 1 :])
-            split.append((tick, {"kind": "rivals", "argument": rivals}))
+            comparisons = (*lanes[: one.lane - 2], one.setting, *lanes[one.lane - 1 :])
+            split.append((tick, {"kind": "comparisons", "argument": comparisons}))
         else:
             split.append((tick, command))
     return split

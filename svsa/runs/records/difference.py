@@ -28,7 +28,7 @@ _GROUPS = {
     "position": "Motion",
     "stiffness": "Stiffness",
     "law": "Controller",
-    "rivals": "Controller",
+    "comparisons": "Controller",
     "gains": "Controller",
     "parameters": "Controller",
     "observer": "Controller",
@@ -97,7 +97,7 @@ def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]
         yield (_TITLES[setting], ""), UNKNOWN
     elif setting == "law":
         yield ("Law", ""), tell_law(value)
-    elif setting == "rivals":
+    elif setting == "comparisons":
         yield ("Beside it", ""), describe_lanes(value) or "nothing"
         for number, lane in enumerate(value, 2):
             if lane.gains is not None:
@@ -192,7 +192,7 @@ _TITLES = {
     "position": "Motion",
     "stiffness": "Stiffness, N·m/rad",
     "law": "Law",
-    "rivals": "Lanes",
+    "comparisons": "Lanes",
     "gains": "Gains",
     "parameters": "Parameters of laws",
     "observer": "Observer",
@@ -206,7 +206,7 @@ _TELL: dict[str, Callable[[Any], str]] = {
     "position": describe_motion,
     "stiffness": describe_stiffness,
     "law": tell_law,
-    "rivals": describe_lanes,
+    "comparisons": describe_lanes,
     "gains": lambda gains: ", ".join(str(told) for _, told in _flatten_gains(gains, "")),
     "parameters": lambda value: ", ".join(
         f"{name} {told}" for (name, _), told in _flatten("parameters", value)

@@ -133,7 +133,7 @@ def _find_figure(acting: Acting, on_bench: bool) -> tuple[str, bool]:
 
 def _describe_laws(acting: Acting, header: RecordHeader) -> str:
     """Lane by lane, with every law that it had; a bench's second lane is its twin."""
-    every = [lanes or () for lanes in acting.get_values("rivals")]
+    every = [lanes or () for lanes in acting.get_values("comparisons")]
     if any(1 + len(lanes) != len(header.lanes) for lanes in every):
         every = [()]
     first = follow(UNKNOWN if law is None else tell_law(law) for law in acting.get_values("law"))
@@ -145,7 +145,7 @@ def _describe_laws(acting: Acting, header: RecordHeader) -> str:
 
 def _list_laws(acting: Acting) -> tuple[str, ...]:
     laws = [law for law in acting.get_values("law") if law is not None]
-    laws += [lane.law for lanes in acting.get_values("rivals") for lane in lanes or ()]
+    laws += [lane.law for lanes in acting.get_values("comparisons") for lane in lanes or ()]
     return tuple(dict.fromkeys(laws))
 
 

@@ -33,7 +33,7 @@ def find_record(run: str | Path) -> Record:
 
 
 def open_run(run: str | Path) -> Result:
-    """A recorded run as `simulate` would have returned it; its lanes as `rivals`.
+    """A recorded run as `simulate` would have returned it; its lanes as `comparisons`.
 
     run: its id, or its folder. The samples are those of the record, bit for bit; commands are
     those given while it was recorded or before; `fault` is None also for a record of a version
@@ -50,8 +50,8 @@ def open_run(run: str | Path) -> Result:
     except ParameterError as error:
         raise RecordError(f"Run {header.run_id} cannot be opened: {error}") from None
     acting = read_acting(header, record.commands, record.first_tick, record.tick_count)
-    law, rivals = acting.get_values("law")[0], acting.get_values("rivals")[0]
-    laws = (law, *(rival.law for rival in rivals))
+    law, comparisons = acting.get_values("law")[0], acting.get_values("comparisons")[0]
+    laws = (law, *(comparison.law for comparison in comparisons))
     samples = record.samples.transpose(1, 0, 2)
     if len(laws) != len(samples):
         laws = header.lanes

@@ -37,16 +37,16 @@ class Result(Channels):
 
     configuration: at tick 0. samples: (ticks, channels), float64, SI, columns as
     `svsa.actuators.signals.CHANNELS`. A channel is also an attribute: `result.position_error_rad`.
-    fault: why the run ended early, or None. rivals: the results of the controllers that ran beside
-    this one. law: what controlled first, "own" for a function of one's own. commands: what was
-    changed of this lane on the way. name: what a recorded run is called. plant: what the first lane
-    was.
+    fault: why the run ended early, or None. comparisons: the results of the controllers that ran
+    beside this one. law: what controlled first, "own" for a function of one's own. commands: what
+    was changed of this lane on the way. name: what a recorded run is called. plant: what the first
+    lane was.
     """
 
     configuration: Configuration
     samples: np.ndarray = field(repr=False)
     fault: Fault | None = None
-    rivals: "tuple[Result, ...]" = field(default=(), repr=False)
+    comparisons: "tuple[Result, ...]" = field(default=(), repr=False)
     law: str = "ndobc"
     commands: tuple[Command, ...] = ()
     name: str = ""
@@ -155,7 +155,11 @@ class Result(Channels):
     def _describe(self) -> tuple[str, str]:
         """The run in two lines: what it is, and how it went."""
         period = self.configuration.sampling.period_s
-        beside = f" beside {', '.join(name_law(r.law) for r in self.rivals)}" if self.rivals else ""
+        beside = (
+            f" beside {', '.join(name_law(r.law) for r in self.comparisons)}"
+            if self.comparisons
+            else ""
+        )
         stretches = self.list_stretches()
         laws = " → ".join(name_law(law) for law, _ in stretches)
         called = f"{self.name}: " if self.name else ""
@@ -188,8 +192,8 @@ def build_results(
     name: str = "",
     plant: PlantKind = "simulated",
 ) -> Result:
-    """The first lane's result with those of its rivals. samples: (lanes, ticks, channels)."""
+    """The first lane's result with those of its comparisons. samples: (lanes, ticks, channels)."""
     of_all = tuple(command for command in commands if command.kind != "law")
     (rows, law), *others = zip(samples, laws, strict=True)
-    rivals = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)
-    return Result(configuration, rows, fault, rivals, law, commands, name, plant)
+    comparisons = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)
+    return Result(configuration, rows, fault, comparisons, law, commands, name, plant)

@@ -45,7 +45,7 @@ def simulate(
     `svsa identify` writes, or its `Design`, instead of the experiment's own. progress: called with
     the share that is done, 0 to 1; without it, a run of more than a second shows a bar if standard
     error is a terminal. changes: fields of the configuration to replace, e.g. position, stiffness,
-    loads, gains, observer, limits, actuator, nominal, rivals, effects, seed.
+    loads, gains, observer, limits, actuator, nominal, comparisons, effects, seed.
 
     Raises `ParameterError` for a value out of range, `KeyboardInterrupt` at Ctrl-C. A run that
     leaves the domain of the model ends early: see `Result.fault`.
@@ -75,5 +75,5 @@ def simulate(
     with follow_progress("Simulating", progress) as follow:
         for reached, _ in play(run, given, ticks, samples, stretch):
             follow(reached.tick / ticks)
-    laws = ["own" if own else configuration.law, *(lane.law for lane in configuration.rivals)]
+    laws = ["own" if own else configuration.law, *(lane.law for lane in configuration.comparisons)]
     return build_results(configuration, samples[:, : run.tick], laws, run.fault, given)

@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 
 from svsa.errors import Fault, StateError
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad, SetRivals, Stop
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, SetComparisons, Stop
 from svsa.runs.configuration import MAX_LANES, Configuration
 from svsa.runs.events import Event, describe_change, describe_end, describe_onset
 from svsa.runs.fault_labels import label_fault
@@ -93,7 +93,7 @@ class Journal:
         """Raise `StateError` where the command may not be given now."""
         if len(self.commands) >= MAX_COMMANDS:
             raise StateError(f"{MAX_COMMANDS} changes were made to this run: reset it first.")
-        if isinstance(command, SetRivals) and self.recorder is not None:
+        if isinstance(command, SetComparisons) and self.recorder is not None:
             raise StateError("A recording has the same lanes throughout: stop it first.")
 
     def enter(self, command: Command) -> None:

@@ -93,7 +93,7 @@ class Measure(Checked):
         """Its value in this run, before it is divided by another."""
         if self.channel is None:
             return Measured(_read_configured(result, self.setting))
-        lanes = (result, *result.rivals)
+        lanes = (result, *result.comparisons)
         if self.lane > len(lanes):
             return Measured(None, None, f"the run has {len(lanes)} lanes, not {self.lane}")
         lane = lanes[self.lane - 1]

@@ -14,7 +14,7 @@ SET_ON_BENCH = ("law", "position", "stiffness", "loads", "gains", "parameters", 
 """What of a configuration an experiment sets on a bench, which has all else itself."""
 UNMEASURED = tuple(name for name in CHANNEL_NAMES if name.startswith("disturbance_"))
 _OWN = ("actuator", "nominal", "limits", "sampling", "seed")
-_NOT_FREE = ("rivals", "effects")
+_NOT_FREE = ("comparisons", "effects")
 
 
 class OnBench(Checked):
@@ -30,7 +30,7 @@ class OnBench(Checked):
 
 def check_for_bench(
     base: Iterable[str],
-    rivals: Sequence[str],
+    comparisons: Sequence[str],
     free: Sequence[str],
     loads: Sequence[Load],
     measures: Sequence[Measure],
@@ -42,9 +42,9 @@ def check_for_bench(
     for path in base:
         if path.partition(".")[0] in _OWN:
             raise _refuse("base", path, f"without {path}: a bench has its own")
-    if rivals:
+    if comparisons:
         bound = "left out: beside a bench runs its simulated twin, and nothing else"
-        raise _refuse("rivals", list(rivals), bound)
+        raise _refuse("comparisons", list(comparisons), bound)
     for name in free:
         if name in _NOT_FREE:
             raise _refuse("free", name, "left out: on a bench it cannot be chosen")

@@ -16,11 +16,11 @@ from svsa.teaching.course.on_bench import SET_ON_BENCH, OnBench
 
 LONGEST_S = 60.0
 Free = Literal[
-    "law", "rivals", "gains", "parameters", "observer", "stiffness", "position", "effects"
+    "law", "comparisons", "gains", "parameters", "observer", "stiffness", "position", "effects"
 ]
 _COMPARED = (
     "law",
-    "rivals",
+    "comparisons",
     "effects",
     "position",
     "stiffness",
@@ -33,7 +33,7 @@ _COMPARED = (
     "limits",
     "sampling",
 )
-_FIELDS: dict[str, str] = {"laws": "law", "lane": "rivals", "load": "loads", "unload": "loads"}
+_FIELDS: dict[str, str] = {"laws": "law", "lane": "comparisons", "load": "loads", "unload": "loads"}
 """The field of a configuration that a kind of command changes, where it is called otherwise."""
 
 
@@ -53,7 +53,7 @@ class Setup(Checked):
 
     base: dict[str, Any] = quantity("", "Settings of the run", default={FIGURE: "4a"})
     law: InstalledLaw = quantity("", "Law of lane 1", default=PAPERS_LAW)
-    rivals: tuple[InstalledLaw, ...] = quantity(
+    comparisons: tuple[InstalledLaw, ...] = quantity(
         "", "Laws of the lanes beside", default=(), max_length=MAX_LANES - 1
     )
     duration_s: Number = quantity("s", "How long the run is", gt=0, le=LONGEST_S, default=20.0)
@@ -68,8 +68,8 @@ class Setup(Checked):
     @cached_property
     def configuration(self) -> Configuration:
         """The run that is asked for, with what is free at what it begins from."""
-        rivals = tuple(Lane(law=law) for law in self.rivals)
-        return build_base(self.base, self.law).changed(rivals=rivals)
+        comparisons = tuple(Lane(law=law) for law in self.comparisons)
+        return build_base(self.base, self.law).changed(comparisons=comparisons)
 
     @property
     def bench_configuration(self) -> Configuration:

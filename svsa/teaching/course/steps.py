@@ -77,7 +77,7 @@ class Experiment(_Step, Setup):
             if measure.per is not None and measure.per not in names[:number]:
                 bound = "a measure that stands before this one"
                 raise ParameterError(Violation(f"{where}.per", measure.per, "", bound))
-            if measure.lane > len(self.configuration.lanes) and "rivals" not in self.free:
+            if measure.lane > len(self.configuration.lanes) and "comparisons" not in self.free:
                 bound = f"1 to {len(self.configuration.lanes)}, of the lanes that run"
                 raise ParameterError(Violation(f"{where}.lane", measure.lane, "", bound))
             if measure.to_s is not None and measure.to_s > self.duration_s:
@@ -91,7 +91,7 @@ class Experiment(_Step, Setup):
         self._check_criteria("criteria", self.criteria)
         if self.bench is not None:
             loads = self.bench_configuration.loads
-            check_for_bench(self.base, self.rivals, self.free, loads, self.measures)
+            check_for_bench(self.base, self.comparisons, self.free, loads, self.measures)
             self._check_bench(self.bench.criteria, bool(loads) and not self.bench.by_hand)
         return self
 

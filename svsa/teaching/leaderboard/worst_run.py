@@ -61,7 +61,7 @@ def replay_worst(board: Board, entry: Entry) -> WorstReplay:
     torque = board.read_torques(entry)
     alone = explain_alone(scenario, entry.name, PAPERS_LAW, len(torque))
     if not alone:
-        configuration = configuration.changed(rivals=(Lane(law=PAPERS_LAW),))
+        configuration = configuration.changed(comparisons=(Lane(law=PAPERS_LAW),))
         lanes += (get_title(PAPERS_LAW),)
     duration_s = len(torque) * configuration.sampling.period_s
     result = simulate(configuration, KeptTorques(torque), duration_s=duration_s)

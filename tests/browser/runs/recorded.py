@@ -10,12 +10,12 @@ SECONDS = 7
 BOTH, STIFF = "Both laws at 15 N·m/rad", "Stiff and alone"
 
 
-def record(lab: Lab, name: str, figure: str, rivals: list[str], tags: list[str]) -> str:
+def record(lab: Lab, name: str, figure: str, comparisons: list[str], tags: list[str]) -> str:
     """A run of a figure of the paper with its load at 5 s, recorded from t = 0."""
     lab.load_figure(figure, load=True)
     lab.client.post(lab.session + "/pause").raise_for_status()
     lab.client.post(lab.session + "/reset").raise_for_status()
-    lanes = {"rivals": [{"law": law} for law in rivals]}
+    lanes = {"comparisons": [{"law": law} for law in comparisons]}
     lab.client.put(lab.session + "/lanes", json=lanes).raise_for_status()
     wanted = {"name": name, "tags": tags, "notes": ""}
     answer = lab.client.post(lab.session + "/recording", json=wanted).raise_for_status().json()

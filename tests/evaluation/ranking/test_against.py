@@ -57,9 +57,9 @@ def test_what_ends_early_is_infinitely_far_off_and_fails():
 def test_a_law_is_no_worse_than_itself_unless_both_end_early():
     contests = [find_contest(title) for title in ("Mass: rms", "Unloadings: worst peak")]
     mass, unloading = compare(Entry("ndobc"), Entry("ndobc"), contests)
-    assert 0.0 < mass.law == mass.rival < math.inf
+    assert 0.0 < mass.law == mass.comparison < math.inf
     assert mass.is_no_worse
-    assert unloading.law == unloading.rival == math.inf
+    assert unloading.law == unloading.comparison == math.inf
     assert not unloading.is_no_worse
 
 
@@ -84,9 +84,9 @@ def test_the_command_tells_both_laws_and_where_one_ends_early(monkeypatch):
         app, ["arena", "against", "ndobc_w", "--json"], catch_exceptions=False
     )
     mass, unloading = json.loads(answer.stdout)["contests"]
-    assert mass["law"] < mass["rival"]
+    assert mass["law"] < mass["comparison"]
     assert mass["is_no_worse"]
-    assert unloading["rival"] is None
+    assert unloading["comparison"] is None
     table = CliRunner().invoke(app, ["arena", "against", "ndobc_w"], catch_exceptions=False)
     assert "no worse in 2 of 2" in table.stdout
     assert "fault" in table.stdout

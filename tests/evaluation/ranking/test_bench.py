@@ -1,4 +1,4 @@
-"""`svsa arena bench`: twelve numbers a law on the emulated rig, beside a rival's, and in a file."""
+"""`svsa arena bench`: twelve numbers a law on the emulated rig, beside a comparison's, and in a file."""
 
 import json
 import os
@@ -55,7 +55,7 @@ def played(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
     return asked
 
 
-def test_a_law_is_told_beside_its_rival_in_every_figure(played):
+def test_a_law_is_told_beside_its_comparison_in_every_figure(played):
     """FL settles in none; the numbers are those of the run, and a fault has its name and none."""
     told = json.loads(call("fl", "pd", "--json"))
     assert played == [(law, key) for law in ("ndobc", "fl", "pd") for key in BENCH_FIGURES]
@@ -103,7 +103,7 @@ def test_what_was_kept_is_renewed_and_shown_again(played, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [(["fl", "--figure", "4a"], "one of 6a, 6b, 7"), (["nobody"], "installed here"),
-     (["fl", "--rival", "nobody"], "installed here")],
+     (["fl", "--comparison", "nobody"], "installed here")],
 )  # fmt: skip
 def test_what_there_is_not_is_refused_before_anything_runs(played, arguments, told):
     with pytest.raises(svsa.ParameterError, match=told):

@@ -113,7 +113,7 @@ def test_a_law_that_does_not_work_is_refused_with_its_reason(
     rehearsal: Rehearsal, law: str, reason: str
 ) -> None:
     before = rehearsal.loop.run.configuration
-    for kind, argument in (("law", law), ("rivals", [{"law": law}])):
+    for kind, argument in (("law", law), ("comparisons", [{"law": law}])):
         found = rehearsal.change(kind, argument)
         assert f"The law {law} is not ready on this bench" in found["refused"]
         assert reason in found["refused"] and "Restart the loop" in found["refused"]

@@ -11,7 +11,7 @@ from tests.hardware.realtime.first_uses import Rehearsal
 from tests.hardware.wired_bench import WiredBench
 
 REFUSED = [
-    ("rivals", [{"law": "fl"}] * 4, "rivals"),
+    ("comparisons", [{"law": "fl"}] * 4, "comparisons"),
     ("lane", {"lane": 4, "setting": {"law": "fl"}}, "lane"),
     ("position", {"kind": "constant", "position_rad": 1e9}, "position_rad"),
     ("law", "no_law", "law"),

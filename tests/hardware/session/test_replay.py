@@ -100,7 +100,7 @@ def test_gains_that_were_not_those_that_controlled_are_found(tmp_path: Path) -> 
     configuration, samples, start = run_bench(wanted, 200)
     alone = samples[:1].copy()
     alone[:, :, RESIDUALS] = 0.0
-    told = configuration.changed(rivals=())
+    told = configuration.changed(comparisons=())
     assert verify(tmp_path / "own", (told, alone, start), ()).lanes == 0
     poles = told.gains.position_coefficients
     gains = told.gains.changed(position_coefficients=(0.5 * poles[0], *poles[1:]))

@@ -22,10 +22,10 @@ FL = {"law": "fl"}
 
 
 def record(
-    commands: Sequence[tuple[int, str, Any]], ticks: int = 100, rivals: tuple[Lane, ...] = ()
+    commands: Sequence[tuple[int, str, Any]], ticks: int = 100, comparisons: tuple[Lane, ...] = ()
 ) -> Record:
-    figure = get_figure("4a").build_configuration(load=False).changed(rivals=rivals)
-    lanes = tuple(f"lane{number + 1}" for number in range(1 + len(rivals)))
+    figure = get_figure("4a").build_configuration(load=False).changed(comparisons=comparisons)
+    lanes = tuple(f"lane{number + 1}" for number in range(1 + len(comparisons)))
     header = build_header(lanes=lanes, configuration=figure.model_dump(mode="json"))
     given = [(tick, {"tick": tick, "kind": kind, "argument": a}) for tick, kind, a in commands]
     samples = build_samples(ticks, len(lanes), FIRST_TICK)
@@ -85,7 +85,7 @@ def test_a_ramp_to_zero_torque_is_in_no_number_where_there_is_another_window() -
 
 
 def test_no_number_mixes_two_laws() -> None:
-    made = record([(250, "laws", ("fl", "ndobc"))], rivals=(Lane(law="fl"),))
+    made = record([(250, "laws", ("fl", "ndobc"))], comparisons=(Lane(law="fl"),))
     window = find(made)
     assert window.lanes == ("FL", "NDOBC")
     found = measure(made, window)

@@ -43,7 +43,7 @@ def test_a_script_of_commands_gives_the_same_samples_again(script, wakes, seed):
     configuration, commands = read(write(session))
     assert configuration == session.journal.initial
     assert commands == session.journal.commands
-    turns = [command.tick for command in commands if command.kind == "rivals"]
+    turns = [command.tick for command in commands if command.kind == "comparisons"]
     ticks, first = session.run.tick, max(turns, default=0)
     if first < ticks:
         found = collect(configuration, commands, first, ticks - first)
@@ -96,7 +96,9 @@ def test_another_seed_is_another_run():
 def test_a_part_of_a_record_is_simulated_from_the_start_and_cut_out():
     session = play_busy_session()
     whole = read_samples(session)
-    first = next(command.tick for command in session.journal.commands if command.kind == "rivals")
+    first = next(
+        command.tick for command in session.journal.commands if command.kind == "comparisons"
+    )
     for start, ticks in ((0, 1), (0, first), (29, 3), (57, first - 57)):
         found = collect(session.journal.initial, session.journal.commands, start, ticks)
         np.testing.assert_array_equal(found[0], whole[start : start + ticks])
@@ -114,7 +116,7 @@ def test_a_configuration_survives_json(argument):
     """Every field, the loads and lanes with it."""
     lane = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
     configuration = build_configuration(
-        PULSE, svsa.MassLoad(), rivals=(lane,), effects=EVERY_EFFECT, seed=2**63 - 1
+        PULSE, svsa.MassLoad(), comparisons=(lane,), effects=EVERY_EFFECT, seed=2**63 - 1
     )
     written = configuration.model_dump(mode=argument)
     if argument == "json":

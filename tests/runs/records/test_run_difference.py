@@ -79,7 +79,7 @@ def test_an_effect_is_on_or_off_with_its_values_and_the_seed_of_its_noise() -> N
 def test_gains_are_told_as_poles_and_lanes_by_their_laws() -> None:
     gains = record().header.configuration["gains"]
     faster = dict(gains, stiffness_coefficients=(2500.0, 100.0))
-    one, other = record(gains=faster), record(rivals=(Lane(law="fl"),))
+    one, other = record(gains=faster), record(comparisons=(Lane(law="fl"),))
     assert compare(one, other) == {
         ("Controller", "Stiffness poles, rad/s", ""): ("−50 (2×)", "−40 (2×)"),
         ("Controller", "Beside it", ""): ("nothing", "FL"),

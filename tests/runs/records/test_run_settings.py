@@ -53,7 +53,7 @@ def sigma(value: float) -> ConstantStiffness:
 
 def test_a_figure_with_its_load_is_named_as_people_say_it() -> None:
     loads = (PaperLoad(start_s=5.0),)
-    settings = describe(figure="4b", loads=loads, rivals=(Lane(law="fl"),))
+    settings = describe(figure="4b", loads=loads, comparisons=(Lane(law="fl"),))
     assert settings.name == "Fig. 4B · NDOBC vs FL · σ 60 · 3 kg"
     assert (settings.figure, settings.law_kinds, settings.load_kinds) == (
         "4b",
@@ -146,7 +146,7 @@ def test_realism_and_a_design_of_ones_own_are_told() -> None:
 
 def test_a_bench_is_named_with_its_twin_and_its_own_figures() -> None:
     header = {"plant": "emulated"}
-    settings = describe(header=header, rivals=(Lane(law="ndobc"),))
+    settings = describe(header=header, comparisons=(Lane(law="ndobc"),))
     assert settings.name == "Fig. 6A · NDOBC vs twin · σ 15 · no load · emulated bench"
 
 
@@ -171,7 +171,7 @@ def test_a_change_that_cannot_be_read_is_a_question_mark() -> None:
 
 
 def test_laws_that_changed_places_are_told_of_every_lane() -> None:
-    settings = describe((3000, "laws", ("fl", "ndobc")), rivals=(Lane(law="fl"),))
+    settings = describe((3000, "laws", ("fl", "ndobc")), comparisons=(Lane(law="fl"),))
     assert settings.name.split(" · ")[1] == "NDOBC → FL vs FL → NDOBC"
     assert settings.law_kinds == ("ndobc", "fl")
 
@@ -179,5 +179,6 @@ def test_laws_that_changed_places_are_told_of_every_lane() -> None:
 def test_a_lane_that_was_set_otherwise_is_told_as_one_beside() -> None:
     setting = LaneSetting(lane=2, setting=Lane(law="fl_integral"))
     assert (
-        describe((3000, "lane", setting), rivals=(Lane(law="fl"),)).laws == "NDOBC vs FL → FL + I"
+        describe((3000, "lane", setting), comparisons=(Lane(law="fl"),)).laws
+        == "NDOBC vs FL → FL + I"
     )

@@ -37,7 +37,7 @@ CHANGES = (
 
 def play_session() -> Session:
     """A session that is given the same as `CHANGES`, at the same ticks, by hand."""
-    session = SimulatedSession("test", build_configuration(rivals=(svsa.Lane(law="fl"),)))
+    session = SimulatedSession("test", build_configuration(comparisons=(svsa.Lane(law="fl"),)))
     for change in sorted(CHANGES, key=lambda change: change.at_s):
         session.step(round(change.at_s / 0.001) - session.run.tick)
         for kind, argument in change.list_given().items():
@@ -47,15 +47,17 @@ def play_session() -> Session:
 
 @pytest.fixture(scope="module")
 def result() -> svsa.Result:
-    rivals = (svsa.Lane(law="fl"),)
-    return svsa.simulate(build_configuration(rivals=rivals), duration_s=0.6, commands=CHANGES)
+    comparisons = (svsa.Lane(law="fl"),)
+    return svsa.simulate(
+        build_configuration(comparisons=comparisons), duration_s=0.6, commands=CHANGES
+    )
 
 
 def test_changes_on_the_way_are_those_of_a_session_bit_for_bit(result: svsa.Result) -> None:
     session = play_session()
     session.step(600 - session.run.tick)
     np.testing.assert_array_equal(result.samples, read_samples(session))
-    np.testing.assert_array_equal(result.rivals[0].samples, read_samples(session, 1))
+    np.testing.assert_array_equal(result.comparisons[0].samples, read_samples(session, 1))
     assert [command.tick for command in result.commands] == [100, 100, 200, 200, 300, 350, 400, 400]
 
 
@@ -82,7 +84,7 @@ def test_a_change_of_nothing_and_an_unknown_word_are_refused() -> None:
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run that was recorded from its tick 150 on."""
     folder = tmp_path_factory.mktemp("runs") / "run-1"
-    session = SimulatedSession("lab", build_configuration(rivals=(svsa.Lane(law="fl"),)))
+    session = SimulatedSession("lab", build_configuration(comparisons=(svsa.Lane(law="fl"),)))
     session.change(SetLaw(argument="fl"))
     session.step(150)
     configuration = session.journal.initial.model_dump(mode="json")
@@ -100,7 +102,7 @@ def test_a_recorded_run_opens_as_what_simulate_returns(recorded: Path) -> None:
     opened = svsa.open_run(recorded)
     np.testing.assert_array_equal(opened.samples, open_record(recorded).samples[:, 0])
     assert (opened.law, opened.name, opened.fault) == ("fl", "Mine", None)
-    assert [rival.law for rival in opened.rivals] == ["fl"]
+    assert [comparison.law for comparison in opened.comparisons] == ["fl"]
     assert opened.time_s[[0, -1]].tolist() == pytest.approx([0.15, 0.499])
     again = svsa.simulate(
         opened.configuration,
@@ -194,12 +196,12 @@ def test_a_run_without_samples_says_so(result: svsa.Result) -> None:
 
 
 def test_a_law_names_only_what_it_controlled(result: svsa.Result) -> None:
-    """History is not renamed by the law of the beginning, nor rivals by the first lane's."""
+    """History is not renamed by the law of the beginning, nor comparisons by the first lane's."""
     stretches = [(law, rows.start, rows.stop) for law, rows in result.list_stretches()]
     assert stretches == [("ndobc", 0, 100), ("fl", 100, 400), ("ndobc", 400, 600)]
-    rival = result.rivals[0]
-    assert rival.list_stretches() == [("fl", slice(0, 600))]
-    assert all(command.kind != "law" for command in rival.commands)
+    comparison = result.comparisons[0]
+    assert comparison.list_stretches() == [("fl", slice(0, 600))]
+    assert all(command.kind != "law" for command in comparison.commands)
     error = result.plot().axes[1]
     drawn = [(line.get_label(), len(line.get_xdata())) for line in error.lines[:3]]
     assert drawn == [("NDOBC", 100), ("FL", 300), ("NDOBC", 200)]

@@ -72,7 +72,7 @@ effects = st.sampled_from([svsa.IDEAL, svsa.RIG, EVERY_EFFECT]) | st.builds(
 lanes = st.builds(
     svsa.Lane, law=laws, gains=st.none() | gains, observer=st.none() | observers
 ) | st.builds(svsa.Lane, law=st.just("fl_integral"), parameters=integral_poles)
-rivals = st.lists(lanes, max_size=3).map(tuple)
+comparisons = st.lists(lanes, max_size=3).map(tuple)
 
 ARGUMENTS = {
     "position": positions,
@@ -85,7 +85,7 @@ ARGUMENTS = {
     "actuator": actuators,
     "nominal": actuators,
     "effects": effects,
-    "rivals": rivals,
+    "comparisons": comparisons,
     "lane": st.builds(LaneSetting, lane=st.integers(2, 4), setting=lanes),
     "load": loads,
     "unload": st.sampled_from([1, 2, 3]),
@@ -95,7 +95,7 @@ REFUSED = [
     ("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=500.0)),
     ("law", "no_law"),
     ("gains", {"position_coefficients": (1.0, 1.0, 1.0, 1.0)}),
-    ("rivals", (svsa.Lane(law="fl"),) * 4),
+    ("comparisons", (svsa.Lane(law="fl"),) * 4),
     ("lane", {"lane": 1, "setting": {"law": "fl"}}),
     ("unload", 99),
     ("unload", 0),
@@ -122,7 +122,7 @@ BUSY = [
     (40, ("unload", 2)),
     (11, ("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))),
     (5, ("law", "ndobc")),
-    (25, ("rivals", (svsa.Lane(law="fl"),))),
+    (25, ("comparisons", (svsa.Lane(law="fl"),))),
     (9, ("lane", LaneSetting(lane=2, setting=svsa.Lane(law="fl_integral")))),
 ]
 

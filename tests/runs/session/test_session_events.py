@@ -10,6 +10,7 @@ from svsa.runs.command import (
     ApplyLoad,
     RemoveLoad,
     SetActuator,
+    SetComparisons,
     SetEffects,
     SetGains,
     SetLane,
@@ -19,7 +20,6 @@ from svsa.runs.command import (
     SetObserver,
     SetParameters,
     SetPosition,
-    SetRivals,
     SetStiffness,
     Stop,
     build_command,
@@ -33,14 +33,14 @@ def test_a_window_that_has_ended_keeps_its_numbers_of_the_lanes_that_are_left():
     """What a mark tells of an event is what the table told of it when it was the newest."""
     session = build_session()
     session.step(10)
-    session.change(SetRivals(argument=(svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))
+    session.change(SetComparisons(argument=(svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(30)
     loaded = [metrics.summarize() for metrics in session.journal.metrics.in_window]
     session.change(SetStiffness(argument=svsa.ConstantStiffness(stiffness_nm_per_rad=20.0)))
     session.change(SetLaw(argument="fl"))
     session.step(5)
-    session.change(SetRivals(argument=(svsa.Lane(law="fl_integral"),)))
+    session.change(SetComparisons(argument=(svsa.Lane(law="fl_integral"),)))
     ended = {one.first_tick: one.lanes for one in session.journal.metrics.ended}
     assert list(ended) == [0, 10]
     assert ended[10] == [loaded[0], loaded[2]]
@@ -64,7 +64,7 @@ def test_every_command_is_logged_with_its_tick():
     session.change(SetActuator(argument=design.actuator))
     session.change(SetNominal(argument=design.nominal))
     session.change(SetEffects(argument=svsa.RIG))
-    session.change(SetRivals(argument=(svsa.Lane(law="ndobc"),)))
+    session.change(SetComparisons(argument=(svsa.Lane(law="ndobc"),)))
     session.change(SetLane(argument={"lane": 2, "setting": {"law": "fl"}}))
     session.change(Stop())
     changed = [kind for kind in COMMANDS if kind not in ("load", "unload")]
@@ -99,7 +99,7 @@ NO_COMMANDS = [
     ("position", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0)),
     ("gains", "fast"),
     ("effects", 3),
-    ("rivals", "fl"),
+    ("comparisons", "fl"),
     ("unload", "1"),
     ("unload", True),
 ]
@@ -153,7 +153,7 @@ def test_a_record_tells_what_was_told_live():
     session.change(SetLaw(argument="fl"))
     session.change(SetGains(argument=session.run.configuration.gains))
     session.step(50)
-    session.change(SetRivals(argument=(svsa.Lane(law="ndobc"),)))
+    session.change(SetComparisons(argument=(svsa.Lane(law="ndobc"),)))
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(20)
     session.change(SetLaws(argument=("ndobc", "fl")))
@@ -184,7 +184,7 @@ def test_what_runs_beside_is_told_by_its_laws():
     session = build_session()
     session.step(10)
     for laws in (("fl",), ("fl", "adrc"), ()):
-        session.change(SetRivals(argument=tuple(svsa.Lane(law=law) for law in laws)))
+        session.change(SetComparisons(argument=tuple(svsa.Lane(law=law) for law in laws)))
     labels = [event.label for event in session.journal.events]
     assert labels == ["FL beside", "FL, ADRC beside", "Nothing beside"]
     assert events.list_events(session.journal.initial, session.journal.commands) == list(

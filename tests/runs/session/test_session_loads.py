@@ -8,7 +8,7 @@ from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.command import (
     ApplyLoad,
     RemoveLoad,
-    SetRivals,
+    SetComparisons,
     read_command,
 )
 from svsa.runs.replay import replay
@@ -56,10 +56,10 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     (anew,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
     assert anew.duration_s == pytest.approx(0.005)
     session.change(RemoveLoad(argument=2))
-    session.change(SetRivals(argument=(svsa.Lane(law="fl"),)))
-    first, rival = session.journal.metrics.since_load
+    session.change(SetComparisons(argument=(svsa.Lane(law="fl"),)))
+    first, comparison = session.journal.metrics.since_load
     assert first.summarize() == anew
-    assert rival is None, "the load was on before this lane began"
+    assert comparison is None, "the load was on before this lane began"
 
 
 def test_taking_a_load_off_is_logged_and_ends_it():

@@ -45,7 +45,7 @@ NO_IDS = {
     "parameters": "of a law",
     "path": "of a setting",
     "plant": "a kind",
-    "rival_laws": "installed",
+    "comparison_laws": "installed",
     "row": "a number below its study",
     "scenario": "saved for the whole class",
     "search": "words; the list shows what the caller may see",

@@ -24,7 +24,7 @@ def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
     state = lab.client.post(f"{ARENA}/sessions", json=wanted).raise_for_status().json()
     configuration = state["configuration"]
     assert configuration["law"] == law
-    assert [rival["law"] for rival in configuration["rivals"]] == beside
+    assert [comparison["law"] for comparison in configuration["comparisons"]] == beside
     assert state["note"] == ""
     assert configuration["stiffness"]["stiffness_nm_per_rad"] == 18.0
     assert [load["load"]["duration_s"] for load in state["loads"]] == [3.0]
@@ -36,7 +36,7 @@ def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
 def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None:
     wanted = {"law": "fl", "scenario": "unloading"}
     state = lab.client.post(f"{ARENA}/sessions", json=wanted).raise_for_status().json()
-    assert state["configuration"]["rivals"] == []
+    assert state["configuration"]["comparisons"] == []
     assert "NDOBC: At 8.187 s the deflection" in state["note"]
     again = lab.client.get(f"/api/v1/sessions/{state['session']}").raise_for_status().json()
     assert again["note"] == state["note"]

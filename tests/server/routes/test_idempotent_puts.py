@@ -27,7 +27,7 @@ def lab() -> Iterator[httpx.Client]:
 
 def open_session(lab: httpx.Client) -> str:
     """The path of a private session, paused, with a lane beside its first."""
-    asked = {"rivals": [{"law": "pd"}], "load": False}
+    asked = {"comparisons": [{"law": "pd"}], "load": False}
     name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
     path = f"/api/v1/sessions/{name}"
     lab.post(path + "/pause").raise_for_status()

@@ -46,8 +46,12 @@ def test_parameters_are_set_by_law_and_what_is_left_out_stays(lab: Lab) -> None:
     ("path", "body", "words"),
     [
         ("law", {"law": "no_law"}, "installed here: ndobc, "),
-        ("lanes", {"rivals": [{"law": "no_law"}]}, "installed here: ndobc, "),
-        ("lanes", {"rivals": [{"law": "ndobc", "parameters": {"a": 1}}]}, "takes the run's gains"),
+        ("lanes", {"comparisons": [{"law": "no_law"}]}, "installed here: ndobc, "),
+        (
+            "lanes",
+            {"comparisons": [{"law": "ndobc", "parameters": {"a": 1}}]},
+            "takes the run's gains",
+        ),
         ("lanes/2", {"law": "fl"}, "none: one lane runs"),
         ("lanes/1", {"law": "fl"}, "at least 2"),
         ("parameters", {"no_law": {}}, "installed here"),
@@ -72,18 +76,20 @@ def test_what_is_wrong_is_refused_by_name_and_changes_nothing(
 
 def test_the_same_law_twice_with_other_parameters_side_by_side(lab: Lab) -> None:
     lab.client.put(lab.session + "/law", json={"law": "fl_integral"}).raise_for_status()
-    rivals = [{"law": "fl_integral", "parameters": FASTER["fl_integral"]}, {"law": "fl"}]
-    body = {"rivals": rivals}
+    comparisons = [{"law": "fl_integral", "parameters": FASTER["fl_integral"]}, {"law": "fl"}]
+    body = {"comparisons": comparisons}
     state = lab.client.put(lab.session + "/lanes", json=body).raise_for_status().json()
     names = [lane["name"] for lane in state["lanes"]]
     assert names[1:] == ["FL + I a 70", "FL"]
     assert names[0].startswith("FL + I a ")
-    assert state["configuration"]["rivals"][0]["parameters"]["stiffness_pole_rad_per_s"] == 32.9
+    assert (
+        state["configuration"]["comparisons"][0]["parameters"]["stiffness_pole_rad_per_s"] == 32.9
+    )
 
 
 def test_one_lane_is_set_by_its_number_and_the_others_stay(lab: Lab) -> None:
-    rivals = [{"law": "fl"}, {"law": "fl_integral"}]
-    lab.client.put(lab.session + "/lanes", json={"rivals": rivals}).raise_for_status()
+    comparisons = [{"law": "fl"}, {"law": "fl_integral"}]
+    lab.client.put(lab.session + "/lanes", json={"comparisons": comparisons}).raise_for_status()
     ids = [lane["id"] for lane in lab.read()["lanes"]]
     slow = {"law": "fl_integral", "parameters": {"position_pole_rad_per_s": 40.0}}
     state = lab.client.put(lab.session + "/lanes/2", json=slow).raise_for_status().json()

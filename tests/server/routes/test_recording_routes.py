@@ -41,7 +41,9 @@ def wait_for_run(lab: Lab, run_id: str) -> dict:
 def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
     effects = {"encoders": {}, "estimation": {}, "noise": {}, "delay_samples": 1}
     lab.client.put(lab.session + "/effects", json=effects).raise_for_status()
-    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "ndobc"}]}).raise_for_status()
+    lab.client.put(
+        lab.session + "/lanes", json={"comparisons": [{"law": "ndobc"}]}
+    ).raise_for_status()
     lab.jump(1)
     run = wait_for_run(lab, record(lab, name="A run", tags=["test"]))
     assert run["name"] == "A run"
@@ -84,7 +86,7 @@ def test_what_cannot_be_done_while_recording_is_told(lab: Lab) -> None:
     assert again.status_code == 409
     assert "already" in again.json()["detail"]
     assert lab.client.get("/api/v1/runs").json()["total"] == before, "no empty run is left"
-    lanes = lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
+    lanes = lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]})
     assert lanes.status_code == 409
     assert "recording" in lanes.json()["detail"]
     lab.client.post(lab.session + "/reset")

@@ -18,14 +18,14 @@ def record(lab: Lab) -> tuple[str, dict]:
     lab.load_figure()
     lab.client.post(lab.session + "/pause").raise_for_status()
     lab.client.post(lab.session + "/reset").raise_for_status()
-    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]}).raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     recording = lab.client.post(lab.session + "/recording", json={}).raise_for_status().json()
     lab.jump(ONSET_S)
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
     lab.jump(2)
     origin = lab.client.get(lab.session + "/origin").raise_for_status().json()
     lab.client.delete(lab.session + "/recording").raise_for_status()
-    lab.client.put(lab.session + "/lanes", json={"rivals": []}).raise_for_status()
+    lab.client.put(lab.session + "/lanes", json={"comparisons": []}).raise_for_status()
     run = recording["recording"]["run_id"]
     for _ in range(100):
         if lab.client.get(f"/api/v1/runs/{run}").json()["state"] == "complete":
@@ -39,7 +39,7 @@ def test_the_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
     recorded = lab.client.get(f"/api/v1/runs/{run}/origin").raise_for_status().json()
     assert recorded == live
     assert [(c["tick"], c["command"]["kind"]) for c in live["commands"]] == [
-        (0, "rivals"),
+        (0, "comparisons"),
         (2000, "load"),
     ]
     assert (live["tick"], live["period_s"], live["plant"]) == (4000, 0.001, "simulated")

@@ -67,14 +67,14 @@ def test_an_experiment_is_the_figure_with_its_load_at_5_s(lab: Lab) -> None:
 
 def test_an_experiment_has_the_lanes_and_effects_that_are_asked_for(lab: Lab) -> None:
     effects = {"friction": {"coulomb1_nm": 0.3}, "delay_samples": 1}
-    request = {"figure": "4a", "rivals": [{"law": "fl"}], "effects": effects}
+    request = {"figure": "4a", "comparisons": [{"law": "fl"}], "effects": effects}
     answer = lab.client.post(lab.session + "/experiment", json=request)
     state = answer.raise_for_status().json()
     assert [lane["name"] for lane in state["lanes"]] == ["NDOBC", "FL"]
     assert state["configuration"]["effects"]["friction"]["coulomb1_nm"] == 0.3
     assert state["configuration"]["effects"]["noise"] is None
     plain = lab.load_figure("4a", "ndobc")["configuration"]
-    assert (plain["rivals"], plain["effects"]["friction"]) == ([], None)
+    assert (plain["comparisons"], plain["effects"]["friction"]) == ([], None)
     refused = lab.client.post(
         lab.session + "/experiment", json=request | {"effects": {"delay_samples": 9}}
     )

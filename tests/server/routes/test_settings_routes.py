@@ -118,8 +118,8 @@ REFUSED = [
     (
         "PUT",
         "lanes",
-        {"rivals": [{"law": "fl"}, {"law": "no_law"}]},
-        "rivals[1].law",
+        {"comparisons": [{"law": "fl"}, {"law": "no_law"}]},
+        "comparisons[1].law",
         "",
         "installed here: ndobc, ",
     ),

@@ -60,7 +60,7 @@ def lab() -> Iterator[httpx.Client]:
 @pytest.fixture
 def path(lab: httpx.Client) -> Iterator[str]:
     """A private session, paused, with a lane beside its first, and nothing as in an example."""
-    asked = {"rivals": [{"law": "pd"}], "load": False}
+    asked = {"comparisons": [{"law": "pd"}], "load": False}
     name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
     path = f"/api/v1/sessions/{name}"
     lab.post(path + "/pause").raise_for_status()

@@ -23,11 +23,14 @@ FASTER = {"bandwidth_rad_per_s": (120.0, 120.0, 120.0)}
 
 
 def record_lanes(
-    lanes: int, rivals: list[Any], commands: list[tuple[int, str, Any]], plant: str = "simulated"
+    lanes: int,
+    comparisons: list[Any],
+    commands: list[tuple[int, str, Any]],
+    plant: str = "simulated",
 ) -> Record:
     names = tuple(f"lane{number + 1}" for number in range(lanes))
     configuration = get_figure("4a").build_configuration().model_dump(mode="json")
-    configuration["rivals"] = rivals
+    configuration["comparisons"] = comparisons
     header = build_header(lanes=names, configuration=configuration, plant=plant)
     given = [(tick, {"tick": tick, "kind": k, "argument": a}) for tick, k, a in commands]
     return build_record(header, given, FIRST_TICK, build_samples(10, lanes, FIRST_TICK))
@@ -39,23 +42,23 @@ def list_stretches(record: Record) -> list[list[tuple[str, int, int, int | None]
 
 
 @pytest.mark.parametrize(
-    ("lanes", "rivals", "commands", "names"),
+    ("lanes", "comparisons", "commands", "names"),
     [
         (1, [], [], ["NDOBC"]),
-        (2, [], [(100, "rivals", [FL])], ["NDOBC", "FL"]),
+        (2, [], [(100, "comparisons", [FL])], ["NDOBC", "FL"]),
         (1, [], [(100, "law", "fl")], ["FL"]),
         (2, [FL], [(205, "law", "fl")], ["NDOBC → FL (2)", "FL"]),
         (2, [FL], [(205, "laws", ["fl", "ndobc"])], ["NDOBC → FL", "FL → NDOBC"]),
         (1, [], [(205, "observer", FASTER)], ["NDOBC β 60 → NDOBC β 120"]),
         (3, [FL, FL], [], ["NDOBC", "FL", "FL (2)"]),
         (2, [], [], ["lane1", "lane2"]),
-        (2, [None], [(0, "rivals", [7])], ["lane1", "lane2"]),
+        (2, [None], [(0, "comparisons", [7])], ["lane1", "lane2"]),
     ],
 )
 def test_lanes_are_called_by_the_laws_while_the_recording_went_on(
-    lanes: int, rivals: list[Any], commands: list[tuple[int, str, Any]], names: list[str]
+    lanes: int, comparisons: list[Any], commands: list[tuple[int, str, Any]], names: list[str]
 ) -> None:
-    record = record_lanes(lanes, rivals, commands)
+    record = record_lanes(lanes, comparisons, commands)
     assert name_lanes(list_record_stretches(record, trace_record(record))) == names
 
 
@@ -91,7 +94,7 @@ def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lane
 def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
     """NDOBC recovered, FL did not; that they change places afterwards makes neither the other."""
     fl_beside = (Lane(law="fl"),)
-    figure = get_figure("4a").build_configuration(load=False).changed(rivals=fl_beside)
+    figure = get_figure("4a").build_configuration(load=False).changed(comparisons=fl_beside)
     session = SimulatedSession("test", figure)
     session.step(100)
     session.change(ApplyLoad(argument=PaperLoad()))

@@ -15,7 +15,7 @@ from svsa.hardware.realtime.loss import Loss
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session import commands
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import ApplyLoad, SetLane, SetLaw, SetPosition, SetRivals, Stop
+from svsa.runs.command import ApplyLoad, SetComparisons, SetLane, SetLaw, SetPosition, Stop
 from svsa.runs.configuration import Lane
 from svsa.simulation.plant.loads import SeriesLoad
 from svsa_server.routes.lab import settings
@@ -81,7 +81,7 @@ def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
     async def ask() -> None:
         await asyncio.gather(
             take_turn(session.change, SetLaw(argument="fl")),
-            take_turn(session.change, SetRivals(argument=(Lane(law="ndobc"),))),
+            take_turn(session.change, SetComparisons(argument=(Lane(law="ndobc"),))),
         )
 
     asyncio.run(ask())
@@ -92,7 +92,7 @@ def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
 def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession) -> None:
     settings = [
         SetLaw(argument="fl"),
-        SetRivals(argument=(Lane(law="ndobc"),)),
+        SetComparisons(argument=(Lane(law="ndobc"),)),
         SetPosition(argument=session.run.configuration.position.changed(transition_s=0.5)),
     ]
 
@@ -103,7 +103,7 @@ def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession
     processes, journal = session.loop.processes, session.journal
     assert isinstance(processes, Processes)
     told = [one["kind"] for one in processes.told if isinstance(one, dict) and "kind" in one]
-    assert sorted(told) == ["law", "position", "rivals"]
+    assert sorted(told) == ["law", "position", "comparisons"]
     assert sorted(command.kind for command in journal.commands) == sorted(told)
     before = len(journal.events)
     session.change(settings[-1])
@@ -196,7 +196,7 @@ def test_a_change_waits_a_bounded_time_for_those_before_it(
 ) -> None:
     monkeypatch.setattr(commands, "LONGEST_CHANGES_S", 0.1)
     monkeypatch.setattr(session._commands, "_pending", 1)
-    for command in (SetLaw(argument="fl"), SetRivals(argument=(Lane(law="fl"),))):
+    for command in (SetLaw(argument="fl"), SetComparisons(argument=(Lane(law="fl"),))):
         with pytest.raises(StateError, match=r"1 earlier changes.*Send it again"):
             session.set(command)
     assert session.journal.commands == []

@@ -6,7 +6,7 @@ import random
 import pytest
 
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.command import ApplyLoad, Command, SetLaw, SetObserver, SetRivals
+from svsa.runs.command import ApplyLoad, Command, SetComparisons, SetLaw, SetObserver
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
@@ -119,7 +119,7 @@ def do_something(session: SimulatedSession, dice: random.Random) -> None:
     match 3 if session.status == "fault" else dice.randrange(8):
         case 0:
             laws = dice.choices(("fl", "ndobc"), k=dice.randrange(3))
-            session.change(SetRivals(argument=tuple(Lane(law=law) for law in laws)))
+            session.change(SetComparisons(argument=tuple(Lane(law=law) for law in laws)))
         case 1:
             session.change(SetLaw(argument=dice.choice(("fl", "ndobc"))))
         case 2:

@@ -98,7 +98,7 @@ def test_as_fast_as_it_goes_is_faster_than_the_clock(lab: Lab) -> None:
 
 
 def test_fl_beside_ndobc_is_one_call(lab: Lab) -> None:
-    state = lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]}).json()
+    state = lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).json()
     assert [lane["law"] for lane in state["lanes"]] == ["ndobc", "fl"]
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})
     ndobc, fl = lab.jump(4)["lanes"]
@@ -109,13 +109,13 @@ def test_fl_beside_ndobc_is_one_call(lab: Lab) -> None:
         / ndobc["since_load"]["integral_position_error_rad_s"]
     )
     assert ratio > 20
-    lab.client.put(lab.session + "/lanes", json={"rivals": []})
+    lab.client.put(lab.session + "/lanes", json={"comparisons": []})
     assert len(lab.read()["lanes"]) == 1
 
 
 @pytest.mark.parametrize(("query", "lanes"), [("all", 2), ("2", 1), ("1,2", 2)])
 def test_the_stream_carries_the_lanes_that_are_asked_for(lab: Lab, query: str, lanes: int) -> None:
-    lab.client.put(lab.session + "/lanes", json={"rivals": [{"law": "fl"}]})
+    lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]})
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})
     lab.jump(2)
     address = f"{lab.stream_url}?lanes={query}&channels=position_error_rad&history_s=0.5"

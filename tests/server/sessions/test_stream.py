@@ -155,8 +155,8 @@ def test_a_client_that_does_not_read_is_held_by_its_socket_and_told_what_it_miss
     lab: Lab,
 ) -> None:
     """While it has not read three seconds of the session, of which its buffers hold a fraction."""
-    rivals = [{"law": law} for law in ("fl", "ndobc", "fl")]
-    lab.client.put(lab.session + "/lanes", json={"rivals": rivals}).raise_for_status()
+    comparisons = [{"law": law} for law in ("fl", "ndobc", "fl")]
+    lab.client.put(lab.session + "/lanes", json={"comparisons": comparisons}).raise_for_status()
     everything = "?rate_hz=1000&lanes=all&channels=" + ",".join(lab.read()["sample"])
     with socket.create_connection((lab.client.base_url.host, lab.client.base_url.port)) as narrow:
         narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)

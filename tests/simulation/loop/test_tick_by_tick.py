@@ -164,7 +164,7 @@ def test_a_controller_in_python_is_asked_once_a_tick():
     Also where a lane beside it ends the run early.
     """
     fragile = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-900.0] * 4, [-900.0] * 2))
-    configuration = build_configuration(rivals=(fragile,), effects=svsa.RIG)
+    configuration = build_configuration(comparisons=(fragile,), effects=svsa.RIG)
     control, times = build_python_law(configuration), []
 
     def remember(time, reference, x, estimate):

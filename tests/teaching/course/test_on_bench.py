@@ -56,7 +56,7 @@ def test_the_lecturer_s_bench_in_the_docs_can_be_read() -> None:
     example = text.split("```markdown\n")[1].split("```\n<!-- /example -->")[0]
     bench = text.split("<!-- bench -->\n```toml\n")[1].split("```")[0]
     place = "[[steps.measures]]"
-    own = example.replace('rivals = ["ndobc"]', "rivals = []").replace(
+    own = example.replace('comparisons = ["ndobc"]', "comparisons = []").replace(
         place, f"{bench}\n{place}", 1
     )
     step = parse_exercise(own, "push", "docs/course.md").find_step("push")
@@ -86,7 +86,7 @@ WRONG = {
         'figure = "4a"\n"actuator.link_inertia_kg_m2" = 0.02\n',
         "a bench has its own",
     ),
-    "rivals": ('law = "fl"', 'law = "fl"\nrivals = ["ndobc"]', "its simulated twin"),
+    "comparisons": ('law = "fl"', 'law = "fl"\ncomparisons = ["ndobc"]', "its simulated twin"),
     "effects to choose": ('law = "fl"', 'law = "fl"\nfree = ["effects"]', "cannot be chosen"),
     "a torque on a motor": ("[2.0, 0.0, 0.0]", "[2.0, 2.0, 0.0]", "on the link alone"),
     "a load from the start": ("start_s = 5.0, ", "", "from a time on"),
@@ -118,7 +118,9 @@ def test_what_no_bench_can_do_is_refused_with_its_reason(case: str) -> None:
 
 
 def test_the_same_step_may_do_all_that_where_it_is_simulated_only() -> None:
-    simulated = EXERCISE.replace('law = "fl"', 'law = "fl"\nrivals = ["ndobc"]\nfree = ["effects"]')
+    simulated = EXERCISE.replace(
+        'law = "fl"', 'law = "fl"\ncomparisons = ["ndobc"]\nfree = ["effects"]'
+    )
     assert find_step(read(simulated)).bench is None
 
 

@@ -114,7 +114,7 @@ async def see_falsification(
     found = find_jobs(request).get(name, KIND)
     law, beside = list_beside(found.asked.adversary.law)
     configuration = _find_scenario(found).build_configuration(law)
-    compared = configuration.changed(rivals=(Lane(law=beside),))
+    compared = configuration.changed(comparisons=(Lane(law=beside),))
     return build_state(request.app.state.laboratory.create(compared, person.id))
 
 

@@ -38,7 +38,9 @@ async def list_sessions(
 async def create_session(
     request: Request,
     person: NamedPerson,
-    wanted: Annotated[SessionRequest, Body(examples=[{"figure": "4a", "rivals": [{"law": "fl"}]}])],
+    wanted: Annotated[
+        SessionRequest, Body(examples=[{"figure": "4a", "comparisons": [{"law": "fl"}]}])
+    ],
 ) -> SessionState:
     """A private simulated session, running; it ends by itself when nobody uses it."""
     configuration = wanted.build_configuration(request.app.state.design)

@@ -15,6 +15,7 @@ from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked
 from svsa.runs.command import (
     SetActuator,
+    SetComparisons,
     SetEffects,
     SetGains,
     SetLane,
@@ -24,7 +25,6 @@ from svsa.runs.command import (
     SetObserver,
     SetParameters,
     SetPosition,
-    SetRivals,
     SetStiffness,
 )
 from svsa.runs.configuration import LaneSetting
@@ -114,12 +114,12 @@ def repeat_stiffness(hosted: NamedSession) -> SessionState:
 def set_law(
     hosted: NamedSession,
     request: Annotated[
-        LawRequest, Body(examples=[{"law": "fl"}, {"law": "fl", "rival_laws": ["ndobc"]}])
+        LawRequest, Body(examples=[{"law": "fl"}, {"law": "fl", "comparison_laws": ["ndobc"]}])
     ],
 ) -> SessionState:
     """Control with another law, and the lanes beside too, each from where its plant is."""
-    if request.rival_laws:
-        hosted.session.set(SetLaws(argument=(request.law, *request.rival_laws)))
+    if request.comparison_laws:
+        hosted.session.set(SetLaws(argument=(request.law, *request.comparison_laws)))
     else:
         hosted.session.set(SetLaw(argument=request.law))
     return build_state(hosted)
@@ -207,10 +207,12 @@ def set_effects(
 @router.put("/lanes")
 def set_lanes(
     hosted: NamedSession,
-    request: Annotated[LanesRequest, Body(examples=[{"rivals": [{"law": "fl"}]}, {"rivals": []}])],
+    request: Annotated[
+        LanesRequest, Body(examples=[{"comparisons": [{"law": "fl"}]}, {"comparisons": []}])
+    ],
 ) -> SessionState:
     """Run other controllers beside the session's own: same references, loads and noise."""
-    hosted.session.set(SetRivals(argument=request.rivals))
+    hosted.session.set(SetComparisons(argument=request.comparisons))
     return build_state(hosted)
 
 

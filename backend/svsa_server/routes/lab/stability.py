@@ -115,7 +115,7 @@ async def simulate_design(
     """
     configuration, _ = build_tried(hosted.session, request)
     load = PaperLoad(start_s=FAILURE_LOAD_S)
-    shown = configuration.changed(loads=(load,), rivals=())
+    shown = configuration.changed(loads=(load,), comparisons=())
     return build_state(asked.app.state.laboratory.create(shown, person.id))
 
 

@@ -41,8 +41,8 @@ class ScenarioSession(Checked):
     def build_configuration(self) -> Configuration:
         """The run; raises `ParameterError`."""
         law, *others = self.laws
-        rivals = tuple(Lane(law=other) for other in others)
-        return self.scenario.build_configuration(law).changed(rivals=rivals)
+        comparisons = tuple(Lane(law=other) for other in others)
+        return self.scenario.build_configuration(law).changed(comparisons=comparisons)
 
 
 class LawOutcomeState(BaseModel):

@@ -42,7 +42,7 @@ class FigureRequest(Checked):
         "", "Name of a law that is installed: see GET /laws", default=PAPERS_LAW
     )
     load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
-    rivals: tuple[InstalledLane, ...] = quantity(
+    comparisons: tuple[InstalledLane, ...] = quantity(
         "", "Up to three", max_length=MAX_LANES - 1, default=()
     )
     effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
@@ -50,7 +50,7 @@ class FigureRequest(Checked):
     def build_configuration(self, design: Design) -> Configuration:
         """What the session is set to, with the lab's design; raises `ParameterError`."""
         figure = get_figure(self.figure).build_configuration(self.law, self.load, design)
-        return figure.changed(rivals=self.rivals, effects=self.effects)
+        return figure.changed(comparisons=self.comparisons, effects=self.effects)
 
 
 class ExperimentRequest(FigureRequest):

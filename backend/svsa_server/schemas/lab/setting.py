@@ -22,7 +22,7 @@ class LawRequest(Checked):
     """Which law controls, and which the lanes beside; every plant stays where it is."""
 
     law: InstalledLaw = quantity("", "Name of a law that is installed: see GET /laws")
-    rival_laws: tuple[InstalledLaw, ...] = quantity(
+    comparison_laws: tuple[InstalledLaw, ...] = quantity(
         "",
         "Laws of the lanes beside, from the first on; those left out keep theirs",
         max_length=MAX_LANES - 1,
@@ -59,7 +59,7 @@ def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
 class LanesRequest(Checked):
     """The controllers beside the session's own."""
 
-    rivals: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MAX_LANES - 1)
+    comparisons: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MAX_LANES - 1)
 
 
 class ParameterFileRequest(Checked):
@@ -85,6 +85,6 @@ class ConfigurationState(BaseModel):
     limits: Limits
     actuator: ActuatorParameters
     nominal: ActuatorParameters
-    rivals: tuple[Lane, ...]
+    comparisons: tuple[Lane, ...]
     effects: Effects
     seed: int

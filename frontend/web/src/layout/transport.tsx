@@ -16,10 +16,10 @@ const STEPS_MS = [1, 10, 100, 1000];
 
 /** A figure runs with the lanes and the realism that the student has chosen. */
 function run(figure: Figure, { bench, configuration }: SessionState) {
-  const { law, rivals, effects } = configuration;
+  const { law, comparisons, effects } = configuration;
   if (bench !== null) return runFigure(figure, law, {});
   return runFigure(figure, law, {
-    ...(rivals.length > 0 && { rivals }),
+    ...(comparisons.length > 0 && { comparisons }),
     ...(presetOf(effects) !== "ideal" && { effects }),
   });
 }

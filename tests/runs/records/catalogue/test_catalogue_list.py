@@ -68,7 +68,7 @@ def add_figure(
 @pytest.fixture
 def varied(catalogue: Catalogue) -> Catalogue:
     """run-1 … run-4, of which people named only the last."""
-    add_figure(catalogue, "run-1", "4b", rivals=(Lane(law="fl"),), load=True)
+    add_figure(catalogue, "run-1", "4b", comparisons=(Lane(law="fl"),), load=True)
     add_figure(catalogue, "run-2", "4a", law="fl")
     changed = [(10, {"tick": 10, "kind": "law", "argument": "fl"})]
     add_figure(catalogue, "run-3", "5", commands=changed)

@@ -44,7 +44,7 @@ def test_runs_are_judged_from_where_the_windows_of_their_numbers_begin(
         samples = build_samples(TICKS, first_tick=FIRST_TICK)
         samples[:, :, POSITION] = (np.arange(TICKS) >= tick - FIRST_TICK)[:, None]
         settings = (
-            get_figure("4a").build_configuration(load=False).changed(rivals=(Lane(law="fl"),))
+            get_figure("4a").build_configuration(load=False).changed(comparisons=(Lane(law="fl"),))
         )
         header = build_header(run_id, configuration=settings.model_dump(mode="json"))
         mass = MassLoad(mass_kg=3.0).model_dump(mode="json")

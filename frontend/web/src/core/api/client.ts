@@ -88,9 +88,13 @@ export const putStiffness = (reference: Sent<StiffnessReference>) =>
 /** Begins the one that is followed again, faded over. */
 export const repeatPosition = () => call("post", "/position/repeat");
 export const repeatStiffness = () => call("post", "/stiffness/repeat");
-/** rivals: laws of the lanes beside, from the first on; those left out keep theirs. */
-export const putLaw = (law: Law, rivals: readonly Law[]) =>
-  call("put", "/law", rivals.length === 0 ? { law } : { law, rival_laws: [...rivals] });
+/** comparisons: laws of the lanes beside, from the first on; those left out keep theirs. */
+export const putLaw = (law: Law, comparisons: readonly Law[]) =>
+  call(
+    "put",
+    "/law",
+    comparisons.length === 0 ? { law } : { law, comparison_laws: [...comparisons] },
+  );
 export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 /** By the law's name; what is left out stays. */
 export const putParameters = (parameters: Body<"put", "/parameters">[0]) =>
@@ -98,7 +102,8 @@ export const putParameters = (parameters: Body<"put", "/parameters">[0]) =>
 export const readLaws = () => request("get", "laws") as Promise<LawRow[]>;
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
-export const putLanes = (rivals: readonly Lane[]) => call("put", "/lanes", { rivals: [...rivals] });
+export const putLanes = (comparisons: readonly Lane[]) =>
+  call("put", "/lanes", { comparisons: [...comparisons] });
 /** lane: its number, from 2 on; its plant stays where it is. */
 export const putLane = (lane: number, controller: Lane) =>
   send("put", `/lanes/${lane}`, controller);
@@ -128,7 +133,7 @@ export const step = (ticks: number) => call("post", "/step", { ticks });
 export const runFigure = (
   figure: Figure,
   law: Law,
-  kept: { rivals?: Configuration["rivals"]; effects?: EffectsRequest },
+  kept: { comparisons?: Configuration["comparisons"]; effects?: EffectsRequest },
 ) => send("post", "/experiment", { figure, law, load: true, ...kept });
 export const addLoad = (load: Load) => call("post", "/loads", load);
 export const removeLoad = (id: number) => send("delete", `/loads/${id}`);

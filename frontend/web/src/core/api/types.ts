@@ -37,7 +37,13 @@ export type Refusal = Schemas["Problem"];
 export type OutcomeState = Schemas["OutcomeState"];
 
 /** What has a default may be left out of a request. */
-type Defaulted = "rival_laws" | "rise_s" | "transition_s" | "phase_rad" | "offset_rad" | "start_s";
+type Defaulted =
+  | "comparison_laws"
+  | "rise_s"
+  | "transition_s"
+  | "phase_rad"
+  | "offset_rad"
+  | "start_s";
 export type Sent<T> = T extends unknown
   ? Omit<T, Defaulted> & Partial<Pick<T, Extract<Defaulted, keyof T>>>
   : never;

@@ -1,7 +1,7 @@
 /** What *Compare* switches on: the controllers that stood beside last, or the first other law. */
 import { effect, signal } from "@preact/signals";
 import type { Lane, SessionState } from "../api/types";
-import { hasOwnSettings, rivalsOf } from "./lanes";
+import { comparisonsOf, hasOwnSettings } from "./lanes";
 import { otherLaw } from "./laws";
 import { session } from "./session";
 
@@ -19,5 +19,5 @@ export function comparedWith(state: SessionState): readonly Lane[] {
 export const watchBeside = (): (() => void) =>
   effect(() => {
     const { value: state } = session;
-    if (state !== null && rivalsOf(state).length > 0) last.value = rivalsOf(state);
+    if (state !== null && comparisonsOf(state).length > 0) last.value = comparisonsOf(state);
   });

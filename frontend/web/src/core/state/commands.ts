@@ -12,7 +12,7 @@ import {
 import type { Lane, Law, SessionState } from "../api/types";
 import { perform } from "./actions";
 import { comparedWith } from "./beside";
-import { gainsOf, lanesBeside, rivalsOf } from "./lanes";
+import { comparisonsOf, gainsOf, lanesBeside } from "./lanes";
 import { lawOf } from "./laws";
 import { hungWeights, nextWeight } from "./load";
 import { session } from "./session";
@@ -33,7 +33,7 @@ export function toggleRecording({ recording }: SessionState): Promise<boolean> {
 }
 
 export function toggleCompare(state: SessionState): Promise<boolean> {
-  const isOn = rivalsOf(state).length > 0;
+  const isOn = comparisonsOf(state).length > 0;
   return perform(CONTROL.compare, () => putLanes(isOn ? [] : comparedWith(state)));
 }
 
@@ -43,7 +43,7 @@ export function addLane(state: SessionState, law: Law): Promise<boolean> {
   const lane: Lane = { law };
   if (law === configuration.law && lawOf(law)?.takes_gains) lane.gains = gainsOf(lane, state);
   else if (law === configuration.law) lane.parameters = configuration.parameters[law] ?? {};
-  return perform(CONTROL.compare, () => putLanes([...rivalsOf(state), lane]));
+  return perform(CONTROL.compare, () => putLanes([...comparisonsOf(state), lane]));
 }
 
 export function removeLane(state: SessionState, lane: number): Promise<boolean> {

@@ -4,8 +4,8 @@ import type { Gains, Lane, LaneRow, Law, SessionState } from "../api/types";
 import { session } from "./session";
 
 /** The controllers set beside the session's own; a bench's simulated twin is none of them. */
-export const rivalsOf = ({ configuration: { rivals }, bench }: SessionState) =>
-  bench === null ? rivals : rivals.slice(1);
+export const comparisonsOf = ({ configuration: { comparisons }, bench }: SessionState) =>
+  bench === null ? comparisons : comparisons.slice(1);
 
 /** A controller beside the session's own, on the lane of this number. */
 export interface LaneBeside {
@@ -18,8 +18,8 @@ export interface LaneBeside {
 }
 
 export function lanesBeside(state: SessionState): LaneBeside[] {
-  const first = 1 + state.configuration.rivals.length - rivalsOf(state).length;
-  return rivalsOf(state).flatMap((controller, index) => {
+  const first = 1 + state.configuration.comparisons.length - comparisonsOf(state).length;
+  return comparisonsOf(state).flatMap((controller, index) => {
     const row = state.lanes[first + index];
     const lane = first + index + 1;
     const ink = row?.stretches.at(-1)?.ink ?? 0;
@@ -43,15 +43,15 @@ export const hasOwnSettings = ({ gains, parameters, observer }: Lane): boolean =
  * is set there otherwise: that is another controller, which stays.
  */
 export function lawsBeside(law: Law, state: SessionState): Law[] {
-  const { law: before, rivals } = state.configuration;
-  const twins = rivals.length - rivalsOf(state).length;
-  const other = rivals.findIndex(
-    (rival, index) => index >= twins && rival.law === law && !hasOwnSettings(rival),
+  const { law: before, comparisons } = state.configuration;
+  const twins = comparisons.length - comparisonsOf(state).length;
+  const other = comparisons.findIndex(
+    (comparison, index) => index >= twins && comparison.law === law && !hasOwnSettings(comparison),
   );
   if (other < 0) return [];
-  return rivals.map((rival, index) => {
+  return comparisons.map((comparison, index) => {
     if (index < twins) return law;
-    return index === other ? before : rival.law;
+    return index === other ? before : comparison.law;
   });
 }
 

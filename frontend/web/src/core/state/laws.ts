@@ -43,7 +43,7 @@ export function labelParameter(row: LawParameter, index: number | null): string 
 }
 
 /**
- * The parameter of a path such as `lqi.position_rad`, or of a lane, `rivals[0].parameters.rate[1]`,
+ * The parameter of a path such as `lqi.position_rad`, or of a lane, `comparisons[0].parameters.rate[1]`,
  * which does not say of which law: null where laws call what has this name otherwise.
  */
 export function parameterOf(path: string): Quantity | null {

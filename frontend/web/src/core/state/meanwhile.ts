@@ -11,8 +11,8 @@ type Held = Pick<SessionState, "configuration">;
 
 /** What a path below the session sets, where it is not called after it. */
 const SETS: Readonly<Record<string, readonly Section[]>> = {
-  law: ["law", "rivals"],
-  lanes: ["rivals"],
+  law: ["law", "comparisons"],
+  lanes: ["comparisons"],
   nominal: ["nominal", "parameters"],
 };
 const MAX_NAMED = 4;

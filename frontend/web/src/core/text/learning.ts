@@ -54,7 +54,7 @@ export const learningText = {
     free: (what: string) => `Yours to choose, in the settings: ${what}.`,
     freeNames: {
       law: "law",
-      rivals: "lanes beside",
+      comparisons: "lanes beside",
       gains: "gains",
       parameters: "parameters of the law",
       observer: "observer",

@@ -42,8 +42,8 @@ export async function openArena(): Promise<void> {
     const found = await readArena();
     results.value = found;
     const best = sortRows(found.rows, "score", true).map(({ law }) => law);
-    const rivals = best.filter((law) => law !== PAPERS_LAW).slice(0, 2);
-    chosen.value = [...rivals.reverse(), PAPERS_LAW];
+    const comparisons = best.filter((law) => law !== PAPERS_LAW).slice(0, 2);
+    chosen.value = [...comparisons.reverse(), PAPERS_LAW];
   } catch (error) {
     problem.value = explain(error);
   }

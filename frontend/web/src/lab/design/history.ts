@@ -3,7 +3,7 @@ import { effect, signal } from "@preact/signals";
 import { putGains, putLane, putLanes, putObserver, putParameters } from "../../core/api/client";
 import type { Lane, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { hasOwnSettings, lanesBeside, rivalsOf } from "../../core/state/lanes";
+import { comparisonsOf, hasOwnSettings, lanesBeside } from "../../core/state/lanes";
 import { session } from "../../core/state/session";
 
 const MAX_STEPS = 50;
@@ -88,7 +88,7 @@ export function callsBack(design: Design, state: SessionState): (() => Promise<S
   const now = designOf(state);
   const calls: (() => Promise<SessionState>)[] = [];
   const lost = lostLanes(design, now).map((id) => design.beside[id] as Lane);
-  if (lost.length > 0) calls.push(() => putLanes([...rivalsOf(state), ...lost]));
+  if (lost.length > 0) calls.push(() => putLanes([...comparisonsOf(state), ...lost]));
   if (isOther("position", design, now) || isOther("stiffness", design, now)) {
     const [c0, c1, c2, c3] = design.position as [number, number, number, number];
     const [s0, s1] = design.stiffness as [number, number];

@@ -3,7 +3,7 @@ import type { CommandKind, RunOrigin } from "../../core/api/types";
 import { buildValue, type Fields, inDocstring, toPython, toRows } from "./python";
 
 const INDENT = "        ";
-const SETTINGS = ["position", "stiffness", "gains", "observer", "effects", "rivals"] as const;
+const SETTINGS = ["position", "stiffness", "gains", "observer", "effects", "comparisons"] as const;
 const MODELS = ["actuator", "nominal"] as const;
 
 const isSame = (one: unknown, other: unknown) => JSON.stringify(one) === JSON.stringify(other);
@@ -39,8 +39,8 @@ export function writeCommand(kind: CommandKind, argument: unknown): string[] {
       const { lane, setting } = argument as { lane: number; setting: unknown };
       return [`session.set_lane(${lane}, ${buildLane(setting)})`];
     }
-    case "rivals":
-      return [`session.rivals = [${(argument as unknown[]).map(buildLane).join(", ")}]`];
+    case "comparisons":
+      return [`session.comparisons = [${(argument as unknown[]).map(buildLane).join(", ")}]`];
     case "position":
       return [`session.position = ${buildKind(argument, "Position")}`];
     case "stiffness":

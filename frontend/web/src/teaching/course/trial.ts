@@ -18,7 +18,7 @@ export async function runFigureApart(figure: Figure): Promise<Course> {
   const { session } = await ask("post", "sessions", {
     figure,
     law: "fl",
-    rivals: [{ law: "ndobc" }],
+    comparisons: [{ law: "ndobc" }],
     load: true,
   });
   const path = `sessions/${session}`;

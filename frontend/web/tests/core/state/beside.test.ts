@@ -4,15 +4,15 @@ import type { Lane, LawRow, SessionState } from "../../../src/core/api/types";
 const GAINS = { position_coefficients: [1, 4, 6, 4], stiffness_coefficients: [1, 2] };
 const POLE = { position_pole_rad_per_s: 54.6 };
 
-function stateOf(law: string, rivals: Lane[], changes: object = {}): SessionState {
-  const lanes = [law, ...rivals.map((rival) => rival.law)].map((name, index) => ({
+function stateOf(law: string, comparisons: Lane[], changes: object = {}): SessionState {
+  const lanes = [law, ...comparisons.map((comparison) => comparison.law)].map((name, index) => ({
     ...{ lane: index + 1, id: index + 1, law: name, name },
     stretches: [{ number: index + 1, name, ink: index, start_s: 0, end_s: null }],
   }));
   return {
     ...{ run_number: 1, tick: 0, bench: null, lanes },
     configuration: {
-      ...{ law, rivals, gains: GAINS, parameters: { fl_integral: POLE } },
+      ...{ law, comparisons, gains: GAINS, parameters: { fl_integral: POLE } },
       observer: { bandwidth_rad_per_s: [60, 60, 60] },
     },
     ...changes,
@@ -54,23 +54,23 @@ it("the session's own law is set beside it with the settings of now, another law
   await addLane(stateOf("ndobc", [{ law: "ndobc" }]), "fl_integral");
   await addLane(stateOf("fl_integral", []), "fl_integral");
   expect(sent.map(({ body }) => body)).toEqual([
-    { rivals: [{ law: "ndobc", gains: GAINS }] },
-    { rivals: [{ law: "ndobc" }, { law: "fl_integral" }] },
-    { rivals: [{ law: "fl_integral", parameters: POLE }] },
+    { comparisons: [{ law: "ndobc", gains: GAINS }] },
+    { comparisons: [{ law: "ndobc" }, { law: "fl_integral" }] },
+    { comparisons: [{ law: "fl_integral", parameters: POLE }] },
   ]);
 });
 
 it("a controller is taken away by its lane, and a bench's twin is none of those beside", async () => {
   const { lanesBeside } = await import("../../../src/core/state/lanes");
   const { removeLane } = await import("../../../src/core/state/commands");
-  const rivals = [{ law: "ndobc" }, { law: "fl" }, { law: "fl_integral", parameters: POLE }];
-  const bench = stateOf("ndobc", rivals, { bench: {} });
+  const comparisons = [{ law: "ndobc" }, { law: "fl" }, { law: "fl_integral", parameters: POLE }];
+  const bench = stateOf("ndobc", comparisons, { bench: {} });
   expect(lanesBeside(bench).map(({ lane, controller }) => [lane, controller.law])).toEqual([
     [3, "fl"],
     [4, "fl_integral"],
   ]);
   await removeLane(bench, 3);
-  expect(sent[0]?.body).toEqual({ rivals: [{ law: "fl_integral", parameters: POLE }] });
+  expect(sent[0]?.body).toEqual({ comparisons: [{ law: "fl_integral", parameters: POLE }] });
 });
 
 it("only a lane without settings of its own changes places with the session's law", async () => {
@@ -99,7 +99,7 @@ it("a step back brings back what differs, lane by lane, and of those that went t
   expect(callsBack(designOf(plain), gone)).toEqual([]);
   expect(isSame(designOf(before), designOf(gone))).toBe(false);
   for (const call of callsBack(designOf(before), gone)) await call();
-  expect(sent.at(-1)).toEqual({ path: "lab/lanes", body: { rivals: [slow] } });
+  expect(sent.at(-1)).toEqual({ path: "lab/lanes", body: { comparisons: [slow] } });
   expect(isSame(designOf(before), designOf(plain))).toBe(false);
 });
 
@@ -107,8 +107,8 @@ it("a tuned lane that was removed is brought back, and what it was before that a
   const { session } = await import("../../../src/core/state/session");
   const { steps, undo, watchDesign } = await import("../../../src/lab/design/history");
   const tuned = (pole: number) => ({ law: "fl", parameters: { position_pole_rad_per_s: pole } });
-  const show = (rivals: Lane[], id: number) => {
-    const state = stateOf("ndobc", rivals);
+  const show = (comparisons: Lane[], id: number) => {
+    const state = stateOf("ndobc", comparisons);
     for (const lane of state.lanes.slice(1)) lane.id = id;
     session.value = state;
     return state;
@@ -121,7 +121,7 @@ it("a tuned lane that was removed is brought back, and what it was before that a
   answer = () => show([tuned(40)], 3);
   await undo();
   expect(sent).toEqual([
-    { path: "lab/lanes", body: { rivals: [tuned(60)] } },
+    { path: "lab/lanes", body: { comparisons: [tuned(60)] } },
     { path: "lab/lanes/2", body: tuned(40) },
   ]);
   expect(steps.value).toEqual([]);
@@ -142,10 +142,10 @@ it("the comparison is switched on again with those that stood beside last", asyn
   await toggleCompare(session.value);
   await toggleCompare(stateOf("fl", []));
   expect(sent.map(({ body }) => body)).toEqual([
-    { rivals: [{ law: "fl" }] },
-    { rivals: [] },
-    { rivals: beside },
-    { rivals: beside.slice(0, 1) },
+    { comparisons: [{ law: "fl" }] },
+    { comparisons: [] },
+    { comparisons: beside },
+    { comparisons: beside.slice(0, 1) },
   ]);
 });
 

@@ -76,7 +76,7 @@ it("a refused parameter has the name of its field, a lane's where all laws call 
     law("pd", { parameters: [rate, { ...clash, meaning: "Pole of the motor" }] }),
   ];
   expect(told("lqi.velocity_rad_per_s")).toBe(out("e_v"));
-  expect(told("rivals[0].parameters.velocity_rad_per_s")).toBe(out("e_v"));
+  expect(told("comparisons[0].parameters.velocity_rad_per_s")).toBe(out("e_v"));
   expect(told("parameters.rate")).toBe(out("Rate"));
   expect(told("pd.rate[1]")).toBe(out("Rate 2"));
   expect(told("parameters.pole")).toBe("as the server says");

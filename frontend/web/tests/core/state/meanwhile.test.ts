@@ -8,7 +8,7 @@ const stateAt = (revision: string, position: Sine = SINE, law = "ndobc") => ({
   tick: 7,
   revision,
   lanes: [],
-  configuration: { position, law, rivals: [] },
+  configuration: { position, law, comparisons: [] },
 });
 type State = ReturnType<typeof stateAt>;
 

@@ -59,7 +59,7 @@ describe("a refusal on the page", () => {
   });
 
   it("leaves what the page has no name for as the server says it", () => {
-    expect(explainViolation(violation({ name: "rivals[0].law" }))).toBe("as the server says");
+    expect(explainViolation(violation({ name: "comparisons[0].law" }))).toBe("as the server says");
     expect(quantityOf("toString")).toBeNull();
   });
 

@@ -69,7 +69,7 @@ describe("a call as code", () => {
 
 const DEFAULTS = {
   law: "ndobc",
-  rivals: [],
+  comparisons: [],
   effects: {},
   seed: 0,
   position: { kind: "sine" },
@@ -130,14 +130,14 @@ describe("an experiment as a script", () => {
       origin({
         stiffness: { kind: "constant", stiffness_nm_per_rad: 60 },
         actuator: { link_inertia_kg_m2: 0.02, joint_offset_m: null },
-        rivals: [{ law: "fl", gains: null }],
+        comparisons: [{ law: "fl", gains: null }],
       }),
       "a",
       "http://lab",
     );
     expect(changed.match(/session\.\w+ = .*/g)).toEqual([
       "session.stiffness = svsa.ConstantStiffness(stiffness_nm_per_rad=60)",
-      'session.rivals = [svsa.Lane(law="fl")]',
+      'session.comparisons = [svsa.Lane(law="fl")]',
       "session.actuator = session.actuator.changed(link_inertia_kg_m2=0.02)",
     ]);
   });
@@ -150,7 +150,7 @@ describe("an experiment as a script", () => {
   });
 
   it("knows the words of every kind of command", () => {
-    expect(writeCommand("rivals", [])).toEqual(["session.rivals = []"]);
+    expect(writeCommand("comparisons", [])).toEqual(["session.comparisons = []"]);
     const setting = { lane: 3, setting: { law: "fl", gains: null } };
     expect(writeCommand("lane", setting)).toEqual(['session.set_lane(3, svsa.Lane(law="fl"))']);
     expect(writeCommand("laws", ["fl", "ndobc"])).toEqual(['session.set_laws("fl", "ndobc")']);

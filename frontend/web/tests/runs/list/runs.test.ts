@@ -9,7 +9,7 @@ import type {
 
 const details = (change: object) =>
   ({
-    configuration: { law: "ndobc", rivals: [], loads: [] },
+    configuration: { law: "ndobc", comparisons: [], loads: [] },
     commands: [],
     lanes: ["lane1"],
     plant: "simulated",
