@@ -1,8 +1,8 @@
-"""Who is in control of a session: everybody, or the one client that holds its hand.
+"""Who is in control of a session: everybody, or the one client that holds its lease.
 
 A client is known by a text of its own choice that others do not guess: the header
 `SVSA-Client` of its calls, `client` in the query of its streams. Others see the holder's name
-only. A hand whose holder neither calls nor has a stream open is free again after a while.
+only. A lease whose holder neither calls nor has a stream open is free again after a while.
 """
 
 import contextlib
@@ -14,7 +14,7 @@ from svsa.errors import ParameterError, SvsaError, Violation
 from svsa_server.leases.names import LONGEST_NAME
 
 CLIENT_HEADER = "SVSA-Client"
-# What is open to all whoever holds the hand: it stops, it only asks, or it is the hand itself.
+# What is open to all whoever holds the lease: it stops, it only asks, or it is the hand itself.
 STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop"), ("POST", "/emergency-stop")})
 ASKING = (
     "/predict",
@@ -55,8 +55,8 @@ class Settled(NamedTuple):
     why: Literal["gone", "idle", "gone_from_queue"]
 
 
-class ControlHand:
-    """The hand of the session of this name. Times are monotonic, s.
+class ControlLease:
+    """The lease of the session of this name. Times are monotonic, s.
 
     rests_when_free: whether nobody may command it then, so that a bench comes to rest.
     """

@@ -9,11 +9,11 @@ it back, and locks it. Pure: all times are given to it, monotonic, s.
 from collections.abc import Callable
 
 from svsa.errors import StateError
-from svsa_server.leases.lease import ControlHand, HeldError, Holder, Settled
+from svsa_server.leases.lease import ControlLease, HeldError, Holder, Settled
 
 
-class ControlQueue(ControlHand):
-    """The hand of a class's session. waiting: who gets it next, the first first.
+class ControlQueue(ControlLease):
+    """The lease of a class's session. waiting: who gets it next, the first first.
 
     is_instructor: whether a client is one, who commands also while nobody is in control. idle_s:
     for how long a holder may give no command while somebody waits, s.

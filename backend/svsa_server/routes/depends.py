@@ -83,11 +83,11 @@ async def find_session(
     await settle_claims()
     found: HostedSession = connection.app.state.laboratory.get(session)
     now = time.monotonic()
-    found.hand.hear(client, now)
+    found.lease.hear(client, now)
     asked = find_asked(connection.scope)
     if asked[0] in CHANGING and asked not in OPEN_TO_ALL:
-        found.hand.check(client)
-        found.hand.note_command(client, now)
+        found.lease.check(client)
+        found.lease.note_command(client, now)
     return found
 
 

@@ -58,7 +58,7 @@ def write_news(hosted: HostedSession, told: Told) -> News:
 
     What moves by itself in it is of the first that was told.
     """
-    control, queue = build_control(hosted), build_queue(hosted.hand)
+    control, queue = build_control(hosted), build_queue(hosted.lease)
     key = (told, control.mine, queue and queue.place)
     return hosted.news.get(hosted.version, key, lambda: _write(hosted, told, build_state))
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from svsa.errors import StateError
 from svsa.runs.session.session import Session
-from svsa_server.leases.lease import ControlHand, Holder, Settled
+from svsa_server.leases.lease import ControlLease, Holder, Settled
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.sessions.excitation import Excitation, check_excitable
 from svsa_server.sessions.versioned import Versioned
@@ -36,13 +36,13 @@ class Round:
 class HostedSession:
     """A session, and what is the server's own of it. Times are monotonic, s.
 
-    session: what people start, pause and change. `hand`: who is in control of it. `excitation`:
+    session: what people start, pause and change. `lease`: who is in control of it. `excitation`:
     what is being played on it, or None. `news`, `progress`, `told`, `batches`: what its streams are
     sent in each `round`, made once for all. `last_use`: when it was last asked for; infinite for
     one that never ends by itself. `owner`: the id of the person whose it is; empty for everybody's.
     `note`: what whoever it was opened for is to know of it. `instance`: no other session has it,
     also none of this name before or after.
-    note_settled: told whom the hand let go without having been asked.
+    note_settled: told whom the lease let go without having been asked.
     """
 
     def __init__(
@@ -50,13 +50,13 @@ class HostedSession:
         session: Session,
         last_use: float = math.inf,
         owner: str = "",
-        hand: ControlHand | None = None,
+        lease: ControlLease | None = None,
         note_settled: "NoteSettled" = lambda hosted, settled: None,
     ) -> None:
         self.session, self.owner, self.note = session, owner, ""
         self.instance = secrets.token_hex(4)
         self._note_settled = note_settled
-        self.hand = hand or ControlHand(session.name)
+        self.lease = lease or ControlLease(session.name)
         self.excitation: Excitation | None = None
         self.last_use = last_use
         self.news, self.progress, self.told = Versioned[Any](), Versioned[Any](), Versioned[Any]()
@@ -117,7 +117,7 @@ class HostedSession:
 
     def tell_instant(self) -> dict[str, int | str | None]:
         """Run and tick of this instant, and the client in control."""
-        holder = self.hand.holder
+        holder = self.lease.holder
         return {
             "run": self.session.journal.run_number,
             "tick": self.session.run.tick,
@@ -129,37 +129,37 @@ class HostedSession:
         return {client for client in self._streams if client is not None}
 
     def take_control(self, holder: Holder, take_over: bool) -> None:
-        """As `ControlHand.take`, now."""
-        with self._changing_hand():
-            self.hand.take(holder, take_over, time.monotonic())
+        """As `ControlLease.take`, now."""
+        with self._changing_lease():
+            self.lease.take(holder, take_over, time.monotonic())
 
     def give_control_back(self, client: str | None) -> None:
-        """As `ControlHand.give_back`."""
-        with self._changing_hand():
-            self.hand.give_back(client, time.monotonic())
+        """As `ControlLease.give_back`."""
+        with self._changing_lease():
+            self.lease.give_back(client, time.monotonic())
 
     def hand_control_over(self, client: str | None, to: str) -> None:
         """As `ControlQueue.hand_over`; raises `StateError` where nobody waits in a queue."""
-        with self._changing_hand():
+        with self._changing_lease():
             self.find_queue().hand_over(client, to, time.monotonic())
 
     def lock_control(self, is_locked: bool) -> None:
         """As `ControlQueue.lock`; raises `StateError` where there is no queue."""
-        with self._changing_hand():
+        with self._changing_lease():
             self.find_queue().lock(is_locked, time.monotonic())
 
     def find_queue(self) -> ControlQueue:
-        """The hand of a class's session; raises `StateError` for any other."""
-        if not isinstance(self.hand, ControlQueue):
+        """The lease of a class's session; raises `StateError` for any other."""
+        if not isinstance(self.lease, ControlQueue):
             raise StateError(f"Nobody waits for control of session {self.session.name}.")
-        return self.hand
+        return self.lease
 
     def free_hand_if_left(self, now: float, patience_s: float) -> None:
         """End the control of a holder who, with no stream open, is silent for patience_s."""
         for client in self.list_viewers():
-            self.hand.hear(client, now)
-        holder = self.hand.holder
-        settled = self.hand.settle(now, patience_s)
+            self.lease.hear(client, now)
+        holder = self.lease.holder
+        settled = self.lease.settle(now, patience_s)
         if settled:
             self._changes += 1
             self._rest_after(holder)
@@ -168,22 +168,22 @@ class HostedSession:
 
     def let_go(self, client: str) -> None:
         """Have this client, who is no longer of the class, neither in control nor waiting."""
-        if self.hand.is_held_by(client) or isinstance(self.hand, ControlQueue):
+        if self.lease.is_held_by(client) or isinstance(self.lease, ControlQueue):
             self.give_control_back(client)
 
     @contextlib.contextmanager
-    def _changing_hand(self) -> Iterator[None]:
-        holder = self.hand.holder
+    def _changing_lease(self) -> Iterator[None]:
+        holder = self.lease.holder
         yield
         self._changes += 1
         self._rest_after(holder)
 
     def _rest_after(self, before: Holder | None) -> None:
         """A bench ramps down where it is handed on; it does not start before it is at rest."""
-        now = self.hand.holder
+        now = self.lease.holder
         if before is None or (now is not None and now.client == before.client):
             return
-        if now is None and not self.hand.rests_when_free:
+        if now is None and not self.lease.rests_when_free:
             return
         if self.session.plant != "simulated" and self.session.status == "running":
             self.session.halt("control was handed over")

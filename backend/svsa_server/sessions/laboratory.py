@@ -22,7 +22,7 @@ from svsa.runs.session.session import Session
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads import Load
 from svsa_server.access.roles import INSTRUCTOR
-from svsa_server.leases.lease import ControlHand
+from svsa_server.leases.lease import ControlLease
 from svsa_server.problems import TooManyError, UnknownError
 from svsa_server.sessions.hosted import HostedSession, NoteSettled
 from svsa_server.sessions.lock import let_pass
@@ -41,8 +41,8 @@ class Laboratory:
 
     max_sessions: private ones at once; max_each: of one owner, but the instructor. idle_s: how
     long a private session lives without a request or a stream, s. control_s: how long control of
-    a session outlives what its holder does, s. shared_hand: that of the shared session, of a
-    class. note_settled: told of each hand that goes on by itself.
+    a session outlives what its holder does, s. shared_lease: that of the shared session, of a
+    class. note_settled: told of each lease that goes on by itself.
     """
 
     def __init__(
@@ -51,13 +51,13 @@ class Laboratory:
         max_sessions: int,
         idle_s: float,
         control_s: float,
-        shared_hand: ControlHand | None = None,
+        shared_lease: ControlLease | None = None,
         max_each: int | None = None,
         note_settled: NoteSettled = lambda hosted, settled: None,
     ) -> None:
         self._note_settled = note_settled
         self.sessions = {
-            shared.name: HostedSession(shared, hand=shared_hand, note_settled=note_settled)
+            shared.name: HostedSession(shared, lease=shared_lease, note_settled=note_settled)
         }
         self._max_sessions = max_sessions
         self._idle_s = idle_s
@@ -137,7 +137,7 @@ class Laboratory:
         for sends in itertools.cycle((True, False)):
             begin = time.monotonic()
             self._end_idle(begin)
-            self.free_hands(begin)
+            self.free_leases(begin)
             for hosted in list(self.sessions.values()):
                 self._wake(hosted.session)
                 if sends:
@@ -165,7 +165,7 @@ class Laboratory:
             if time.monotonic() >= end:
                 break
 
-    def free_hands(self, now: float) -> None:
+    def free_leases(self, now: float) -> None:
         """End the control of whoever is gone at `now` (monotonic, s), and tell everybody."""
         for hosted in self.sessions.values():
             hosted.free_hand_if_left(now, self._control_s)

@@ -13,7 +13,7 @@ from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.loads import ScheduledLoad
-from svsa_server.leases.lease import ControlHand, asking
+from svsa_server.leases.lease import ControlLease, asking
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_stretches
 from svsa_server.schemas.lab.gain import GainsState, Root
@@ -79,7 +79,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         branch_of=_build_branch(session.journal.branch_of),
         note=hosted.note,
         control=build_control(hosted),
-        queue=build_queue(hosted.hand),
+        queue=build_queue(hosted.lease),
         rate_hz=1.0 / run.period_s,
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
@@ -91,23 +91,23 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
 
 def build_control(hosted: HostedSession) -> ControlState:
     """Who is in control, told to the client that asks."""
-    hand = hosted.hand
+    lease = hosted.lease
     return ControlState(
-        holder=hand.holder.name if hand.holder else None,
-        mine=hand.is_held_by(asking.get()),
+        holder=lease.holder.name if lease.holder else None,
+        mine=lease.is_held_by(asking.get()),
         watching=hosted.streams,
     )
 
 
-def build_queue(hand: ControlHand) -> QueueState | None:
+def build_queue(lease: ControlLease) -> QueueState | None:
     """Who waits, told to the client that asks; None where nobody waits in turn."""
-    if not isinstance(hand, ControlQueue):
+    if not isinstance(lease, ControlQueue):
         return None
     return QueueState(
-        waiting=[WaitingState(id=one.client, name=one.name) for one in hand.waiting],
-        place=hand.find_place(asking.get()),
-        locked=hand.is_locked,
-        idle_s=hand.idle_s,
+        waiting=[WaitingState(id=one.client, name=one.name) for one in lease.waiting],
+        place=lease.find_place(asking.get()),
+        locked=lease.is_locked,
+        idle_s=lease.idle_s,
     )
 
 

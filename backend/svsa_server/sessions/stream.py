@@ -89,8 +89,8 @@ async def stream_session(websocket: WebSocket, hosted: HostedSession, person: Pe
 async def _listen(websocket: WebSocket, hosted: HostedSession, client: str | None) -> None:
     """Wait for the client to leave; whatever it says holds the dead-man's switch of a bench."""
     while (await websocket.receive())["type"] != "websocket.disconnect":
-        if hosted.hand.admits(client):
-            hosted.hand.note_command(client, time.monotonic())
+        if hosted.lease.admits(client):
+            hosted.lease.note_command(client, time.monotonic())
             hosted.session.hear_operator()
 
 

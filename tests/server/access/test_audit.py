@@ -56,15 +56,15 @@ def test_what_changed_something_is_written_down_without_a_secret(tmp_path: Path)
 def test_control_that_goes_on_by_itself_is_written_down_with_why_and_tick(tmp_path: Path) -> None:
     session = SimulatedSession("lab", get_figure("4a").build_configuration())
     log = audit.AuditLog(tmp_path)
-    hand = ControlQueue("lab", lambda client: client == "instructor", 90.0)
-    hosted = HostedSession(session, hand=hand, note_settled=partial(note_settled, log))
+    lease = ControlQueue("lab", lambda client: client == "instructor", 90.0)
+    hosted = HostedSession(session, lease=lease, note_settled=partial(note_settled, log))
     begin = time.monotonic()
     for person in (ADA, BOB, EVE):
         hosted.take_control(person, False)
     session.step(7)
     for later, here in ((91.0, (ADA, BOB, EVE)), (107.0, (BOB,)), (200.0, ())):
         for person in here:
-            hand.hear(person.client, begin + later)
+            lease.hear(person.client, begin + later)
         hosted.free_hand_if_left(begin + later, 15.0)
     log.close()
     text = (tmp_path / audit.FILE).read_text(encoding="utf-8")

@@ -19,7 +19,7 @@ from svsa_server.app import build_app
 from svsa_server.leases.lease import (
     CHANGING,
     OPEN_TO_ALL,
-    ControlHand,
+    ControlLease,
     HeldError,
     Holder,
     read_client,
@@ -135,9 +135,9 @@ def test_the_server_frees_it_when_its_holder_is_gone() -> None:
             laboratory = client.app.state.laboratory  # type: ignore[attr-defined]
             version = laboratory.sessions["lab"].version
             await client.put(CONTROL, json={"by": "Ada"}, headers=ADA)
-            laboratory.free_hands(time.monotonic() + 14.0)
-            assert laboratory.sessions["lab"].hand.is_held_by("0123-ada")
-            laboratory.free_hands(time.monotonic() + 16.0)
+            laboratory.free_leases(time.monotonic() + 14.0)
+            assert laboratory.sessions["lab"].lease.is_held_by("0123-ada")
+            laboratory.free_leases(time.monotonic() + 16.0)
             assert (await client.get(SESSION)).json()["control"]["holder"] is None
             assert laboratory.sessions["lab"].version == version + 2, "everybody is told"
 
@@ -187,8 +187,8 @@ def wait_for_holder(stream: object, name: str | None) -> dict:
 
 def test_a_hand_is_free_15_s_after_the_last_call_and_stream() -> None:
     hosted = HostedSession(SimulatedSession("lab", get_figure("4b").build_configuration()))
-    hand = hosted.hand
-    hand.take(Holder("1", "Ada"), take_over=False, now=100.0)
+    lease = hosted.lease
+    lease.take(Holder("1", "Ada"), take_over=False, now=100.0)
     with hosted.streamed_to("1"), hosted.streamed_to("2"), hosted.streamed_to(None):
         assert (hosted.streams, hosted.session.watched) == (3, True)
         version = hosted.version
@@ -196,22 +196,22 @@ def test_a_hand_is_free_15_s_after_the_last_call_and_stream() -> None:
     assert (hosted.streams, hosted.session.watched) == (0, False)
     assert hosted.version > version, "everybody is told how many watch"
     hosted.free_hand_if_left(214.0, 15.0)
-    hand.hear("2", 214.0)
-    hand.hear("1", 210.0)
+    lease.hear("2", 214.0)
+    lease.hear("1", 210.0)
     hosted.free_hand_if_left(224.0, 15.0)
-    assert hand.is_held_by("1")
+    assert lease.is_held_by("1")
     hosted.free_hand_if_left(226.0, 15.0)
-    assert hand.admits(None)
+    assert lease.admits(None)
 
 
 def test_only_the_holder_commands_and_holds_the_switch() -> None:
-    hand = ControlHand("lab")
-    assert hand.admits(None)
-    assert hand.admits("2")
-    hand.take(Holder("1", "Ada"), take_over=False, now=0.0)
-    assert [hand.admits(client) for client in ("1", "2", None)] == [True, False, False]
+    lease = ControlLease("lab")
+    assert lease.admits(None)
+    assert lease.admits("2")
+    lease.take(Holder("1", "Ada"), take_over=False, now=0.0)
+    assert [lease.admits(client) for client in ("1", "2", None)] == [True, False, False]
     with pytest.raises(HeldError, match="Ada is in control of session lab"):
-        hand.check(None)
+        lease.check(None)
 
 
 def test_a_client_is_percent_encoded_utf_8() -> None:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from svsa.errors import StateError
-from svsa_server.leases.lease import ControlHand, HeldError, Holder
+from svsa_server.leases.lease import ControlLease, HeldError, Holder
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.sessions.hosted import HostedSession
 
@@ -143,8 +143,8 @@ class Bench(SimpleNamespace):
         self.status = "paused"
 
 
-def host(hand: ControlHand, bench: Bench) -> HostedSession:
-    return HostedSession(bench, hand=hand)  # type: ignore[arg-type]
+def host(lease: ControlLease, bench: Bench) -> HostedSession:
+    return HostedSession(bench, lease=lease)  # type: ignore[arg-type]
 
 
 def test_a_bench_comes_to_rest_whenever_it_is_handed_on(queue: ControlQueue) -> None:
@@ -162,7 +162,7 @@ def test_a_bench_comes_to_rest_whenever_it_is_handed_on(queue: ControlQueue) -> 
         hosted.take_control(BOB, False)
         assert bench.halts == [], "asking moves nothing"
         change(hosted)
-        assert hosted.hand.holder != ADA
+        assert hosted.lease.holder != ADA
         assert bench.halts == ["control was handed over"]
 
 
@@ -171,7 +171,7 @@ def test_a_simulation_goes_on_and_so_does_a_bench_that_everybody_may_command() -
     hosted = host(ControlQueue("lab", lambda _: False, 90.0), simulated)
     hosted.take_control(ADA, False)
     hosted.give_control_back("p-1")
-    free = host(ControlHand("lab"), bench)
+    free = host(ControlLease("lab"), bench)
     free.take_control(ADA, False)
     free.take_control(ADA, True)
     free.give_control_back("p-1")
