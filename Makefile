@@ -24,7 +24,7 @@ COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all $(COMPILED) & \
   $(WEB) test && $(MAKE) --no-print-directory .venv/tests; \
   page=$$?; wait $$! && exit $$page
 
-.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page schema lock screenshots arena bench clean
+.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page schema lock screenshots ranking bench clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -89,10 +89,10 @@ schema: .venv/installed  ## docs/openapi.json, the schema of the API, and the pa
 screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
 
-arena: .venv/installed  ## every law measured, and what is written of them: after a change of one
-	$(BIN)/svsa arena run --save svsa/evaluation/ranking/results.json
-	$(BIN)/svsa arena bench ndobc_s ndobc_w --save svsa/evaluation/ranking/bench_results.json
-	$(BIN)/svsa arena publish
+ranking: .venv/installed  ## every law measured, and what is written of them: after a change of one
+	$(BIN)/svsa ranking run --save svsa/evaluation/ranking/results.json
+	$(BIN)/svsa ranking bench ndobc_s ndobc_w --save svsa/evaluation/ranking/bench_results.json
+	$(BIN)/svsa ranking publish
 
 bench: .venv/installed  ## what the loop costs, beside a C loop of the same work
 	$(BIN)/svsa bench

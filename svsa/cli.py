@@ -23,8 +23,8 @@ from svsa.control.installed import get_title
 from svsa.errors import SvsaError
 from svsa.evaluation.falsifier.cli import falsify
 from svsa.evaluation.ranking.against_cli import against
-from svsa.evaluation.ranking.bench_cli import bench as arena_bench
-from svsa.evaluation.ranking.cli import arena
+from svsa.evaluation.ranking.bench_cli import bench as ranking_bench
+from svsa.evaluation.ranking.cli import ranking
 from svsa.evaluation.studies.cli import study
 from svsa.evaluation.tuning.cli import tune
 from svsa.hardware.cli import bench_check, bench_home
@@ -100,11 +100,11 @@ def reproduce(
     Console().print("Pictures: " + ", ".join(str(path) for path in paths))
 
 
-arena.command("against")(against)
-arena.command("bench")(arena_bench)
-arena.command("submit")(submit_command)
-arena.command("leaderboard")(leaderboard_command)
-app.add_typer(arena, name="arena")
+ranking.command("against")(against)
+ranking.command("bench")(ranking_bench)
+ranking.command("submit")(submit_command)
+ranking.command("leaderboard")(leaderboard_command)
+app.add_typer(ranking, name="ranking")
 app.command("tune")(tune)
 app.add_typer(study, name="study")
 app.add_typer(falsify, name="falsify")

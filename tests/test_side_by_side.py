@@ -6,7 +6,11 @@ import pytest
 
 from tests.side_by_side import OTHERS_EACH, WORTH, SideBySide
 
-PAGES = ["tests/browser/test_arena.py", "tests/browser/test_life.py", "tests/browser/test_view.py"]
+PAGES = [
+    "tests/browser/test_ranking.py",
+    "tests/browser/test_life.py",
+    "tests/browser/test_view.py",
+]
 OTHERS = [
     "tests/actuators/test_spring.py",
     "tests/evaluation/studies/test_cluster.py",

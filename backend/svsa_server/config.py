@@ -36,7 +36,7 @@ class Settings(BaseSettings):
     SVSA_MAX_STUDIES: studies that are worked at, one at a time, or wait.
     SVSA_MAX_FALSIFICATIONS: searches for what hurts a law that are worked at, or wait, likewise.
     SVSA_MAX_SUBMISSIONS: laws for the leaderboard that are measured, one at a time, or wait.
-    SVSA_MAX_EXPORTS: exports, replays, comparisons, maps and laws in the arena that are worked at
+    SVSA_MAX_EXPORTS: exports, replays, comparisons, maps and laws in the ranking that are worked at
     or wait.
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
     SVSA_COURSE: folder with exercises of one's own, beside those of the package.

@@ -9,7 +9,7 @@ from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
 PAGE = Path(__file__).parent / "page"
-PLACES = ("arena", "falsifier", "grades", "leaderboard", "learn", "runs", "studies")
+PLACES = ("ranking", "falsifier", "grades", "leaderboard", "learn", "runs", "studies")
 """What of the page has an address that people type; the page itself keeps it in its query."""
 
 _HEADERS = {

@@ -79,9 +79,9 @@ def show_overlay(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name=re.compile("^Overlay")).click()
 
 
-def show_arena(page: Page, lab: Lab) -> None:
+def show_ranking(page: Page, lab: Lab) -> None:
     """The laws in their table."""
-    page.goto(lab.url + "/?arena=all")
+    page.goto(lab.url + "/?ranking=all")
     page.get_by_role("heading", name="How much they bear").wait_for(timeout=LONGEST_MS)
 
 
@@ -114,7 +114,7 @@ def take_screenshots() -> None:
         take(browser, lab, "cursors", show_cursors)
         take(browser, lab, "design", show_design)
         take(browser, lab, "overlay", show_overlay)
-        take(browser, lab, "arena", show_arena)
+        take(browser, lab, "ranking", show_ranking)
         browser.close()
 
 

@@ -160,15 +160,15 @@ def open_trash(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name="Trash").click()
 
 
-def open_arena(page: Page, lab: Lab) -> None:
-    page.goto(lab.url + "/?arena=all")
+def open_ranking(page: Page, lab: Lab) -> None:
+    page.goto(lab.url + "/?ranking=all")
     page.get_by_text("What each column is measured on").click()
     expect(page.get_by_role("heading", name="How much they bear")).to_be_visible()
 
 
 def open_pages(page: Page, lab: Lab) -> None:
     open_button("Pages")(page, lab)
-    expect(page.get_by_role("link", name=re.compile("^Arena"))).to_be_visible()
+    expect(page.get_by_role("link", name=re.compile("^Ranking"))).to_be_visible()
 
 
 def open_tuned(page: Page, lab: Lab) -> None:
@@ -209,7 +209,7 @@ EXHAUSTIVE = pytest.mark.exhaustive
         pytest.param(open_run, (WIDE, PHONE), id="run", marks=EXHAUSTIVE),
         pytest.param(open_overlay, (WIDE, PHONE), id="overlay", marks=EXHAUSTIVE),
         pytest.param(open_trash, (WIDE,), id="trash", marks=EXHAUSTIVE),
-        pytest.param(open_arena, (WIDE, PHONE), id="arena", marks=EXHAUSTIVE),
+        pytest.param(open_ranking, (WIDE, PHONE), id="ranking", marks=EXHAUSTIVE),
         pytest.param(open_tuned, (HIGH, PHONE), id="tuning", marks=EXHAUSTIVE),
         pytest.param(open_private, (WIDE,), id="private", marks=EXHAUSTIVE),
     ],

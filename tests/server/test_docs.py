@@ -126,7 +126,7 @@ def test_a_plain_get_of_the_stream_says_that_it_is_a_websocket(lab: Lab) -> None
 
 
 @pytest.mark.parametrize(
-    "place", ["arena", "falsifier", "grades", "leaderboard", "runs", "studies"]
+    "place", ["ranking", "falsifier", "grades", "leaderboard", "runs", "studies"]
 )
 def test_an_address_that_people_type_leads_to_its_place_in_the_page(
     shared_lab: Lab, place: str

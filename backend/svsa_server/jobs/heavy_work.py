@@ -1,4 +1,4 @@
-"""Exports, replays, comparisons, maps, laws in the arena: in processes of their own, few at once.
+"""Exports, replays, comparisons, maps, laws in the ranking: in processes of their own, few at once.
 
 They take seconds of computing, which would make every live session late, so that a worker has a
 low priority. Who finds the queue full is told to come again.
@@ -45,7 +45,7 @@ class HeavyWork:
         """What the job returns, done in a worker; raises what it raises, and `BusyError`."""
         if self._taken >= self._most:
             raise BusyError(
-                f"{self._taken} exports, replays, comparisons, maps and laws in the arena are being"
+                f"{self._taken} exports, replays, comparisons, maps and laws in the ranking are being"
                 f" worked at, which is all this lab takes at once: try again in {RETRY_AFTER_S} s."
             )
         self._taken += 1

@@ -36,7 +36,7 @@ import "./runs/list/table.css";
 import "./runs/list/run.css";
 import "./runs/list/overlay.css";
 import "./runs/list/verdict.css";
-import "./evaluation/ranking/arena.css";
+import "./evaluation/ranking/ranking.css";
 import "./core/widgets/scorebar.css";
 import "./core/widgets/sorthead.css";
 import "./core/widgets/lawtext.css";

@@ -117,7 +117,7 @@ CONTESTS = (
     Contest("Draws: median rms", "°", "draw", lambda runs: median(map(_rms, runs))),
     *(Contest(f"{title}: fails", "", runs, _count_fails) for runs, title in _FAILS),
 )
-"""What NDOBC-S was tuned to be better in, as the arena's columns are."""
+"""What NDOBC-S was tuned to be better in, as the ranking's columns are."""
 
 
 def measure_passage(scenario: Scenario, result: Result) -> Passage:

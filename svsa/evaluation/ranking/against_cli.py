@@ -1,4 +1,4 @@
-"""`svsa arena against`: a law beside a comparison, on runs that the table has not."""
+"""`svsa ranking against`: a law beside a comparison, on runs that the table has not."""
 
 import json
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""`svsa arena bench`: laws in the paper's bench figures, on the emulated rig, beside a comparison."""
+"""`svsa ranking bench`: laws in the paper's bench figures, on the emulated rig, beside a comparison."""
 
 import json
 from pathlib import Path

@@ -62,7 +62,7 @@ class BenchRuns(Checked):
         return self.changed(runs=tuple(runs.values()))
 
     def to_json(self, comparison: str) -> dict[str, Any]:
-        """What `svsa arena bench --json` prints."""
+        """What `svsa ranking bench --json` prints."""
         return {
             "comparison": comparison,
             "laws": [self._tell_law(law, comparison) for law in self.laws],
@@ -90,11 +90,11 @@ class BenchRuns(Checked):
 
 
 def read_bench_runs(path: Path) -> BenchRuns:
-    """Read what `svsa arena bench --save` wrote; raises `ParameterError` for anything else."""
+    """Read what `svsa ranking bench --save` wrote; raises `ParameterError` for anything else."""
     try:
         return BenchRuns.model_validate_json(path.read_bytes())
     except (OSError, ValidationError) as error:
-        bound = f"a file that svsa arena bench --save writes ({error})"
+        bound = f"a file that svsa ranking bench --save writes ({error})"
         raise ParameterError(Violation("results", path, "", bound)) from None
 
 

@@ -98,5 +98,5 @@ def _tell_count(runs: BenchRuns, law: str) -> list[str]:
     no_worse, count = runs.count_no_worse(law, PAPERS_LAW)
     beside = "" if law == PAPERS_LAW else f"No worse than NDOBC in {no_worse} of {count}. "
     return [
-        f"{beside}By SVSA Lab {versions}, in lockstep; the same again: `svsa arena bench {law}`."
+        f"{beside}By SVSA Lab {versions}, in lockstep; the same again: `svsa ranking bench {law}`."
     ]

@@ -1,4 +1,4 @@
-"""`svsa arena`: the laws against each other."""
+"""`svsa ranking`: the laws against each other."""
 
 import json
 from pathlib import Path
@@ -24,14 +24,14 @@ from svsa.evaluation.ranking.seeds import PUBLIC_SEED, derive_seed
 from svsa.evaluation.ranking.table import SHORT, build_short_cells, format_markdown
 from svsa.inputs.extras import require_extra
 
-arena = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")
+ranking = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")
 _messages = Console(stderr=True)
 MIN_WIDTH = 118
 """Columns of characters in which the table's numbers stand whole."""
 
 
-@arena.command("run")
-def run_arena(
+@ranking.command("run")
+def run_ranking(
     laws: Annotated[
         list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
     ] = None,
@@ -80,7 +80,7 @@ def run_arena(
         Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(found))
 
 
-@arena.command("seed")
+@ranking.command("seed")
 def print_seed(
     secret: Annotated[Path, typer.Argument(help="File with the season's secret.")],
 ) -> None:
@@ -88,8 +88,8 @@ def print_seed(
     print(f"{_read_seed(secret):016x}")
 
 
-@arena.command("publish")
-def publish_arena(
+@ranking.command("publish")
+def publish_ranking(
     tree: Annotated[Path, typer.Argument(help="The project's source tree.")] = Path(),
 ) -> None:
     """Write the laws' pages with their pictures, and the README's table, from the results."""

@@ -1,4 +1,4 @@
-"""What a law shows in the scenarios: one row of the arena's table."""
+"""What a law shows in the scenarios: one row of the ranking's table."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -45,7 +45,7 @@ _FIGURE = {
 
 
 class Entry(NamedTuple):
-    """A law in the arena, with parameters of its own where they are not its defaults."""
+    """A law in the ranking, with parameters of its own where they are not its defaults."""
 
     law: str
     parameters: LawParameters | None = None

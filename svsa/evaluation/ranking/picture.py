@@ -1,4 +1,4 @@
-"""Pictures of the arena: the table as bars, the six sweeps as a web, one law beside NDOBC."""
+"""Pictures of the ranking: the table as bars, the six sweeps as a web, one law beside NDOBC."""
 
 import math
 from collections.abc import Callable, Sequence

@@ -22,7 +22,7 @@ from svsa.runs.fault_labels import label_fault
 FOLDER = Path("docs") / "laws"
 README = Path("README.md")
 LOSSES = Path("docs") / "laws" / "pictures" / "losses.png"
-_BLOCK = re.compile(r"(<!-- arena -->\n).*?(<!-- /arena -->)", re.DOTALL)
+_BLOCK = re.compile(r"(<!-- ranking -->\n).*?(<!-- /ranking -->)", re.DOTALL)
 _DOI = re.compile(r"doi:(10\.\d{4,}/\S+)")
 _EQUATION = re.compile(r"Eq \d+")
 _ESTIMATES = {
@@ -177,7 +177,7 @@ def _tell_provenance(results: Results, rows: Sequence[Row]) -> str:
     return (
         f"Simulated by SVSA Lab {versions} with the law's defaults; suite {results.suite}, draws of"
         f" the {'public seed' if results.is_public else 'seed ' + results.seed}. The same again:"
-        " `svsa arena run`."
+        " `svsa ranking run`."
     )
 
 
@@ -188,7 +188,7 @@ def build_index(results: Results, bench: BenchRuns) -> str:
         "# The laws",
         "",
         "A page for each, with its idea, equation, needs, and where it wins and fails. All are run"
-        " on the same plant, limits, noise and loads; the page *Arena* of the lab opens any of"
+        " on the same plant, limits, noise and loads; the page *Ranking* of the lab opens any of"
         " these runs. The score is 0.5 robustness + 0.3 share of draws held + 0.2 accuracy.",
         "",
         "| law | score | what it does |",
@@ -202,7 +202,7 @@ def build_index(results: Results, bench: BenchRuns) -> str:
         "The paper's bench figures through CAN, frame by frame, in lockstep: position errors in"
         " degrees as the bench measures them (rms 1–5 s, peak after the cable's 2 N·m at 5 s, rms"
         " 8–20 s), recovery in seconds. The same again, for any law:"
-        f" `svsa arena bench {' '.join(bench.laws)}`.",
+        f" `svsa ranking bench {' '.join(bench.laws)}`.",
         "",
         format_bench(bench, PAPERS_LAW),
         "",

@@ -1,4 +1,4 @@
-"""Results of the arena as a file: what the page, the README and the laws' pages show."""
+"""Results of the ranking as a file: what the page, the README and the laws' pages show."""
 
 import os
 from collections.abc import Callable, Iterator, Sequence
@@ -70,7 +70,7 @@ def read_results(path: Path) -> Results:
     try:
         return Results.model_validate_json(path.read_bytes())
     except (OSError, ValidationError) as error:
-        bound = f"a file that svsa arena run --save writes ({error})"
+        bound = f"a file that svsa ranking run --save writes ({error})"
         raise ParameterError(Violation("results", path, "", bound)) from None
 
 

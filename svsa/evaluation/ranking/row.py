@@ -1,4 +1,4 @@
-"""A law's row of the arena's table, and what stands behind it."""
+"""A law's row of the ranking's table, and what stands behind it."""
 
 import math
 from typing import Any
@@ -20,7 +20,7 @@ TABLE = (
     "largest_link_step_nm",
     "score",
 )
-"""What `svsa arena run --json` prints of a row."""
+"""What `svsa ranking run --json` prints of a row."""
 
 
 class FigureErrors(Checked):
@@ -117,7 +117,7 @@ class Row(Checked):
         return _agree(*(one.model_dump(exclude={"version"}) for one in (self, other)))
 
     def to_json(self) -> dict[str, Any]:
-        """The row as `svsa arena run --json` prints it: `TABLE`, and nothing else."""
+        """The row as `svsa ranking run --json` prints it: `TABLE`, and nothing else."""
         return {name: value for name, value in self.model_dump().items() if name in TABLE}
 
 

@@ -1,4 +1,4 @@
-"""The arena's table as text: one row a law, as measured."""
+"""The ranking's table as text: one row a law, as measured."""
 
 from collections.abc import Iterable, Sequence
 

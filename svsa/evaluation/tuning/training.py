@@ -1,7 +1,7 @@
 """The training runs: what a law is tuned on, and not judged by.
 
-Five runs with the rig's effects, none of which stands in the arena's table: soft and stiff, models
-that are wrong by half, friction, noise, and loads that come, go, swing and hang.
+Five runs with the rig's effects, none of which stands in the ranking's table: soft and stiff,
+models that are wrong by half, friction, noise, and loads that come, go, swing and hang.
 """
 
 from typing import NamedTuple

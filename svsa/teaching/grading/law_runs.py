@@ -116,7 +116,7 @@ def run_draws(
 def judge_law(runs: list[LawRun]) -> list[CriterionResult]:
     """Three criteria: no run ends early, the error is gone at the end, and it is small.
 
-    accuracy: the mean of 1 − tanh(rms / 1°), as in the arena's score; 0 for a run that ended.
+    accuracy: the mean of 1 − tanh(rms / 1°), as in the ranking's score; 0 for a run that ended.
     runs: none where no law was handed in.
     """
     if not runs:

@@ -1,4 +1,4 @@
-"""`svsa arena submit`, `svsa arena leaderboard`: a law on the season that nobody knows."""
+"""`svsa ranking submit`, `svsa ranking leaderboard`: a law on the season that nobody knows."""
 
 import json
 from collections.abc import Iterator, Sequence
@@ -51,7 +51,7 @@ def submit_command(
     folder: Annotated[Path | None, _BOARD] = None,
     as_json: Annotated[bool, _JSON] = False,
 ) -> None:
-    """Put a law through the arena with hidden seeds, isolated, and show where it stands.
+    """Put a law through the ranking with hidden seeds, isolated, and show where it stands.
 
     The same file has one entry, which stays as it is.
     """

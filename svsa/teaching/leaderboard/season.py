@@ -26,5 +26,5 @@ class Season(NamedTuple):
 
 
 def build_season(seed: int) -> Season:
-    """The season of a seed, below 2^64: the arena's suite as far as its score goes."""
+    """The season of a seed, below 2^64: the ranking's suite as far as its score goes."""
     return Season(SINGLE, build_draws(seed), build_sweeps(seed))

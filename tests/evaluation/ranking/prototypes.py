@@ -1,4 +1,4 @@
-"""Figures of independent prototypes of the laws, and how a row of the arena stands to them.
+"""Figures of independent prototypes of the laws, and how a row of the ranking stands to them.
 
 They were measured on the same plant, limits and scenarios, to the digits given. Errors in degrees.
 """
@@ -83,7 +83,7 @@ class Cell(NamedTuple):
 
 
 def read_figures(row: Row) -> Prototype:
-    """The same figures of a row of the arena."""
+    """The same figures of a row of the ranking."""
     ideal, rig = row.ideal_4a, row.rig_4a
     errors = (
         ideal.before_deg,

@@ -1,4 +1,4 @@
-"""`svsa arena against`: two laws on runs that the table has not, column by column."""
+"""`svsa ranking against`: two laws on runs that the table has not, column by column."""
 
 import json
 import math
@@ -81,14 +81,14 @@ def test_the_command_tells_both_laws_and_where_one_ends_early(monkeypatch):
         "svsa.evaluation.ranking.against_cli.compare", lambda *a, **k: compare(*a, contests, **k)
     )
     answer = CliRunner().invoke(
-        app, ["arena", "against", "ndobc_w", "--json"], catch_exceptions=False
+        app, ["ranking", "against", "ndobc_w", "--json"], catch_exceptions=False
     )
     mass, unloading = json.loads(answer.stdout)["contests"]
     assert mass["law"] < mass["comparison"]
     assert mass["is_no_worse"]
     assert unloading["comparison"] is None
-    table = CliRunner().invoke(app, ["arena", "against", "ndobc_w"], catch_exceptions=False)
+    table = CliRunner().invoke(app, ["ranking", "against", "ndobc_w"], catch_exceptions=False)
     assert "no worse in 2 of 2" in table.stdout
     assert "fault" in table.stdout
     with pytest.raises(svsa.ParameterError, match="nobody"):
-        CliRunner().invoke(app, ["arena", "against", "nobody"], catch_exceptions=False)
+        CliRunner().invoke(app, ["ranking", "against", "nobody"], catch_exceptions=False)

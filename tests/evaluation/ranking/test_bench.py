@@ -1,4 +1,4 @@
-"""`svsa arena bench`: twelve numbers a law on the emulated rig, beside a comparison's, and in a file."""
+"""`svsa ranking bench`: twelve numbers a law on the emulated rig, beside a comparison's, and in a file."""
 
 import json
 import os
@@ -30,7 +30,7 @@ PAPERS = (0.02, 4.0, 0.02, 0.2)
 
 
 def call(*arguments: str) -> str:
-    return CliRunner().invoke(app, ["arena", "bench", *arguments], catch_exceptions=False).stdout
+    return CliRunner().invoke(app, ["ranking", "bench", *arguments], catch_exceptions=False).stdout
 
 
 def build_run(law: str, figure: str, numbers: tuple[float | None, ...], fault: str | None = None):
@@ -96,7 +96,7 @@ def test_what_was_kept_is_renewed_and_shown_again(played, tmp_path):
     assert heading.count("|") == rule.count("|") == rows[1].count("|")
     assert rows[1].startswith("| FL |  | 0.")
     assert rows[1].endswith(" / never |  | 0 of 4 |")
-    with pytest.raises(svsa.ParameterError, match="svsa arena bench --save"):
+    with pytest.raises(svsa.ParameterError, match="svsa ranking bench --save"):
         call("--results", str(tmp_path / "nothing.json"))
 
 

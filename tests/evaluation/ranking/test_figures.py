@@ -1,4 +1,4 @@
-"""What laws show in the arena's scenarios, and where they fail; see `test_prototypes`, too."""
+"""What laws show in the ranking's scenarios, and where they fail; see `test_prototypes`, too."""
 
 import math
 from functools import cache
@@ -26,7 +26,7 @@ def measure(law: str) -> Row:
 
 @pytest.mark.parametrize("law", exhaust(list_law_names(), ["fl", "ndobc", "ndobc_w"]))
 def test_what_was_published_of_a_law_is_what_it_measures(law):
-    """To nine digits: who changes a law or the suite runs `make arena`."""
+    """To nine digits: who changes a law or the suite runs `make ranking`."""
     published, measured = load_published().get_row(law), measure(law)
     assert published.agrees_with(measured)
     assert published.agrees_with(measured.changed(version="of another lab"))

@@ -1,4 +1,4 @@
-"""The laws' pages and the README's table say what was measured: `make arena` writes them."""
+"""The laws' pages and the README's table say what was measured: `make ranking` writes them."""
 
 from pathlib import Path
 

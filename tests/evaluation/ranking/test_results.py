@@ -42,7 +42,7 @@ def test_rows_of_other_draws_or_of_another_suite_are_not_put_among_them():
 
 def test_a_file_of_something_else_is_refused(tmp_path):
     (tmp_path / "other.json").write_text("{}")
-    with pytest.raises(svsa.ParameterError, match=r"other\.json.*svsa arena run --save"):
+    with pytest.raises(svsa.ParameterError, match=r"other\.json.*svsa ranking run --save"):
         read_results(tmp_path / "other.json")
     with pytest.raises(svsa.ParameterError, match="one of ndobc"):
         load_published().get_row("nobody")

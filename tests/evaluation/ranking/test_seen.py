@@ -1,4 +1,4 @@
-"""A run of the arena is shown whole: what is beside it never ends it early."""
+"""A run of the ranking is shown whole: what is beside it never ends it early."""
 
 import numpy as np
 import pytest

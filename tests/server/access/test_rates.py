@@ -35,7 +35,7 @@ def test_one_too_many_is_told_when_it_is_not(monkeypatch: pytest.MonkeyPatch) ->
         ("POST", "/api/v1/login", "joins"),
         ("POST", "/api/v1/sessions", "sessions"),
         ("POST", "/api/v1/runs/1/branch", "sessions"),
-        ("POST", "/api/v1/arena/sessions", "sessions"),
+        ("POST", "/api/v1/ranking/sessions", "sessions"),
         ("POST", "/api/v1/falsifications/1/sessions", "sessions"),
         ("POST", SESSION + "/design/simulation", "sessions"),
         ("POST", SESSION + "/recording", "runs"),

@@ -9,7 +9,7 @@ import svsa
 from svsa.cli import app
 from svsa.control.installed import list_law_names
 from svsa.errors import StateError
-from svsa.evaluation.ranking.measure import Entry as ArenaEntry
+from svsa.evaluation.ranking.measure import Entry as RankingEntry
 from svsa.evaluation.ranking.measure import measure_law
 from svsa.evaluation.ranking.scenarios import SINGLE
 from svsa.evaluation.ranking.seeds import PUBLIC_SEED
@@ -42,7 +42,7 @@ def short_season(monkeypatch):
 
 
 def run(*arguments):
-    words = ["arena", *map(str, arguments)]
+    words = ["ranking", *map(str, arguments)]
     return CliRunner().invoke(app, words, catch_exceptions=False, env={"COLUMNS": "200"})
 
 
@@ -62,7 +62,7 @@ def go_with(results):
     return go
 
 
-def test_a_season_is_the_arenas_suite_with_other_chance():
+def test_a_season_is_the_ranking_suite_with_other_chance():
     season, other = build_season(5), build_season(6)
     assert season.singles == SINGLE
     assert not set(season.draws) & set(other.draws)
@@ -79,11 +79,11 @@ def test_a_season_is_the_arenas_suite_with_other_chance():
 
 
 @pytest.mark.exhaustive
-def test_on_the_public_seeds_a_law_has_the_arenas_score():
+def test_on_the_public_seeds_a_law_has_the_ranking_score():
     """One measure of a law: only the season differs."""
     season = build_season(PUBLIC_SEED)._replace(sweeps=build_sweeps(SEED))
     standing = stand(season, lambda one: run_installed("fl", one))
-    row = measure_law(ArenaEntry("fl"))
+    row = measure_law(RankingEntry("fl"))
     assert standing.score == row.score
     assert standing.parts == row.parts
     assert standing.sweeps == row.sweeps

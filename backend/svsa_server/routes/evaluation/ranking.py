@@ -1,4 +1,4 @@
-"""The arena: what was published of the laws, the same measured here, and any of its runs seen."""
+"""The ranking: what was published of the laws, the same measured here, and any of its runs seen."""
 
 import asyncio
 from typing import Annotated
@@ -16,11 +16,11 @@ from svsa_server.schemas.evaluation.ranking import MeasuredRow, ScenarioRequest
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.sessions.state import build_state
 
-router = build_router("/arena", tags=["arena"])
+router = build_router("/ranking", tags=["ranking"])
 
 
 @router.get("", responses={422: REFUSALS[422]})
-async def read_arena(_: NamedClient) -> Results:
+async def read_ranking(_: NamedClient) -> Results:
     """The table that this version of the lab was published with, a row a law.
 
     Errors in degrees; what each number is of stands at its field. Laws that came later have none.

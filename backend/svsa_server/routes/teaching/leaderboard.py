@@ -1,4 +1,4 @@
-"""The leaderboard: laws on a season of the arena that nobody knows."""
+"""The leaderboard: laws on a season of the ranking that nobody knows."""
 
 import asyncio
 from functools import partial

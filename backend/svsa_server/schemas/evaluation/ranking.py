@@ -1,4 +1,4 @@
-"""What goes over the wire about the arena."""
+"""What goes over the wire about the ranking."""
 
 from typing import Annotated
 

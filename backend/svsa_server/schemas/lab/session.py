@@ -128,7 +128,7 @@ class SessionState(SessionProgress):
     revision: str = Field(description="Of settings and loads: for If-Match of a change of them")
     branch_of: BranchState | None = Field(description="null unless its run is a branch")
     note: str = Field(
-        description="What it was opened with to be known: why a law of the arena has none beside"
+        description="What it was opened with to be known: why a law of the ranking has none beside"
         " it; empty where nothing is"
     )
     control: ControlState

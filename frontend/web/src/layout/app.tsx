@@ -3,7 +3,7 @@ import { comings } from "../core/state/access";
 import { phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { FalsifierPage } from "../evaluation/falsifier/page";
-import { ArenaPage } from "../evaluation/ranking/page";
+import { RankingPage } from "../evaluation/ranking/page";
 import { StudiesPage } from "../evaluation/studies/page";
 import { BenchStrip } from "../hardware/strip";
 import { DesignPanel } from "../lab/design/panel";
@@ -36,8 +36,8 @@ function Here() {
   const at = place.value;
   return isOfRuns(at) ? (
     <Runs at={at} />
-  ) : at.kind === "arena" ? (
-    <ArenaPage />
+  ) : at.kind === "ranking" ? (
+    <RankingPage />
   ) : at.kind === "leaderboard" ? (
     <LeaderboardPage />
   ) : at.kind === "grades" ? (

@@ -9,12 +9,20 @@ import { isOfRuns, type Place, place } from "../runs/list/place";
 import { PlaceLink } from "../runs/list/placelink";
 
 const words = text.pages;
-type Page = "lab" | "learn" | "runs" | "arena" | "leaderboard" | "grades" | "studies" | "falsifier";
+type Page =
+  | "lab"
+  | "learn"
+  | "runs"
+  | "ranking"
+  | "leaderboard"
+  | "grades"
+  | "studies"
+  | "falsifier";
 const PAGES: Readonly<Record<Page, Place>> = {
   lab: { kind: "lab" },
   learn: { kind: "learn", exercise: "", step: "" },
   runs: { kind: "list" },
-  arena: { kind: "arena" },
+  ranking: { kind: "ranking" },
   leaderboard: { kind: "leaderboard", entry: "" },
   grades: { kind: "grades" },
   studies: { kind: "studies", study: "", look: {} },

@@ -107,7 +107,7 @@ export const classroomText = {
       older: "Older",
       kinds: {
         access: "Coming and going",
-        arena: "Arena",
+        ranking: "Ranking",
         bench: "Bench",
         class: "Class",
         control: "Control",

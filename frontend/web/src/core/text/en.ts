@@ -1,5 +1,5 @@
 /** Every word of the page, by area. */
-import { arenaText } from "./arena";
+
 import { benchText } from "./bench";
 import { classroomText } from "./classroom";
 import { controlText } from "./control";
@@ -15,6 +15,7 @@ import { leaderboardText } from "./leaderboard";
 import { learningText } from "./learning";
 import { pageText } from "./page";
 import { plotsText } from "./plots";
+import { rankingText } from "./ranking";
 import { realismText } from "./realism";
 import { runsText } from "./runs";
 import { sceneText } from "./scene";
@@ -29,7 +30,7 @@ export const text = {
   ...controlsText,
   ...controlText,
   ...classroomText,
-  ...arenaText,
+  ...rankingText,
   ...benchText,
   ...designText,
   ...falsifierText,

@@ -2,7 +2,7 @@
 export const leaderboardText = {
   leaderboard: {
     title: "Leaderboard",
-    lead: "Submit a law as a Python file and get a number that can be trusted: it goes through the arena's scored runs, on draws that nobody knows.",
+    lead: "Submit a law as a Python file and get a number that can be trusted: it goes through the ranking's scored runs, on draws that nobody knows.",
     season: (began: string, suite: string) => `This season began on ${began}, suite ${suite}.`,
     loading: "The board is on its way …",
     empty: "No law has been submitted in this season yet",
@@ -87,7 +87,7 @@ export const leaderboardText = {
     measureLab: "Measure them now",
     script: "With a command",
     scriptHint: "The same on the machine that the lab runs on, or at home for practice:",
-    command: "svsa arena submit law.py\nsvsa arena submit law.py --practice",
+    command: "svsa ranking submit law.py\nsvsa ranking submit law.py --practice",
     back: "Leaderboard",
     unknown: "There is no such entry in this season.",
     worstOf: (name: string) => `Worst run of ${name}`,

@@ -10,12 +10,12 @@ export const pageText = {
   pages: {
     open: "Pages",
     openHint:
-      "Learn, runs, arena, leaderboard, studies, falsifier, tuning, and the documented routes",
+      "Learn, runs, ranking, leaderboard, studies, falsifier, tuning, and the documented routes",
     names: {
       lab: "Lab",
       learn: "Learn",
       runs: "Runs",
-      arena: "Arena",
+      ranking: "Ranking",
       leaderboard: "Leaderboard",
       grades: "Grades",
       studies: "Studies",
@@ -27,7 +27,7 @@ export const pageText = {
       lab: "The actuator, live",
       learn: "Exercises beside the live lab, the paper's claims, every equation, the tour",
       runs: "Recorded: look, compare, replay, export (O)",
-      arena: "Every law in the same scenarios: errors, faults, robustness",
+      ranking: "Every law in the same scenarios: errors, faults, robustness",
       grades: "What was handed in, run again, and its points by criterion",
       leaderboard: "Your law among the lab's, on draws that nobody knows",
       studies: "Many perturbed runs of every law: how often they succeed, and what decides it",

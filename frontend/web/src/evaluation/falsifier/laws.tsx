@@ -21,7 +21,7 @@ const endOf = ({ fault, fault_s: timeS }: LawTrace): string =>
   fault === null
     ? words.whole
     : words.fault(
-        text.arena.faults[fault] ?? fault.replaceAll("_", " "),
+        text.ranking.faults[fault] ?? fault.replaceAll("_", " "),
         formatNumber(timeS, 4, 3),
       );
 

@@ -1,9 +1,9 @@
-/** The columns of the arena: what each is of, which way is better, and which run shows it. */
-import type { Outcome, Row } from "../../core/api/arena";
+/** The columns of the ranking: what each is of, which way is better, and which run shows it. */
+import type { Outcome, Row } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
 import { formatError } from "../../core/units";
 
-const words = text.arena.columns;
+const words = text.ranking.columns;
 const STEP_NM = 0.5;
 const MAX_STEP_NM = 15;
 

@@ -1,12 +1,12 @@
-import type { Row } from "../../core/api/arena";
+import type { Row } from "../../core/api/ranking";
 import { Formula } from "../../core/equations/formula";
 import { lawOf, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatError, formatNumber } from "../../core/units";
-import { chosen, rowOf, see } from "./arena";
+import { chosen, rowOf, see } from "./ranking";
 import { splitSource } from "./source";
 
-const words = text.arena;
+const words = text.ranking;
 
 function Source({ source }: { source: string }) {
   if (source === "") return null;
@@ -25,7 +25,7 @@ function Source({ source }: { source: string }) {
 
 function Outcomes({ row }: { row: Row }) {
   return (
-    <ul class="arena-outcomes">
+    <ul class="ranking-outcomes">
       {row.outcomes.map((one) => (
         <li key={one.scenario} class={one.fault === null ? "" : "is-fault"}>
           <button
@@ -58,8 +58,8 @@ export function LawCard() {
   if (name === undefined || row === undefined) return null;
   const paragraphs = (law?.notes ?? "").split(/\n\s*\n/).filter((part) => part !== "");
   return (
-    <section class="surface card" aria-labelledby="arena-law-title">
-      <h3 id="arena-law-title">{titleOf(name)}</h3>
+    <section class="surface card" aria-labelledby="ranking-law-title">
+      <h3 id="ranking-law-title">{titleOf(name)}</h3>
       {law && <Formula tex={law.equation} />}
       {paragraphs.map((part) => (
         <p key={part.slice(0, 40)}>{part}</p>

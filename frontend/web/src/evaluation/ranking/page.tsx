@@ -2,13 +2,13 @@ import { useEffect } from "preact/hooks";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { ScoreKey } from "../../core/widgets/scorebar";
-import { measureAll, measuring, openArena, problem, results, stopMeasuring } from "./arena";
 import { COLUMNS, versionsOf } from "./columns";
 import { LawCard } from "./law";
 import { Radar } from "./radar";
-import { ArenaTable } from "./table";
+import { measureAll, measuring, openRanking, problem, results, stopMeasuring } from "./ranking";
+import { RankingTable } from "./table";
 
-const words = text.arena;
+const words = text.ranking;
 
 function Measure() {
   const now = measuring.value;
@@ -25,7 +25,7 @@ function Measure() {
     );
   }
   return (
-    <div class="arena-measuring">
+    <div class="ranking-measuring">
       <span role="status">{words.measuring(titleOf(now.law), now.done, now.of)}</span>
       <progress value={now.done} max={now.of} aria-label={words.measure} />
       <button type="button" class="button" onClick={stopMeasuring}>
@@ -38,7 +38,7 @@ function Measure() {
 /** Which colour of the score's bar is which of its parts. */
 function ScoreParts() {
   return (
-    <span class="arena-parts">
+    <span class="ranking-parts">
       {words.columns.score.name}:
       <ScoreKey names={words.parts} />
     </span>
@@ -48,7 +48,7 @@ function ScoreParts() {
 /** What every column was measured on. */
 function Legend() {
   return (
-    <details class="surface card arena-legend">
+    <details class="surface card ranking-legend">
       <summary>{words.legend}</summary>
       <dl>
         {COLUMNS.map(({ key }) => (
@@ -63,15 +63,15 @@ function Legend() {
 }
 
 /** Every law on the same plant, limits, noise and loads. */
-export function ArenaPage() {
+export function RankingPage() {
   useEffect(() => {
-    void openArena();
+    void openRanking();
     return stopMeasuring;
   }, []);
   const found = results.value;
   return (
     <main class="page" aria-label={words.title}>
-      <div class="page-head arena-head">
+      <div class="page-head ranking-head">
         <div>
           <h2>{words.title}</h2>
           <p>{words.lead}</p>
@@ -85,13 +85,13 @@ export function ArenaPage() {
         problem.value === "" && <p class="hint">{words.loading}</p>
       ) : (
         <>
-          <ArenaTable />
-          <p class="hint arena-note">
+          <RankingTable />
+          <p class="hint ranking-note">
             <ScoreParts />
             {words.bars} {words.provenance(versionsOf(found.rows), found.suite)}
           </p>
           <Legend />
-          <div class="arena-cards">
+          <div class="ranking-cards">
             <Radar />
             <LawCard />
           </div>

@@ -1,11 +1,11 @@
-import type { Row, SweepOutcome } from "../../core/api/arena";
+import type { Row, SweepOutcome } from "../../core/api/ranking";
 import type { Ink } from "../../core/plots/definitions";
 import { dotOf } from "../../core/plots/lawinks";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { chosen, inks, rowOf, see } from "./arena";
+import { chosen, inks, rowOf, see } from "./ranking";
 
-const words = text.arena;
+const words = text.ranking;
 const RADIUS = 96;
 const RINGS = [0.25, 0.5, 0.75, 1];
 
@@ -61,9 +61,9 @@ const runOf = (sweep: SweepOutcome): string => {
 function Web({ found }: { found: readonly Row[] }) {
   const sweeps = found[0]?.sweeps ?? [];
   return (
-    <svg class="arena-radar" viewBox="-190 -128 380 256" role="img" aria-label={words.radarLabel}>
+    <svg class="ranking-radar" viewBox="-190 -128 380 256" role="img" aria-label={words.radarLabel}>
       {RINGS.map((ring) => (
-        <polygon key={ring} class="arena-ring" points={outline(sweeps.map(() => ring))} />
+        <polygon key={ring} class="ranking-ring" points={outline(sweeps.map(() => ring))} />
       ))}
       {sweeps.map(({ sweep }, axis) => {
         const [x, y] = pointOf(axis, sweeps.length, 1);
@@ -71,7 +71,7 @@ function Web({ found }: { found: readonly Row[] }) {
         const anchor = Math.abs(atX) < 1 ? "middle" : atX > 0 ? "start" : "end";
         return (
           <g key={sweep}>
-            <line class="arena-ring" x1="0" y1="0" x2={x} y2={y} />
+            <line class="ranking-ring" x1="0" y1="0" x2={x} y2={y} />
             <text x={atX} y={atY + 4} text-anchor={anchor}>
               {words.sweeps[sweep] ?? sweep}
             </text>
@@ -84,7 +84,7 @@ function Web({ found }: { found: readonly Row[] }) {
         return (
           <polygon
             key={row.law}
-            class="arena-outline"
+            class="ranking-outline"
             points={outline(row.sweeps.map(({ share }) => share))}
             style={{ stroke, fill: stroke, strokeDasharray: dash.join(" ") }}
           />
@@ -97,14 +97,14 @@ function Web({ found }: { found: readonly Row[] }) {
 /** What the web shows in numbers; a press shows where a law no longer holds. */
 function Shares({ found }: { found: readonly Row[] }) {
   return (
-    <table class="arena-shares">
+    <table class="ranking-shares">
       <caption>{words.sharesCaption}</caption>
       <thead>
         <tr>
           <td />
           {found.map((row) => (
             <th key={row.law} scope="col">
-              <i class="arena-dot" aria-hidden="true" style={dotOf(inks.value.get(row.law))} />
+              <i class="ranking-dot" aria-hidden="true" style={dotOf(inks.value.get(row.law))} />
               {titleOf(row.law)}
             </th>
           ))}
@@ -141,8 +141,8 @@ function Shares({ found }: { found: readonly Row[] }) {
 export function Radar() {
   const found = chosen.value.flatMap((law) => rowOf(law) ?? []);
   return (
-    <section class="surface card" aria-labelledby="arena-radar-title">
-      <h3 id="arena-radar-title">{words.radar}</h3>
+    <section class="surface card" aria-labelledby="ranking-radar-title">
+      <h3 id="ranking-radar-title">{words.radar}</h3>
       {found.length === 0 ? (
         <p class="hint">{words.chooseSome}</p>
       ) : (

@@ -1,13 +1,13 @@
-import type { Row } from "../../core/api/arena";
+import type { Row } from "../../core/api/ranking";
 import { dotOf } from "../../core/plots/lawinks";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { ScoreBar } from "../../core/widgets/scorebar";
 import { SortHead } from "../../core/widgets/sorthead";
-import { choose, confirmed, inks, measuring, opening, rows, see, sort } from "./arena";
 import { barOf, COLUMNS, type Column, formatValue, isBest } from "./columns";
+import { choose, confirmed, inks, measuring, opening, rows, see, sort } from "./ranking";
 
-const words = text.arena;
+const words = text.ranking;
 
 function Head({ column }: { column: Column }) {
   const { name, hint } = words.columns[column.key];
@@ -30,8 +30,8 @@ function Head({ column }: { column: Column }) {
 function Score({ row }: { row: Row }) {
   const { robustness, draws, accuracy } = row.parts;
   return (
-    <td class="arena-score" title={words.scoreOf(robustness, draws, accuracy)}>
-      <span class="arena-value">{row.score.toFixed(2)}</span>
+    <td class="ranking-score" title={words.scoreOf(robustness, draws, accuracy)}>
+      <span class="ranking-value">{row.score.toFixed(2)}</span>
       <ScoreBar parts={row.parts} />
     </td>
   );
@@ -61,9 +61,9 @@ function Cell({ column, row }: { column: Column; row: Row }) {
         disabled={opening.value !== ""}
         onClick={() => void see(row.law, scenario)}
       >
-        <span class="arena-value">{shown}</span>
+        <span class="ranking-value">{shown}</span>
         {value !== null && (
-          <span class="arena-bar" aria-hidden="true">
+          <span class="ranking-bar" aria-hidden="true">
             <i
               class={column.isHighBetter ? "is-good" : "is-bad"}
               style={{ width: `${100 * barOf(column, value, rows.value)}%` }}
@@ -79,12 +79,12 @@ function Cell({ column, row }: { column: Column; row: Row }) {
 function Confirmed({ row }: { row: Row }) {
   const same = confirmed.value[row.law];
   if (measuring.value?.law === row.law) {
-    return <span class="arena-confirmed is-busy" role="img" aria-label={words.measuringLaw} />;
+    return <span class="ranking-confirmed is-busy" role="img" aria-label={words.measuringLaw} />;
   }
   if (same === undefined) return null;
   return (
     <span
-      class={`arena-confirmed ${same ? "" : "is-other"}`}
+      class={`ranking-confirmed ${same ? "" : "is-other"}`}
       role="img"
       aria-label={same ? words.same : words.other}
       title={same ? words.same : words.other}
@@ -95,14 +95,14 @@ function Confirmed({ row }: { row: Row }) {
 }
 
 /** A law a row; a press on a name brings it into the radar, a press on a number its run. */
-export function ArenaTable() {
+export function RankingTable() {
   return (
-    <section class="surface arena-scroll" aria-label={words.table}>
-      <table class="arena-table">
+    <section class="surface ranking-scroll" aria-label={words.table}>
+      <table class="ranking-table">
         <caption class="visually-hidden">{words.tableHint}</caption>
         <thead>
           <tr>
-            <th scope="col" class="arena-law">
+            <th scope="col" class="ranking-law">
               {words.law}
             </th>
             {COLUMNS.map((column) => (
@@ -115,14 +115,14 @@ export function ArenaTable() {
             const ink = inks.value.get(row.law);
             return (
               <tr key={row.law}>
-                <th scope="row" class="arena-law">
+                <th scope="row" class="ranking-law">
                   <button
                     type="button"
                     aria-pressed={ink !== undefined}
                     title={words.chooseHint}
                     onClick={() => choose(row.law)}
                   >
-                    <i class="arena-dot" aria-hidden="true" style={dotOf(ink)} />
+                    <i class="ranking-dot" aria-hidden="true" style={dotOf(ink)} />
                     {titleOf(row.law)}
                   </button>
                   <Confirmed row={row} />

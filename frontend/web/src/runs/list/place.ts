@@ -1,4 +1,4 @@
-/** Where the reader is: the lab, an exercise beside it, the arena, the leaderboard, the grades, a study, a search, the runs, one at a moment, several laid over. */
+/** Where the reader is: the lab, an exercise beside it, the ranking, the leaderboard, the grades, a study, a search, the runs, one at a moment, several laid over. */
 import { signal } from "@preact/signals";
 
 /** What of a study is looked at: axes, metric, brush, each by its name in the address. */
@@ -7,7 +7,7 @@ export type Look = Readonly<Record<string, string>>;
 export type Place =
   | { kind: "lab" }
   | { kind: "learn"; exercise: string; step: string }
-  | { kind: "arena" }
+  | { kind: "ranking" }
   | { kind: "leaderboard"; entry: string }
   | { kind: "grades" }
   | { kind: "studies"; study: string; look: Look }
@@ -19,14 +19,14 @@ export type Place =
 /** Places that are recorded runs. */
 export type RunsPlace = Exclude<
   Place,
-  { kind: "lab" | "learn" | "arena" | "leaderboard" | "grades" | "studies" | "falsifier" }
+  { kind: "lab" | "learn" | "ranking" | "leaderboard" | "grades" | "studies" | "falsifier" }
 >;
 
 const LOOK = ["sx", "sy", "tx", "ty", "metric", "law", "brush"] as const;
 const SEARCH = ["falsifier", "scenario", "laws"] as const;
 const PARTS = [
   "learn",
-  "arena",
+  "ranking",
   "leaderboard",
   "grades",
   "runs",
@@ -59,7 +59,7 @@ export function readPlace(query: string): Place {
     const [exercise = "", step = ""] = learn === EVERY ? [] : learn.split(STEP_SEPARATOR);
     return { kind: "learn", exercise, step };
   }
-  if (parts.has("arena")) return { kind: "arena" };
+  if (parts.has("ranking")) return { kind: "ranking" };
   if (parts.has("grades")) return { kind: "grades" };
   const entry = parts.get("leaderboard");
   if (entry !== null) return { kind: "leaderboard", entry: entry === EVERY ? "" : entry };
@@ -89,7 +89,7 @@ export function writePlace(place: Place, query: string): string {
     const named = [place.exercise, place.step].filter((part) => part !== "");
     parts.set("learn", named.join(STEP_SEPARATOR) || EVERY);
   }
-  if (place.kind === "arena") parts.set("arena", "all");
+  if (place.kind === "ranking") parts.set("ranking", "all");
   if (place.kind === "grades") parts.set("grades", EVERY);
   if (place.kind === "leaderboard") parts.set("leaderboard", place.entry || EVERY);
   if (place.kind === "studies") {

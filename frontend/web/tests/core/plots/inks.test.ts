@@ -52,8 +52,8 @@ describe("a law has one ink", () => {
     laws.value = ["ndobc", "fl", "adrc", "pd"].map((name, ink) => ({ name, ink }) as LawRow);
   });
 
-  it("in the radar of the Arena, whichever is chosen last", async () => {
-    const { chosen, inks } = await import("../../../src/evaluation/ranking/arena");
+  it("in the radar of the Ranking, whichever is chosen last", async () => {
+    const { chosen, inks } = await import("../../../src/evaluation/ranking/ranking");
     for (const names of [
       ["adrc", "pd", "ndobc"],
       ["ndobc", "pd", "adrc"],

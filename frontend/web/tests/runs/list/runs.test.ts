@@ -72,7 +72,7 @@ describe("a place in the address", () => {
     expect(readPlace(query)).toEqual({ kind: "studies", study: "load", look });
     expect(writePlace(readPlace(query), query)).toBe(query);
     expect(writePlace({ kind: "studies", study: "", look: {} }, query)).toBe("?studies=all");
-    expect(writePlace({ kind: "arena" }, query)).toBe("?arena=all");
+    expect(writePlace({ kind: "ranking" }, query)).toBe("?ranking=all");
   });
 
   it("keeps what else the address says", () => {

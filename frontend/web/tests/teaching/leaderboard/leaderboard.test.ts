@@ -85,7 +85,7 @@ describe("its address", () => {
   test("names the board, or the entry whose worst run is looked at", () => {
     expect(readPlace("?leaderboard=all")).toEqual({ kind: "leaderboard", entry: "" });
     expect(readPlace("?leaderboard=fl")).toEqual({ kind: "leaderboard", entry: "fl" });
-    expect(writePlace({ kind: "leaderboard", entry: "" }, "?arena=all")).toBe("?leaderboard=all");
+    expect(writePlace({ kind: "leaderboard", entry: "" }, "?ranking=all")).toBe("?leaderboard=all");
     expect(writePlace({ kind: "leaderboard", entry: "fl" }, "")).toBe("?leaderboard=fl");
     expect(writePlace({ kind: "lab" }, "?leaderboard=fl&session=x")).toBe("?session=x");
   });

@@ -1,15 +1,15 @@
-"""The arena over REST: the published table, a run of it to be seen, a law measured here."""
+"""The ranking over REST: the published table, a run of it to be seen, a law measured here."""
 
 import pytest
 
 from svsa.evaluation.ranking.results import load_published
 from tests.lab import Lab
 
-ARENA = "/api/v1/arena"
+RANKING = "/api/v1/ranking"
 
 
 def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> None:
-    answer = shared_lab.client.get(ARENA).raise_for_status().json()
+    answer = shared_lab.client.get(RANKING).raise_for_status().json()
     published = load_published()
     assert answer == published.model_dump(mode="json")
     assert answer["is_public"]
@@ -21,7 +21,7 @@ def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
     lab: Lab, law: str, beside: list[str]
 ) -> None:
     wanted = {"law": law, "scenario": "unloading_18_4"}
-    state = lab.client.post(f"{ARENA}/sessions", json=wanted).raise_for_status().json()
+    state = lab.client.post(f"{RANKING}/sessions", json=wanted).raise_for_status().json()
     configuration = state["configuration"]
     assert configuration["law"] == law
     assert [comparison["law"] for comparison in configuration["comparisons"]] == beside
@@ -35,7 +35,7 @@ def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
 
 def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None:
     wanted = {"law": "fl", "scenario": "unloading"}
-    state = lab.client.post(f"{ARENA}/sessions", json=wanted).raise_for_status().json()
+    state = lab.client.post(f"{RANKING}/sessions", json=wanted).raise_for_status().json()
     assert state["configuration"]["comparisons"] == []
     assert "NDOBC: At 8.187 s the deflection" in state["note"]
     again = lab.client.get(f"/api/v1/sessions/{state['session']}").raise_for_status().json()
@@ -45,15 +45,15 @@ def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None
 
 def test_a_run_that_there_is_not_is_refused_by_name(shared_lab: Lab) -> None:
     wanted = {"law": "ndobc", "scenario": "moon"}
-    answer = shared_lab.client.post(f"{ARENA}/sessions", json=wanted)
+    answer = shared_lab.client.post(f"{RANKING}/sessions", json=wanted)
     assert answer.status_code == 422
     assert "moon" in answer.json()["detail"]
-    assert shared_lab.client.post(f"{ARENA}/laws/nobody/measurement").status_code == 422
+    assert shared_lab.client.post(f"{RANKING}/laws/nobody/measurement").status_code == 422
 
 
 @pytest.mark.exhaustive
 def test_a_law_measured_here_gives_its_published_row(shared_lab: Lab) -> None:
-    answer = shared_lab.client.post(f"{ARENA}/laws/ndobc/measurement", timeout=300.0)
+    answer = shared_lab.client.post(f"{RANKING}/laws/ndobc/measurement", timeout=300.0)
     found = answer.raise_for_status().json()
     assert found["is_published"]
     assert found["row"]["unloading_faults_of_48"] == 32

@@ -1,4 +1,4 @@
-"""`svsa arena run`: names are checked first, and a row is JSON or a line of a table."""
+"""`svsa ranking run`: names are checked first, and a row is JSON or a line of a table."""
 
 import json
 
@@ -35,7 +35,7 @@ NAMES = (
 
 
 def run(*arguments):
-    return CliRunner().invoke(app, ["arena", "run", *arguments], catch_exceptions=False)
+    return CliRunner().invoke(app, ["ranking", "run", *arguments], catch_exceptions=False)
 
 
 def test_a_law_that_is_not_installed_is_refused_before_anything_runs():
@@ -78,7 +78,7 @@ def test_the_table_of_what_was_kept_measures_nothing_and_stands_whole(tmp_path):
     assert "never" in shown[fl:]
     assert "…" not in shown
     assert path.read_bytes().startswith(b"\x89PNG")
-    with pytest.raises(svsa.ParameterError, match="svsa arena run --save"):
+    with pytest.raises(svsa.ParameterError, match="svsa ranking run --save"):
         run("--results", str(path))
 
 
@@ -102,7 +102,7 @@ def test_the_row_of_a_named_law_is_renewed_in_the_file_that_keeps_it(tmp_path):
 def test_a_season_has_the_draws_of_its_secret(tmp_path):
     secret = tmp_path / "secret"
     secret.write_text("spring\n")
-    told = CliRunner().invoke(app, ["arena", "seed", str(secret)], catch_exceptions=False)
+    told = CliRunner().invoke(app, ["ranking", "seed", str(secret)], catch_exceptions=False)
     assert int(told.stdout, 16) == derive_seed(b"spring")
     secret.write_text("")
     with pytest.raises(svsa.ParameterError, match="not empty"):

@@ -1,4 +1,4 @@
-"""The page Arena: sorted, chosen from and left for one of its runs, by keyboard alone."""
+"""The page Ranking: sorted, chosen from and left for one of its runs, by keyboard alone."""
 
 import re
 
@@ -16,7 +16,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 @pytest.mark.smoke
 def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
-    go_to_page(page, "Arena")
+    go_to_page(page, "Ranking")
     table = page.get_by_role("region", name="Errors, faults and score, a law a row")
     first = table.get_by_role("rowheader").first
     best = max(load_published().rows, key=lambda row: row.score)
@@ -45,7 +45,7 @@ def test_a_run_that_ndobc_would_end_is_seen_alone_with_the_reason(
     page: Page, still_lab: Lab
 ) -> None:
     open_page(page, still_lab)
-    go_to_page(page, "Arena")
+    go_to_page(page, "Ranking")
     title = get_title("fl")
     cell = re.compile(rf"^{re.escape(title)}, Unloading: ")
     page.get_by_role("button", name=cell).press("Enter")

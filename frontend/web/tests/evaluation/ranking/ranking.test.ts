@@ -1,6 +1,6 @@
 import "../../browserless";
 import { beforeAll, describe, expect, test } from "vitest";
-import type { Row, SweepOutcome } from "../../../src/core/api/arena";
+import type { Row, SweepOutcome } from "../../../src/core/api/ranking";
 import {
   barOf,
   COLUMNS,
@@ -14,14 +14,14 @@ import {
 let pointOf: typeof import("../../../src/evaluation/ranking/radar").pointOf;
 let bearsUpTo: typeof import("../../../src/evaluation/ranking/radar").bearsUpTo;
 let bearsFromTo: typeof import("../../../src/evaluation/ranking/radar").bearsFromTo;
-let choose: typeof import("../../../src/evaluation/ranking/arena").choose;
-let chosen: typeof import("../../../src/evaluation/ranking/arena").chosen;
+let choose: typeof import("../../../src/evaluation/ranking/ranking").choose;
+let chosen: typeof import("../../../src/evaluation/ranking/ranking").chosen;
 let readPlace: typeof import("../../../src/runs/list/place").readPlace;
 let writePlace: typeof import("../../../src/runs/list/place").writePlace;
 
 beforeAll(async () => {
   ({ pointOf, bearsUpTo, bearsFromTo } = await import("../../../src/evaluation/ranking/radar"));
-  ({ choose, chosen } = await import("../../../src/evaluation/ranking/arena"));
+  ({ choose, chosen } = await import("../../../src/evaluation/ranking/ranking"));
   ({ readPlace, writePlace } = await import("../../../src/runs/list/place"));
 });
 
@@ -40,7 +40,7 @@ const columnOf = (key: string): Column => COLUMNS.find((one) => one.key === key)
 const sweepOf = (values: number[], passed: number[]) => ({ values, passed }) as SweepOutcome;
 const ROWS = [rowOf("a", 0.5, 0.3), rowOf("b", 0.7, null), rowOf("c", 0.1, 3.0)];
 
-describe("the arena's table", () => {
+describe("the ranking's table", () => {
   test("a law without a number comes last, whichever way a column is sorted", () => {
     const order = (key: string, isDown: boolean) =>
       sortRows(ROWS, key, isDown).map(({ law }) => law);
@@ -119,9 +119,9 @@ describe("what is looked at", () => {
     expect(chosen.value).toEqual(["b", "d", "e"]);
   });
 
-  test("the arena has an address", () => {
-    expect(readPlace("?arena=all&session=x")).toEqual({ kind: "arena" });
-    expect(writePlace({ kind: "arena" }, "?runs=all")).toBe("?arena=all");
-    expect(writePlace({ kind: "lab" }, "?arena=all")).toBe("");
+  test("the ranking has an address", () => {
+    expect(readPlace("?ranking=all&session=x")).toEqual({ kind: "ranking" });
+    expect(writePlace({ kind: "ranking" }, "?runs=all")).toBe("?ranking=all");
+    expect(writePlace({ kind: "lab" }, "?ranking=all")).toBe("");
   });
 });

@@ -1,4 +1,4 @@
-/** The arena: every law in the same scenarios. */
+/** The ranking: every law in the same scenarios. */
 const faults: Record<string, string> = {
   deflection_limit: "deflection",
   lever_end: "spiral end",
@@ -14,9 +14,9 @@ const sweeps: Record<string, string> = {
   perturbation: "Pushes",
 };
 
-export const arenaText = {
-  arena: {
-    title: "Arena",
+export const rankingText = {
+  ranking: {
+    title: "Ranking",
     lead: "Every law on the same plant, torque limits, noise and loads. Press a number to see its run in the lab, beside NDOBC unless that ends first; press a law to lay it into the web.",
     loading: "The table is on its way …",
     law: "Law",

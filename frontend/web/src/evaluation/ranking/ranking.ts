@@ -1,6 +1,12 @@
 /** The table as it was published, rows as they were measured here, and what is looked at. */
 import { computed, signal } from "@preact/signals";
-import { measureLaw, type Results, type Row, readArena, seeScenario } from "../../core/api/arena";
+import {
+  measureLaw,
+  type Results,
+  type Row,
+  readRanking,
+  seeScenario,
+} from "../../core/api/ranking";
 import type { Law } from "../../core/api/types";
 import type { Ink } from "../../core/plots/definitions";
 import { inksOfLaws } from "../../core/plots/lawinks";
@@ -36,10 +42,10 @@ export const inks = computed<ReadonlyMap<Law, Ink>>(() => {
   return new Map(chosen.value.map((law, index) => [law, shared[index] as Ink]));
 });
 
-export async function openArena(): Promise<void> {
+export async function openRanking(): Promise<void> {
   if (results.peek() !== null) return;
   try {
-    const found = await readArena();
+    const found = await readRanking();
     results.value = found;
     const best = sortRows(found.rows, "score", true).map(({ law }) => law);
     const comparisons = best.filter((law) => law !== PAPERS_LAW).slice(0, 2);
