@@ -18,7 +18,7 @@ from time import monotonic
 
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import read_course
-from svsa.teaching.course.submission import HandIn, write_hand_in
+from svsa.teaching.course.submission import Submission, write_submission
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.queue import grade_side_by_side
 from tests.teaching.course.runs import find_exercise
@@ -31,7 +31,7 @@ _RECORDED = ("load", "exact-model")
 
 
 def write_submissions(folder: Path, count: int) -> list[Path]:
-    """Hand-ins of so many students, each in a folder, and the runs that they name."""
+    """Submissions of so many students, each in a folder, and the runs that they name."""
     catalogue = Catalogue(folder)
     runs = {step: record_step(catalogue, step) for step in _RECORDED}
     law = find_law(find_exercise("own-law"))
@@ -40,17 +40,17 @@ def write_submissions(folder: Path, count: int) -> list[Path]:
         place = folder / f"student-{number}"
         place.mkdir()
         student = f"Student {number}"
-        hand_in = HandIn(student=student, exercise=EXERCISE, runs=runs)
+        submission = Submission(student=student, exercise=EXERCISE, runs=runs)
         if number % 2 == 0:
             (place / "law.py").write_text(law, encoding="utf-8")
-            hand_in = HandIn(student=student, exercise="own-law", law_file="law.py")
-        files.append(place / "hand-in.json")
-        write_hand_in(files[-1], hand_in)
+            submission = Submission(student=student, exercise="own-law", law_file="law.py")
+        files.append(place / "submission.json")
+        write_submission(files[-1], submission)
     return files
 
 
 def grade_until(folder: Path, files: list[Path], longest_s: float) -> tuple[int, int, float]:
-    """Laws and recorded hand-ins that were graded, and how long that took, s."""
+    """Laws and recorded submissions that were graded, and how long that took, s."""
     exercises = {one.name: one for one in read_course()}
     book, begin = Book(folder / "class"), monotonic()
     waiting = iter(files)
@@ -70,7 +70,7 @@ def main(count: int = SUBMISSIONS, longest_s: float = LONGEST_S) -> None:
         laws, recorded, took_s = grade_until(folder, files, longest_s)
     load = " ".join(f"{one:.1f}" for one in os.getloadavg())
     rate = 3600 * (laws + recorded) / took_s
-    print(f"{laws} laws and {recorded} recorded hand-ins in {took_s:.1f} s: {rate:.0f} an hour")
+    print(f"{laws} laws and {recorded} recorded submissions in {took_s:.1f} s: {rate:.0f} an hour")
     print(f"{os.cpu_count()} cores, load average {load}, svsa grade's processes included")
 
 

@@ -12,24 +12,24 @@ from svsa.teaching.grading.class_grades import open_book
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.browser.test_page import WORKER_MS, go_to_page, open_page
 from tests.lab import Lab
-from tests.teaching.grading.test_class_grades import hand_in
+from tests.teaching.grading.test_class_grades import submit
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
 @pytest.fixture
-def lab_with_hand_ins(still_lab: Lab) -> Iterator[Lab]:
-    """Two students have handed in what is not done."""
+def lab_with_submissions(still_lab: Lab) -> Iterator[Lab]:
+    """Two students have submitted what is not done."""
     store = ProgressStore(still_lab.data)
-    handed = [hand_in(store, "p-1", "Ada"), hand_in(store, "p-2", "Bob")]
+    submitted = [submit(store, "p-1", "Ada"), submit(store, "p-2", "Bob")]
     yield still_lab
-    for path in handed:
+    for path in submitted:
         path.unlink()
     shutil.rmtree(open_book(store).folder)
 
 
 def grade(page: Page, lab: Lab) -> Locator:
-    """What was handed in, by keyboard; the table, of which Ada's points are pressed."""
+    """What was submitted, by keyboard; the table, of which Ada's points are pressed."""
     open_page(page, lab)
     go_to_page(page, "Grades")
     table = page.get_by_role("region", name="Points, a student a row")
@@ -47,15 +47,15 @@ def grade(page: Page, lab: Lab) -> Locator:
     return table
 
 
-def test_what_was_handed_in_is_graded_and_seen_by_criterion(
-    page: Page, lab_with_hand_ins: Lab
+def test_what_was_submitted_is_graded_and_seen_by_criterion(
+    page: Page, lab_with_submissions: Lab
 ) -> None:
-    table = grade(page, lab_with_hand_ins)
-    page.goto(lab_with_hand_ins.url + "/grades")
+    table = grade(page, lab_with_submissions)
+    page.goto(lab_with_submissions.url + "/grades")
     expect(table).to_be_visible()
 
 
 @pytest.mark.exhaustive
-def test_grades_have_no_violation(page: Page, lab_with_hand_ins: Lab) -> None:
-    grade(page, lab_with_hand_ins)
+def test_grades_have_no_violation(page: Page, lab_with_submissions: Lab) -> None:
+    grade(page, lab_with_submissions)
     expect_no_violation(page, WIDE, PHONE)

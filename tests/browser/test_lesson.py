@@ -72,7 +72,7 @@ class Hand:
     def find_results(self) -> Locator:
         return self.page.get_by_role("region", name=re.compile("^What came of it")).first
 
-    def hand_in(self) -> None:
+    def submit(self) -> None:
         if self.exercise.takes_law:
             self.go_on("Begin with the law above")
             self.go_on("Try it and keep it")
@@ -84,7 +84,7 @@ class Hand:
 
 
 def walk(hand: Hand) -> None:
-    """From the first step to the hand-in; settings that are free stay as they were."""
+    """From the first step to the submission; settings that are free stay as they were."""
     first, *others = hand.exercise.steps
     expect(hand.page.get_by_role("heading", name=first.title)).to_be_focused()
     answers, _ = RIGHT[hand.exercise.name]
@@ -96,7 +96,7 @@ def walk(hand: Hand) -> None:
             hand.choose(step, answers[step.name])
         elif isinstance(step, Experiment):
             hand.experiment(step)
-    hand.hand_in()
+    hand.submit()
 
 
 def test_the_table_of_the_lanes_stays_in_its_column(page: Page, still_lab: Lab) -> None:
@@ -119,7 +119,7 @@ def is_as_wide_as_the_view(page: Page) -> bool:
 
 
 @pytest.mark.parametrize("name", exhaust([*RIGHT], ["mechanism"]))
-def test_an_exercise_is_done_and_handed_in_by_keyboard(page: Page, lab: Lab, name: str) -> None:
+def test_an_exercise_is_done_and_submitted_by_keyboard(page: Page, lab: Lab, name: str) -> None:
     exercise = find_exercise(name)
     lab.client.put(lab.session + "/speed", json={"factor": "max"}).raise_for_status()
     begin = {"step": exercise.steps[0].name}
@@ -130,5 +130,5 @@ def test_an_exercise_is_done_and_handed_in_by_keyboard(page: Page, lab: Lab, nam
     most = f"{exercise.max_points:g}"
     is_free = any(isinstance(one, Experiment) and one.free for one in exercise.steps)
     points = r"[\d.]+" if is_free else most
-    told = page.get_by_text(re.compile(f"Handed in: {points} of {most} points"))
+    told = page.get_by_text(re.compile(f"Submitted: {points} of {most} points"))
     expect(told.first).to_be_visible()

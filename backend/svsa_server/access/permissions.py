@@ -133,7 +133,7 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         "PUT /api/v1/course/{exercise}/steps/{step}/answer",
         "POST /api/v1/course/{exercise}/steps/{step}/check",
         "PUT /api/v1/course/{exercise}/law",
-        "POST /api/v1/course/{exercise}/hand-in",
+        "POST /api/v1/course/{exercise}/submission",
         "POST /api/v1/ranking/laws/{law}/measurement",
         "POST /api/v1/ranking/sessions",
         "POST /api/v1/leaderboard/submissions",

@@ -19,7 +19,7 @@ from svsa.errors import ParameterError
 from svsa.teaching.course.progress import ProgressStore
 from svsa.teaching.grading.class_grades import open_book
 from svsa.teaching.grading.grade import Grade
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 from svsa_server.access.audit import AuditLog
 from svsa_server.lti.launch import SCORE_SCOPE
 from svsa_server.lti.links import Link
@@ -71,9 +71,9 @@ class ScoreSender:
         for link in links:
             if link.due > self._clock():
                 continue
-            path = self._store.find_hand_in(link.exercise, link.person)
+            path = self._store.find_submission(link.exercise, link.person)
             try:
-                digest = Submission.read(path).digest if path.exists() else ""
+                digest = SubmittedWork.read(path).digest if path.exists() else ""
                 grade = book.find(digest) if digest not in ("", link.sent) else None
             except ParameterError as error:
                 self._tell(link, None, str(error))

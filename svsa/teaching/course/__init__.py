@@ -1,1 +1,1 @@
-"""A course in the lab: exercises as files, what is handed in, and how it is judged."""
+"""A course in the lab: exercises as files, what is submitted, and how it is judged."""

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Whole, quantity
 from svsa.teaching.course.measure import Measure
-from svsa.teaching.course.steps import Experiment, Explain, HandInStep, Predict, Step
+from svsa.teaching.course.steps import Experiment, Explain, Predict, Step, SubmitStep
 from svsa.teaching.course.submission import MAX_STEPS, StepName
 
 
@@ -27,9 +27,9 @@ class Exercise(Checked):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        ends = [number for number, step in enumerate(self.steps) if isinstance(step, HandInStep)]
+        ends = [number for number, step in enumerate(self.steps) if isinstance(step, SubmitStep)]
         if ends != [len(self.steps) - 1]:
-            bound = "one step of kind hand-in, at the end"
+            bound = "one step of kind submit, at the end"
             raise ParameterError(Violation("steps", [step.kind for step in self.steps], "", bound))
         for number, step in enumerate(self.steps):
             if isinstance(step, Predict):
@@ -68,8 +68,8 @@ class Exercise(Checked):
 
     @property
     def takes_law(self) -> bool:
-        """Whether a law's file is handed in with it."""
-        return any(isinstance(step, HandInStep) and step.law for step in self.steps)
+        """Whether a law's file is submitted with it."""
+        return any(isinstance(step, SubmitStep) and step.law for step in self.steps)
 
     @property
     def max_points(self) -> float:

@@ -10,32 +10,32 @@ from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judgement import CriterionResult, Judgement
 from svsa.teaching.course.measure import Measure, Measured
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step
-from svsa.teaching.course.submission import Answer, HandIn
+from svsa.teaching.course.submission import Answer, Submission
 
 OpenRun = Callable[[str], Result]
 Opened = Result | str
 """A run, or why it could not be opened."""
 
 
-def judge_hand_in(exercise: Exercise, hand_in: HandIn, open_run: OpenRun) -> Judgement:
+def judge_submission(exercise: Exercise, submission: Submission, open_run: OpenRun) -> Judgement:
     """All criteria of an exercise.
 
     open_run: gives the run of an id; where it raises `SvsaError`, the criteria of that step have no
-    points and say why. Raises `ParameterError` for a hand-in of another exercise, or with
+    points and say why. Raises `ParameterError` for a submission of another exercise, or with
     steps that this one has not.
     """
-    if hand_in.exercise != exercise.name:
+    if submission.exercise != exercise.name:
         bound = f"{exercise.name!r}, the exercise that is judged"
-        raise ParameterError(Violation("exercise", hand_in.exercise, "", bound))
-    for name in (*hand_in.answers, *hand_in.runs):
+        raise ParameterError(Violation("exercise", submission.exercise, "", bound))
+    for name in (*submission.answers, *submission.runs):
         exercise.find_step(name)
     runs: dict[str, Opened] = {}
-    for name, run in hand_in.runs.items():
+    for name, run in submission.runs.items():
         try:
             runs[name] = open_run(run)
         except SvsaError as error:
             runs[name] = f"Run {run} cannot be opened: {error}"
-    return judge_exercise(exercise, hand_in.answers, runs)
+    return judge_exercise(exercise, submission.answers, runs)
 
 
 def judge_exercise(

@@ -1,4 +1,4 @@
-"""A law that is kept until it is handed in, and what came of trying it."""
+"""A law that is kept until it is submitted, and what came of trying it."""
 
 from typing import Annotated, Literal
 

@@ -18,12 +18,12 @@ from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import check_answer
 from svsa.teaching.course.judgement import CriterionResult
 from svsa.teaching.course.kept_law import KeptLaw
-from svsa.teaching.course.steps import Experiment, Explain, HandInStep, Predict
-from svsa.teaching.course.submission import MAX_STEPS, Answer, HandIn, StepName
+from svsa.teaching.course.steps import Experiment, Explain, Predict, SubmitStep
+from svsa.teaching.course.submission import MAX_STEPS, Answer, StepName, Submission
 
 COURSE_FOLDER = "course"
 HOME = "home"
-HANDED_IN = "handed-in"
+SUBMISSIONS = "submissions"
 
 
 class StepProgress(Checked):
@@ -37,16 +37,16 @@ class StepProgress(Checked):
 
 
 class ExerciseProgress(Checked):
-    """One exercise. at: the step that was looked at last. handed_in: when, as ISO 8601.
+    """One exercise. at: the step that was looked at last. submitted_at: when, as ISO 8601.
 
-    law: the one that was tried last, which is what is handed in. changes: how often it was changed,
+    law: the one that was tried last, which is what is submitted. changes: how often it was changed,
     by which the newer of two answers is known.
     """
 
     at: StepName | None = None
     steps: dict[StepName, StepProgress] = quantity("", "By step", default={}, max_length=MAX_STEPS)
     law: KeptLaw | None = None
-    handed_in: str | None = None
+    submitted_at: str | None = None
     points: Number | None = None
     changes: Whole = 0
 
@@ -58,12 +58,12 @@ class ExerciseProgress(Checked):
         """With a step changed."""
         return self.changed(steps={**self.steps, step: self.get(step).changed(**changes)})
 
-    def build_hand_in(self, exercise: str, student: str) -> HandIn:
-        """What is handed in of it."""
+    def build_submission(self, exercise: str, student: str) -> Submission:
+        """What is submitted of it."""
         kept = self.steps.items()
         answers = {name: one.answer for name, one in kept if one.answer is not None}
         runs = {name: one.run for name, one in kept if one.run is not None}
-        return HandIn(student=student, exercise=exercise, answers=answers, runs=runs)
+        return Submission(student=student, exercise=exercise, answers=answers, runs=runs)
 
 
 class PersonProgress(Checked):
@@ -146,7 +146,7 @@ def keep_law(exercise: Exercise, progress: ExerciseProgress, law: KeptLaw) -> Ex
 
 
 def check_takes_law(exercise: Exercise, progress: ExerciseProgress) -> None:
-    """Raise `StateError` where no law belongs to the exercise, or it was handed in."""
+    """Raise `StateError` where no law belongs to the exercise, or it was submitted."""
     if not exercise.takes_law:
         raise StateError(f"Exercise {exercise.name!r} asks for no law.")
     _check_open(progress)
@@ -158,7 +158,7 @@ def find_done(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
         step.name
         for step in exercise.steps
         if progress.get(step.name).done
-        or (isinstance(step, HandInStep) and progress.handed_in is not None)
+        or (isinstance(step, SubmitStep) and progress.submitted_at is not None)
     ]
 
 
@@ -175,8 +175,8 @@ def find_missing(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
 
 
 def _check_open(progress: ExerciseProgress) -> None:
-    if progress.handed_in is not None:
-        raise StateError("The exercise was handed in: nothing of it is changed any more.")
+    if progress.submitted_at is not None:
+        raise StateError("The exercise was submitted: nothing of it is changed any more.")
 
 
 def _sum(results: Sequence[CriterionResult]) -> float:
@@ -211,11 +211,11 @@ class ProgressStore:
     def _find(self, person: str) -> Path:
         return self.folder / "people" / f"{person or HOME}.json"
 
-    def find_hand_in(self, exercise: str, person: str) -> Path:
-        """Where the hand-in of a person stands."""
-        return self.folder / HANDED_IN / exercise / f"{person or HOME}.json"
+    def find_submission(self, exercise: str, person: str) -> Path:
+        """Where the submission of a person stands."""
+        return self.folder / SUBMISSIONS / exercise / f"{person or HOME}.json"
 
-    def list_hand_ins(self, person: str | None = None) -> list[Path]:
-        """The files of all that was handed in, or of what this person did."""
+    def list_submissions(self, person: str | None = None) -> list[Path]:
+        """The files of all that was submitted, or of what this person did."""
         name = "*" if person is None else escape(person or HOME)
-        return sorted((self.folder / HANDED_IN).glob(f"*/{name}.json"))
+        return sorted((self.folder / SUBMISSIONS).glob(f"*/{name}.json"))

@@ -152,11 +152,11 @@ class Explain(_Step):
         return self
 
 
-class HandInStep(_Step):
-    """The end: everything is handed in. law: with a Python file of a law."""
+class SubmitStep(_Step):
+    """The end: everything is submitted. law: with a Python file of a law."""
 
-    kind: Literal["hand-in"] = "hand-in"
+    kind: Literal["submit"] = "submit"
     law: Flag = quantity("", "Whether a law's file belongs to it", default=False)
 
 
-Step = Annotated[Read | Predict | Experiment | Explain | HandInStep, BY_KIND]
+Step = Annotated[Read | Predict | Experiment | Explain | SubmitStep, BY_KIND]

@@ -1,4 +1,4 @@
-"""What a student hands in: answers, runs by id, and for an exercise of a law its file."""
+"""What a student submits: answers, runs by id, and for an exercise of a law its file."""
 
 from pathlib import Path
 from typing import Annotated
@@ -17,15 +17,15 @@ Words = Annotated[str, Field(max_length=LONGEST_ANSWER)]
 Answer = Number | Words
 
 
-class HandIn(Checked):
-    """A hand-in of one exercise, by its steps.
+class Submission(Checked):
+    """A submission of one exercise, by its steps.
 
     answers: numbers that were predicted, in the unit that the step asks for, and names of options
     that were chosen. runs: the recorded run of each experiment. law_file: path of a Python file,
-    beside the hand-in where it is relative.
+    beside the submission where it is relative.
     """
 
-    student: str = quantity("", "Who hands it in", min_length=1, max_length=LONGEST_NAME)
+    student: str = quantity("", "Who submits it", min_length=1, max_length=LONGEST_NAME)
     exercise: StepName = quantity("", "Name of the exercise")
     answers: dict[StepName, Answer] = quantity(
         "", "What was predicted or chosen, by step", default={}, max_length=MAX_STEPS
@@ -36,30 +36,30 @@ class HandIn(Checked):
     law_file: str | None = quantity("", "Python file of a law", default=None, max_length=1000)
 
 
-def read_hand_in(path: Path | str) -> HandIn:
-    """The hand-in of a JSON file; raises `ParameterError` with the file's name."""
+def read_submission(path: Path | str) -> Submission:
+    """The submission of a JSON file; raises `ParameterError` with the file's name."""
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         bound = f"a readable JSON file ({error})"
-        raise ParameterError(Violation("hand-in", path, "", bound)) from None
+        raise ParameterError(Violation("submit", path, "", bound)) from None
     try:
-        return parse_hand_in(text)
+        return parse_submission(text)
     except ParameterError as error:
         raise ParameterError(*error.violations, file=str(path)) from None
 
 
-def parse_hand_in(text: str) -> HandIn:
-    """The hand-in of a JSON text; raises `ParameterError`."""
+def parse_submission(text: str) -> Submission:
+    """The submission of a JSON text; raises `ParameterError`."""
     from pydantic import ValidationError
 
     try:
-        return HandIn.model_validate_json(text)
+        return Submission.model_validate_json(text)
     except ValidationError as error:
         problems = error.errors(include_url=False)
-        raise ParameterError(*explain_problems(problems, HandIn.model_fields)) from None
+        raise ParameterError(*explain_problems(problems, Submission.model_fields)) from None
 
 
-def write_hand_in(path: Path | str, hand_in: HandIn) -> None:
-    """Write a hand-in as JSON, as `read_hand_in` reads it."""
-    Path(path).write_text(hand_in.model_dump_json(indent=2) + "\n", encoding="utf-8")
+def write_submission(path: Path | str, submission: Submission) -> None:
+    """Write a submission as JSON, as `read_submission` reads it."""
+    Path(path).write_text(submission.model_dump_json(indent=2) + "\n", encoding="utf-8")

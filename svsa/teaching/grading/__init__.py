@@ -1,1 +1,1 @@
-"""Grades: what was handed in, run again where nobody can peek."""
+"""Grades: what was submitted, run again where nobody can peek."""

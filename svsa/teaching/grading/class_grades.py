@@ -1,4 +1,4 @@
-"""A class's grades: what was handed in in the lab, run again, and what became of each."""
+"""A class's grades: what was submitted in the lab, run again, and what became of each."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
@@ -11,13 +11,13 @@ from svsa.teaching.course.progress import ProgressStore
 from svsa.teaching.grading.grade import Grade
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.queue import GraderLostError, grade_side_by_side
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 
 BOOK_FOLDER = "book"
 
 
-class Handed(NamedTuple):
-    """What a person handed in of an exercise. person: id, as its file is called.
+class GradedSubmission(NamedTuple):
+    """What a person submitted of an exercise. person: id, as its file is called.
 
     grade: None where it has none yet; problem: why it was given none, or empty.
     """
@@ -34,10 +34,10 @@ def open_book(store: ProgressStore) -> Book:
     return Book(store.folder / BOOK_FOLDER)
 
 
-def list_handed(store: ProgressStore, person: str | None = None) -> list[Handed]:
-    """Everything that was handed in, by student and exercise; person: of this one alone."""
+def list_graded(store: ProgressStore, person: str | None = None) -> list[GradedSubmission]:
+    """Everything that was submitted, by student and exercise; person: of this one alone."""
     book = open_book(store)
-    files = store.list_hand_ins() if person is None else store.list_hand_ins(person)
+    files = store.list_submissions() if person is None else store.list_submissions(person)
     found = [_describe(path, book) for path in files]
     return sorted(found, key=lambda one: (one.student.casefold(), one.person, one.exercise))
 
@@ -52,7 +52,7 @@ def grade_class(
     is_cancelled: Callable[[], bool] = lambda: False,
     workers: int = 1,
 ) -> bool:
-    """Grade these hand-ins, so many at once; whether it came to its end.
+    """Grade these submissions, so many at once; whether it came to its end.
 
     One that is refused keeps the grade that it has, and the book says why. Raises
     `GraderLostError`.
@@ -78,22 +78,22 @@ def grade_class(
 
 def _refuse(path: Path, book: Book, problem: str) -> None:
     try:
-        book.refuse(Submission.read(path).digest, problem)
+        book.refuse(SubmittedWork.read(path).digest, problem)
     except ParameterError:
         return  # what cannot be read is told where it is listed
 
 
-def _describe(path: Path, book: Book) -> Handed:
+def _describe(path: Path, book: Book) -> GradedSubmission:
     person, exercise = path.stem, path.parent.name
     try:
-        submission = Submission.read(path)
-        given = book.find(submission.digest)
+        work = SubmittedWork.read(path)
+        given = book.find(work.digest)
     except ParameterError as error:
-        return Handed(person, exercise, person, None, str(error))
-    student = submission.hand_in.student
-    return Handed(person, exercise, student, given, book.find_refusal(submission.digest))
+        return GradedSubmission(person, exercise, person, None, str(error))
+    student = work.submission.student
+    return GradedSubmission(person, exercise, student, given, book.find_refusal(work.digest))
 
 
-def list_grades(handed: Sequence[Handed]) -> Iterator[Grade]:
+def list_grades(submitted: Sequence[GradedSubmission]) -> Iterator[Grade]:
     """The grades that were given."""
-    return (one.grade for one in handed if one.grade is not None)
+    return (one.grade for one in submitted if one.grade is not None)

@@ -1,4 +1,4 @@
-"""`svsa grade`: run again what was handed in, and tell what it is worth."""
+"""`svsa grade`: run again what was submitted, and tell what it is worth."""
 
 import os
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ _File = Annotated[Path | None, typer.Option(help="Write all grades into this fil
 
 
 def grade_command(
-    files: Annotated[list[Path], typer.Argument(metavar="HANDIN…", help="Hand-ins (JSON).")],
+    files: Annotated[list[Path], typer.Argument(metavar="SUBMISSION…", help="Submissions (JSON).")],
     book: Annotated[
         Path | None, typer.Option("--class", help="The class's folder: its secret, its grades.")
     ] = None,
@@ -39,7 +39,7 @@ def grade_command(
     csv: _File = None,
     page: _File = None,
 ) -> None:
-    """Grade hand-ins: runs by exact replay, laws in a process of their own on secret draws.
+    """Grade submissions: runs by exact replay, laws in a process of their own on secret draws.
 
     What was graded before keeps its grade. --csv and --page tell all grades of the class.
     """

@@ -1,4 +1,4 @@
-"""A grade: points by criterion, from what was handed in and nothing else."""
+"""A grade: points by criterion, from what was submitted and nothing else."""
 
 from pathlib import Path
 
@@ -13,11 +13,11 @@ from svsa.runs.records.resimulation import compare_with_simulation
 from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
 from svsa.teaching.course.exercise import Exercise
-from svsa.teaching.course.judge import judge_hand_in
+from svsa.teaching.course.judge import judge_submission
 from svsa.teaching.course.judgement import CriterionResult
-from svsa.teaching.course.steps import HandInStep
+from svsa.teaching.course.steps import SubmitStep
 from svsa.teaching.grading.law_runs import judge_law, run_draws
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 from svsa.teaching.isolation.confinement import confine, leave_open
 from svsa.teaching.isolation.probe import check_isolation
 
@@ -33,7 +33,7 @@ class Criterion(Checked):
 
 
 class VerifiedRun(Checked):
-    """A run that was handed in, and what was found when it was run again."""
+    """A run that was submitted, and what was found when it was run again."""
 
     run_id: str = quantity("", "Id of the run")
     told: str = quantity("", "What was verified of it")
@@ -42,14 +42,14 @@ class VerifiedRun(Checked):
 class Grade(Checked):
     """What a submission is worth, and what it was graded with.
 
-    submission: digest of everything that was handed in. seed: of the draws that its law went
+    submission: digest of everything that was submitted. seed: of the draws that its law went
     through, in hexadecimal, None without a law. is_isolated: false for a law that ran without
     walls, which is no grade for a class.
     """
 
-    student: str = quantity("", "Who handed it in")
+    student: str = quantity("", "Who submitted it")
     exercise: str = quantity("", "Name of the exercise")
-    submission: str = quantity("", "SHA-256 of what was handed in")
+    submission: str = quantity("", "SHA-256 of what was submitted")
     points: Number = quantity("", "Points in all", ge=0)
     max_points: Number = quantity("", "Points that there are", gt=0)
     criteria: tuple[Criterion, ...] = quantity("", "Points by criterion")
@@ -79,40 +79,40 @@ def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
 
 
 def grade(
-    submission: Submission, exercise: Exercise, runs: Path | None, secret: bytes | None
+    work: SubmittedWork, exercise: Exercise, runs: Path | None, secret: bytes | None
 ) -> Grade:
     """The grade of a submission. runs: folder of the runs, None for this machine's.
 
     secret: the class's, from which and from the law's text come its draws, so that one law is
-    worth the same whoever hands it in; None for practice: public draws, and the law runs without
-    walls, as one's own. Raises `ParameterError` for a hand-in that does not fit the exercise,
+    worth the same whoever submits it; None for practice: public draws, and the law runs without
+    walls, as one's own. Raises `ParameterError` for a submission that does not fit the exercise,
     `NotIsolatedError` for a law where the machine cannot hold one.
     """
-    hand_in, law = submission
+    submission, law = work
     catalogue, verified = Catalogue(runs), list[VerifiedRun]()
 
     def open_verified(run_id: str) -> Result:
         verified.append(verify_run(catalogue, run_id))
         return open_run(catalogue.find_folder(run_id))
 
-    judged = judge_hand_in(exercise, hand_in, open_verified)
+    judged = judge_submission(exercise, submission, open_verified)
     criteria, seed = list[CriterionResult](judged.criteria), None
     end = exercise.steps[-1]
-    wants_law = isinstance(end, HandInStep) and end.law
+    wants_law = isinstance(end, SubmitStep) and end.law
     if law is not None and not wants_law:
         bound = f"left out: {exercise.name} asks for no law"
-        raise ParameterError(Violation("law_file", hand_in.law_file, "", bound))
+        raise ParameterError(Violation("law_file", submission.law_file, "", bound))
     if wants_law and law is None:
         criteria += judge_law([])
     if law is not None:
         if secret is not None:
             check_isolation()
-        seed = derive_seed(secret or b"practice", f"{SUITE_VERSION} {submission.law_digest}")
+        seed = derive_seed(secret or b"practice", f"{SUITE_VERSION} {work.law_digest}")
         criteria += judge_law(run_draws(law, seed, confine if secret else leave_open))
     return Grade(
-        student=hand_in.student,
+        student=submission.student,
         exercise=exercise.name,
-        submission=submission.digest,
+        submission=work.digest,
         points=sum(one.points for one in criteria),
         max_points=sum(one.max_points for one in criteria),
         criteria=tuple(

@@ -1,4 +1,4 @@
-"""A law that was handed in, on scenarios that were drawn after it was."""
+"""A law that was submitted, on scenarios that were drawn after it was."""
 
 from collections.abc import Callable
 from time import perf_counter
@@ -117,10 +117,10 @@ def judge_law(runs: list[LawRun]) -> list[CriterionResult]:
     """Three criteria: no run ends early, the error is gone at the end, and it is small.
 
     accuracy: the mean of 1 − tanh(rms / 1°), as in the ranking's score; 0 for a run that ended.
-    runs: none where no law was handed in.
+    runs: none where no law was submitted.
     """
     if not runs:
-        none = "No law was handed in."
+        none = "No law was submitted."
         return [CriterionResult(LAW_STEP, name, 0.0, most, none) for name, most in POINTS.items()]
     whole = [run for run in runs if run.rms_deg is not None]
     held = [run for run in runs if run.held]

@@ -1,4 +1,4 @@
-"""A law tried before it is handed in: one run, on a scenario that everybody may see."""
+"""A law tried before it is submitted: one run, on a scenario that everybody may see."""
 
 from svsa.evaluation.ranking.measure import SETTLED_DEG
 from svsa.evaluation.ranking.samples import build_draw

@@ -1,4 +1,4 @@
-"""Hand-ins graded side by side, in as many processes as there are cores."""
+"""Submissions graded side by side, in as many processes as there are cores."""
 
 import os
 from collections.abc import Callable, Generator, Iterable
@@ -13,7 +13,7 @@ from svsa.evaluation.workers import start_workers
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.grading.grade import Grade, grade
 from svsa.teaching.grading.gradebook import Book
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 
 _WAITING_EACH = 2
 
@@ -32,19 +32,19 @@ def grade_file(
     book: Book | None,
     again: bool = False,
 ) -> Grade:
-    """The grade of a hand-in's file, kept in the book; the one that it has there, if any.
+    """The grade of a submission's file, kept in the book; the one that it has there, if any.
 
     again: run it again, though it has one. Same submission, same draws, same grade.
     """
-    submission = Submission.read(path)
-    before = book.find(submission.digest) if book and not again else None
+    work = SubmittedWork.read(path)
+    before = book.find(work.digest) if book and not again else None
     if before is not None:
         return before
-    name = submission.hand_in.exercise
+    name = work.submission.exercise
     if name not in exercises:
         bound = f"one of {', '.join(exercises)}"
         raise ParameterError(Violation("exercise", name, "", bound), file=str(path))
-    given = grade(submission, exercises[name], runs, book.secret if book else None)
+    given = grade(work, exercises[name], runs, book.secret if book else None)
     if book is not None:
         book.keep(given)
     return given

@@ -1,1 +1,1 @@
-"""The leaderboard: laws that were handed in, and the installed ones, on a season nobody knows."""
+"""The leaderboard: laws that were submitted, and the installed ones, on a season nobody knows."""

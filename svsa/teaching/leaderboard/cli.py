@@ -15,7 +15,7 @@ from rich.table import Table
 
 from svsa.control.installed import get_title
 from svsa.evaluation.ranking.seeds import PUBLIC_SEED
-from svsa.teaching.grading.submission import read_law_file
+from svsa.teaching.grading.submitted_work import read_law_file
 from svsa.teaching.isolation.confinement import leave_open
 from svsa.teaching.leaderboard.board import (
     Board,

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from svsa.teaching.course.progress import ProgressStore
-from svsa.teaching.course.submission import HandIn, write_hand_in
+from svsa.teaching.course.submission import Submission, write_submission
 from svsa.teaching.grading.grade import Criterion, Grade
 from svsa.teaching.grading.gradebook import Book
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 from svsa_server.lti import scores
 from svsa_server.lti.links import Link, Links
 from svsa_server.lti.platforms import read_lti_file
@@ -49,7 +49,7 @@ class Clock:
 
 
 class Class:
-    """A class of one person, who was launched and has handed in and been graded."""
+    """A class of one person, who was launched and has submitted and been graded."""
 
     def __init__(self, folder, platform) -> None:
         self.folder, self.log, self.clock = folder, Log(), Clock()
@@ -58,19 +58,19 @@ class Class:
         self.link = Link(PERSON, "mechanism", ISSUER, CLIENT, "user-42", platform.line_item)
         self.platform, platform.clock = platform, self.clock
 
-    def hand_in(self, answer: float = 0.7) -> Path:
-        path = self.store.find_hand_in("mechanism", PERSON)
+    def submit(self, answer: float = 0.7) -> Path:
+        path = self.store.find_submission("mechanism", PERSON)
         path.parent.mkdir(parents=True, exist_ok=True)
         answers = {"predict-lever": answer}
-        write_hand_in(path, HandIn(student="Ada", exercise="mechanism", answers=answers))
+        write_submission(path, Submission(student="Ada", exercise="mechanism", answers=answers))
         return path
 
     def grade(self, points: float, answer: float = 0.7) -> None:
-        path = self.hand_in(answer)
+        path = self.submit(answer)
         one = Criterion(step="s", name="n", points=points, max_points=13.0, feedback="")
         self.book.keep(
             Grade(
-                student="Ada", exercise="mechanism", submission=Submission.read(path).digest,
+                student="Ada", exercise="mechanism", submission=SubmittedWork.read(path).digest,
                 points=points, max_points=13.0, criteria=(one,),
             )
         )  # fmt: skip
@@ -183,7 +183,7 @@ def test_the_address_of_scores_keeps_the_query():
 def test_what_the_instructor_grades_in_the_lab_goes_back(tmp_path, platform, monkeypatch):
     monkeypatch.setattr(scores, "LOOK_S", 0.05)
     class_, platform.clock = Class(tmp_path, platform), time.time
-    class_.hand_in()
+    class_.submit()
     Links(tmp_path).learn(class_.link)
     with run_class(tmp_path, lti=str(platform.write_settings(tmp_path))) as room:
         instructor = room.log_in()
@@ -194,7 +194,7 @@ def test_what_the_instructor_grades_in_the_lab_goes_back(tmp_path, platform, mon
                 break
             time.sleep(0.02)
         (student,) = instructor.get("/api/v1/grades").json()["students"]
-    grade = student["handed"][0]["grade"]
+    grade = student["submissions"][0]["grade"]
     assert [one["points"] for one in noted] == [grade["points"]]
     (score,) = (score for _, score in platform.scores)
     assert (score["scoreGiven"], score["scoreMaximum"]) == (grade["points"], grade["max_points"])

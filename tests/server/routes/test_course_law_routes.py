@@ -1,4 +1,4 @@
-"""A law for an exercise over REST: tried at once, kept, handed in, and graded as it was."""
+"""A law for an exercise over REST: tried at once, kept, submitted, and graded as it was."""
 
 import shutil
 
@@ -8,7 +8,7 @@ from svsa.teaching.course.kept_law import MAX_LAW_BYTES
 from svsa.teaching.grading import law_runs
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.queue import grade_file
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 from tests.lab_in_process import run_lab_in_process
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.course.student import Student, find_law
@@ -69,7 +69,7 @@ def test_what_is_no_law_s_text_and_where_none_is_asked_for_is_refused(student, l
     assert "asks for no law" in other.json()["detail"]
 
 
-def test_a_law_is_handed_in_and_the_same_submission_has_the_same_grade(
+def test_a_law_is_submitted_and_the_same_submission_has_the_same_grade(
     student, data, own_law, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(law_runs, "DRAWS", 2)
@@ -78,16 +78,16 @@ def test_a_law_is_handed_in_and_the_same_submission_has_the_same_grade(
     student.answer("why", "tuned").raise_for_status()
     student.set_up("integral").raise_for_status()
     student.check("integral", student.run("integral", 8.0)).raise_for_status()
-    assert student.read()["missing"] == ["hand-in"]
-    assert student.hand_in().status_code == 409
+    assert student.read()["missing"] == ["submit"]
+    assert student.submit().status_code == 409
 
     student.try_law(text).raise_for_status()
-    judged = student.hand_in().raise_for_status().json()
+    judged = student.submit().raise_for_status().json()
     assert judged["points"] == judged["max_points"] == 5
     assert student.try_law(LAZY.decode()).status_code == 409
 
-    path = data / "course" / "handed-in" / "own-law" / "home.json"
-    assert Submission.read(path).law == text.encode()
+    path = data / "course" / "submissions" / "own-law" / "home.json"
+    assert SubmittedWork.read(path).law == text.encode()
     books = [Book(tmp_path / "first"), Book(tmp_path / "second")]
     books[1].secret = books[0].secret
     first, again = (grade_file(path, {"own-law": own_law}, data, book) for book in books)

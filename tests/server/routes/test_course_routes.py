@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 from svsa.teaching.course.progress import ProgressStore
-from svsa.teaching.course.submission import read_hand_in
+from svsa.teaching.course.submission import read_submission
 from tests.lab_in_process import run_lab_in_process
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.course.student import COURSE, Student
@@ -110,8 +110,8 @@ def test_a_run_is_judged_and_a_worse_one_does_not_take_its_place(student):
     assert part["run_id"] == whole
 
 
-def test_nothing_is_handed_in_before_it_is_done_and_nothing_changed_after(student, data):
-    refused = student.hand_in()
+def test_nothing_is_submitted_before_it_is_done_and_nothing_changed_after(student, data):
+    refused = student.submit()
     assert refused.status_code == 409
     assert "predict-error" in refused.json()["detail"]
 
@@ -125,10 +125,10 @@ def test_nothing_is_handed_in_before_it_is_done_and_nothing_changed_after(studen
         {},
     )
     assert judgement["points"] == judgement["max_points"]
-    kept = read_hand_in(data / "course" / "handed-in" / NAME / "home.json")
+    kept = read_submission(data / "course" / "submissions" / NAME / "home.json")
     assert kept.student == "Ada"
     assert set(kept.runs) == {"load", "exact-model"}
-    assert student.hand_in().status_code == 409
+    assert student.submit().status_code == 409
     assert student.check("load", kept.runs["load"]).status_code == 409
 
 

@@ -36,7 +36,7 @@ NOT_HERE = {
     "POST /api/v1/sessions/{session}/exercise": "a prediction is asked for first",
     f"POST {COURSE}/steps/{{step}}/check": "the run is of another lab",
     f"PUT {COURSE}/law": "the exercise asks for no law",
-    f"POST {COURSE}/hand-in": "the exercise is not done",
+    f"POST {COURSE}/submission": "the exercise is not done",
     "POST /api/v1/runs/{run_id}/verdict": "the run to judge by is of another lab",
 }
 """What is asked for is not there, or not yet: 404 or 409, after the body was read."""

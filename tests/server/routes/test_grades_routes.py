@@ -10,7 +10,7 @@ from svsa_server.jobs.gradings import Asked, grade_all
 from svsa_server.jobs.progress import JobFolder, ask_to_stop
 from tests.server.access.classroom import run_class
 from tests.teaching.course.runs import find_exercise
-from tests.teaching.grading.test_class_grades import FL, hand_in
+from tests.teaching.grading.test_class_grades import FL, submit
 
 GRADES = "/api/v1/grades"
 LONGEST_S = 240.0
@@ -40,8 +40,8 @@ def test_the_instructor_grades_and_each_student_sees_the_own_grade_alone(classro
     ada, bob, instructor = room.join("Ada"), room.join("Bob"), room.log_in()
     assert instructor.post(GRADES, json={}).status_code == 409
     assert instructor.get(GRADES).json()["students"] == []
-    hand_in(store, find_id(ada), "Ada", answers={"predict-error": 12.0})
-    hand_in(store, find_id(bob), "Bob")
+    submit(store, find_id(ada), "Ada", answers={"predict-error": 12.0})
+    submit(store, find_id(bob), "Bob")
     assert ada.get(f"{GRADES}/mine").json() == [{"exercise": FL, "grade": None, "problem": ""}]
 
     begun = instructor.post(GRADES, json={"again": False})
@@ -51,9 +51,9 @@ def test_the_instructor_grades_and_each_student_sees_the_own_grade_alone(classro
 
     table = instructor.get(GRADES).json()
     assert [one["name"] for one in table["students"]] == ["Ada", "Bob"]
-    (handed,) = table["students"][0]["handed"]
+    (submitted,) = table["students"][0]["submissions"]
     (own,) = ada.get(f"{GRADES}/mine").json()
-    assert own == handed
+    assert own == submitted
     assert own["grade"]["criteria"][0]["feedback"] != ""
     assert [one["grade"]["student"] for one in bob.get(f"{GRADES}/mine").json()] == ["Bob"]
 
@@ -92,7 +92,7 @@ def test_where_nothing_isolates_the_table_says_so(classroom, monkeypatch):
 
 def test_a_worker_that_is_to_stop_keeps_what_is_done(tmp_path):
     store = ProgressStore(tmp_path / "data")
-    files = (hand_in(store, "p-1", "Ada"),)
+    files = (submit(store, "p-1", "Ada"),)
     ask_to_stop(tmp_path)
     asked = Asked(files, {FL: find_exercise(FL)}, tmp_path, tmp_path / "book", False)
     assert not grade_all(JobFolder(tmp_path), asked)

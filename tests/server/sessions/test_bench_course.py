@@ -10,7 +10,7 @@ import pytest
 from svsa.runs.records.bench_start import START_FILE
 from svsa.teaching.course.file import read_course
 from svsa.teaching.grading.grade import Grade, grade
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import BenchLab, wait_until
@@ -68,8 +68,8 @@ channel = "position_error_rad"
 
 [[steps]]
 name = "end"
-kind = "hand-in"
-title = "Hand in"
+kind = "submit"
+title = "Submit"
 +++
 
 ## hold
@@ -146,7 +146,7 @@ def test_a_bench_gets_law_references_and_observer_and_keeps_what_it_is(room: Roo
 
 @pytest.fixture(scope="module")
 def run_id(room: Room) -> Iterator[str]:
-    """A run of the step, handed in."""
+    """A run of the step, submitted."""
     room.set_up("hold").raise_for_status()
     room.bench.make_ready()
     with room.bench.watched():
@@ -173,10 +173,10 @@ def test_it_begins_again_with_what_is_set_and_not_while_it_moves(room: Room, run
 
 def grade_run(room: Room, run_id: str) -> Grade:
     told = {"student": "Ada", "exercise": "held", "runs": {"hold": run_id}}
-    path = room.folder / "hand-in.json"
+    path = room.folder / "submission.json"
     path.write_text(json.dumps(told), encoding="utf-8")
     exercise = next(one for one in read_course(room.folder / "own") if one.name == "held")
-    return grade(Submission.read(path), exercise, room.folder, None)
+    return grade(SubmittedWork.read(path), exercise, room.folder, None)
 
 
 def test_its_run_is_judged_and_graded_by_what_was_verified_of_it(room: Room, run_id: str) -> None:

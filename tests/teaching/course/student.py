@@ -57,8 +57,8 @@ class Student:
     def try_law(self, text: str):
         return self.client.put(f"{self.path}/law", json={"text": text})
 
-    def hand_in(self):
-        return self.client.post(f"{self.path}/hand-in", json={"student": "Ada"})
+    def submit(self):
+        return self.client.post(f"{self.path}/submission", json={"student": "Ada"})
 
     def change(self, step: str, changes: dict[str, dict]) -> None:
         """Settings that are the student's, by their path below the session."""
@@ -66,7 +66,7 @@ class Student:
             self.client.put(f"{self.session}/{path}", json=body).raise_for_status()
 
     def play(self, answers: dict, changes: dict[str, dict[str, dict]]) -> dict:
-        """From the first step to the hand-in; the judgement."""
+        """From the first step to the submission; the judgement."""
         for step in self.exercise.steps:
             self.client.put(f"{self.path}/place", json={"step": step.name}).raise_for_status()
             if isinstance(step, Predict | Explain):
@@ -78,7 +78,7 @@ class Student:
                 self.check(step.name, run).raise_for_status()
         if self.exercise.takes_law:
             self.try_law(find_law(self.exercise)).raise_for_status()
-        return self.hand_in().raise_for_status().json()
+        return self.submit().raise_for_status().json()
 
     def post(self, path: str, body: dict | None = None) -> dict:
         return self.client.post(f"{self.session}/{path}", json=body).raise_for_status().json()

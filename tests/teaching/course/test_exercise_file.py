@@ -54,8 +54,8 @@ low = 11.0
 
 [[steps]]
 name = "end"
-kind = "hand-in"
-title = "Hand in"
+kind = "submit"
+title = "Submit"
 +++
 
 Before all.
@@ -85,7 +85,7 @@ def read(text=EXERCISE):
 def test_front_matter_and_sections_become_steps():
     exercise = read()
 
-    assert [step.kind for step in exercise.steps] == ["predict", "experiment", "hand-in"]
+    assert [step.kind for step in exercise.steps] == ["predict", "experiment", "submit"]
     assert exercise.text == "Before all."
     assert exercise.steps[1].text == "Look.\n\n```\n## not-a-heading\n```"
     assert exercise.max_points == 3.0
@@ -135,8 +135,8 @@ def test_a_wrong_file_is_refused_with_file_line_and_reason(case):
 def test_an_exercise_without_front_matter_or_end_is_refused():
     with pytest.raises(ParameterError, match="TOML between two lines"):
         read("# Only text")
-    with pytest.raises(ParameterError, match="hand-in, at the end"):
-        read(EXERCISE.replace('kind = "hand-in"', 'kind = "read"'))
+    with pytest.raises(ParameterError, match="submission, at the end"):
+        read(EXERCISE.replace('kind = "submit"', 'kind = "read"'))
 
 
 def test_an_experiment_is_refused_before_the_prediction_that_it_judges():
@@ -180,4 +180,4 @@ def test_the_lecturer_s_example_in_the_docs_can_be_read():
 
     exercise = parse_exercise(example, "push", "docs/course.md")
 
-    assert [step.kind for step in exercise.steps] == ["predict", "experiment", "explain", "hand-in"]
+    assert [step.kind for step in exercise.steps] == ["predict", "experiment", "explain", "submit"]

@@ -6,8 +6,8 @@ import pytest
 
 import svsa
 from svsa.errors import ParameterError, StateError
-from svsa.teaching.course.judge import check_answer, judge_hand_in
-from svsa.teaching.course.submission import HandIn, read_hand_in, write_hand_in
+from svsa.teaching.course.judge import check_answer, judge_submission
+from svsa.teaching.course.submission import Submission, read_submission, write_submission
 from tests.teaching.course.runs import find_exercise, simulate_step
 
 NAME = "feedback-linearization"
@@ -22,8 +22,8 @@ RUNS = {"load": "load", "exact-model": "exact-model"}
 
 def judge(answers=RIGHT, runs=RUNS, open_run=lambda step: simulate_step(NAME, step)):
     exercise = find_exercise(NAME)
-    hand_in = HandIn(student="Ada", exercise=NAME, answers=answers, runs=runs)
-    judgement = judge_hand_in(exercise, hand_in, open_run)
+    submission = Submission(student="Ada", exercise=NAME, answers=answers, runs=runs)
+    judgement = judge_submission(exercise, submission, open_run)
     assert judgement.max_points == exercise.max_points
     return judgement
 
@@ -56,7 +56,7 @@ def test_a_wrong_choice_tells_why():
     assert "At σ = 60" in wrong.feedback
 
 
-def test_nothing_handed_in_has_no_points():
+def test_nothing_submitted_has_no_points():
     judgement = judge({}, {})
 
     assert judgement.points == 0.0
@@ -106,13 +106,13 @@ def test_a_run_that_cannot_be_opened_has_no_points():
     assert "It is gone." in find(judge(open_run=refuse), "load").feedback
 
 
-def test_a_hand_in_of_another_exercise_or_step_is_refused():
+def test_a_submission_of_another_exercise_or_step_is_refused():
     exercise = find_exercise(NAME)
     with pytest.raises(ParameterError, match="exercise"):
-        judge_hand_in(exercise, HandIn(student="Ada", exercise="other"), lambda _: None)
+        judge_submission(exercise, Submission(student="Ada", exercise="other"), lambda _: None)
     with pytest.raises(ParameterError, match="step"):
-        hand_in = HandIn(student="Ada", exercise=NAME, runs={"nowhere": "x"})
-        judge_hand_in(exercise, hand_in, lambda _: None)
+        submission = Submission(student="Ada", exercise=NAME, runs={"nowhere": "x"})
+        judge_submission(exercise, submission, lambda _: None)
 
 
 @pytest.mark.parametrize(
@@ -124,12 +124,14 @@ def test_what_is_no_answer_is_refused(step, answer):
         check_answer(find_exercise(NAME).find_step(step), answer)
 
 
-def test_a_hand_in_is_read_as_it_was_written(tmp_path):
-    hand_in = HandIn(student="Ada", exercise=NAME, answers=RIGHT, runs=RUNS, law_file="law.py")
+def test_a_submission_is_read_as_it_was_written(tmp_path):
+    submission = Submission(
+        student="Ada", exercise=NAME, answers=RIGHT, runs=RUNS, law_file="law.py"
+    )
     path = tmp_path / "ada.json"
-    write_hand_in(path, hand_in)
+    write_submission(path, submission)
 
-    assert read_hand_in(path) == hand_in
+    assert read_submission(path) == submission
 
 
 @pytest.mark.parametrize(
@@ -141,12 +143,12 @@ def test_a_hand_in_is_read_as_it_was_written(tmp_path):
         ('{"student": "Ada", "exercise": "a", "points": 9}', "points"),
     ],
 )
-def test_a_wrong_hand_in_names_its_file(tmp_path, text, said):
+def test_a_wrong_submission_names_its_file(tmp_path, text, said):
     path = tmp_path / "ada.json"
     path.write_text(text)
 
     with pytest.raises(ParameterError, match=r"ada\.json") as refused:
-        read_hand_in(path)
+        read_submission(path)
     assert said in str(refused.value)
 
 

@@ -1,4 +1,4 @@
-"""Hand-ins with their runs and laws, as students would give them."""
+"""Submissions with their runs and laws, as students would give them."""
 
 import json
 from pathlib import Path
@@ -17,14 +17,14 @@ title = "A law of your own"
 goal = "Write one."
 
 [[steps]]
-name = "hand-in"
-kind = "hand-in"
+name = "submit"
+kind = "submit"
 title = "Hand it in"
 law = true
 +++
 Write a law.
 
-## hand-in
+## submit
 
 Your file goes in.
 """
@@ -55,11 +55,11 @@ def write_course(folder: Path) -> Path:
     return folder
 
 
-def hand_in_law(folder: Path, law: bytes, student: str = "Ada", **changes: object) -> Path:
+def submit_law(folder: Path, law: bytes, student: str = "Ada", **changes: object) -> Path:
     folder.mkdir(exist_ok=True)
     (folder / "law.py").write_bytes(law)
     told = {"student": student, "exercise": "own-law", "law_file": "law.py"} | changes
-    path = folder / "hand-in.json"
+    path = folder / "submission.json"
     path.write_text(json.dumps(told))
     return path
 

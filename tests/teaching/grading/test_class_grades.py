@@ -9,7 +9,7 @@ import pytest
 from svsa.teaching.course.progress import ProgressStore
 from svsa.teaching.grading import grade as grading
 from svsa.teaching.grading import queue as grader_queue
-from svsa.teaching.grading.class_grades import grade_class, list_handed, open_book
+from svsa.teaching.grading.class_grades import grade_class, list_graded, open_book
 from svsa.teaching.grading.queue import GraderLostError
 from svsa.teaching.grading.report import write_csv
 from svsa.teaching.isolation.refusal import NotIsolatedError
@@ -20,8 +20,8 @@ FL, OWN = "feedback-linearization", "own-law"
 BROKEN = "def law(*given):\n    return spring\n"
 
 
-def hand_in(store, person, student, exercise=FL, law=None, **told):
-    path = store.find_hand_in(exercise, person)
+def submit(store, person, student, exercise=FL, law=None, **told):
+    path = store.find_submission(exercise, person)
     path.parent.mkdir(parents=True, exist_ok=True)
     if law is not None:
         path.with_suffix(".py").write_text(law)
@@ -36,7 +36,7 @@ def end_process(*_):
 
 def give(store, again=False, **more):
     return grade_class(
-        store.list_hand_ins(),
+        store.list_submissions(),
         {name: find_exercise(name) for name in (FL, OWN)},
         store.folder,
         open_book(store),
@@ -48,37 +48,37 @@ def give(store, again=False, **more):
 @pytest.fixture
 def store(tmp_path):
     store = ProgressStore(tmp_path)
-    hand_in(store, "p-2", "Bob")
-    hand_in(store, "p-1", "Ada", answers={"predict-error": 12.0})
+    submit(store, "p-2", "Bob")
+    submit(store, "p-1", "Ada", answers={"predict-error": 12.0})
     return store
 
 
 def test_each_is_graded_once_and_again_the_same(store):
     told = []
-    assert [one.grade for one in list_handed(store)] == [None, None]
+    assert [one.grade for one in list_graded(store)] == [None, None]
     assert give(store, tell=lambda done, total: told.append((done, total)))
     assert told == [(0, 2), (1, 2), (2, 2)]
-    first = list_handed(store)
+    first = list_graded(store)
     assert [(one.person, one.student) for one in first] == [("p-1", "Ada"), ("p-2", "Bob")]
     assert all(one.grade is not None and one.grade.criteria for one in first)
     kept = next((open_book(store).folder / "grades").glob("*.json"))
     changed = json.loads(kept.read_text()) | {"points": 0.5}
     kept.write_text(json.dumps(changed))
     assert give(store)
-    assert 0.5 in [one.grade.points for one in list_handed(store) if one.grade]
+    assert 0.5 in [one.grade.points for one in list_graded(store) if one.grade]
     assert give(store, again=True)
-    assert list_handed(store) == first
+    assert list_graded(store) == first
 
 
 def test_side_by_side_each_gets_the_grade_that_it_gets_alone(store):
-    hand_in(store, "p-3", "Cem", "gone")
+    submit(store, "p-3", "Cem", "gone")
     told = []
     assert give(store, tell=lambda done, total: told.append((done, total)), workers=2)
     assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]
-    beside = list_handed(store)
+    beside = list_graded(store)
     shutil.rmtree(open_book(store).folder)
     assert give(store)
-    assert list_handed(store) == beside
+    assert list_graded(store) == beside
     assert "one of feedback-linearization" in beside[-1].problem
 
 
@@ -87,14 +87,14 @@ def test_a_grader_that_is_lost_refuses_nobody_s_work(store, monkeypatch):
     monkeypatch.setattr(grader_queue, "grade_file", end_process)
     with pytest.raises(GraderLostError, match="from outside"):
         give(store, workers=2)
-    assert [(one.grade, one.problem) for one in list_handed(store)] == [(None, "")] * 2
+    assert [(one.grade, one.problem) for one in list_graded(store)] == [(None, "")] * 2
 
 
 def test_one_of_one_person_alone(store):
-    hand_in(store, "p-[12]", "Eve")
-    assert [one.student for one in list_handed(store, "p-[12]")] == ["Eve"]
-    assert [one.student for one in list_handed(store, "p-1")] == ["Ada"]
-    assert list_handed(store, "*") == []
+    submit(store, "p-[12]", "Eve")
+    assert [one.student for one in list_graded(store, "p-[12]")] == ["Eve"]
+    assert [one.student for one in list_graded(store, "p-1")] == ["Ada"]
+    assert list_graded(store, "*") == []
 
 
 def test_grading_that_is_broken_off_keeps_what_is_done(store):
@@ -104,15 +104,15 @@ def test_grading_that_is_broken_off_keeps_what_is_done(store):
         tell=lambda done, total: told.append(done),
         is_cancelled=lambda: 1 in told,
     )
-    assert sum(one.grade is not None for one in list_handed(store)) == 1
+    assert sum(one.grade is not None for one in list_graded(store)) == 1
 
 
 def test_what_cannot_be_graded_says_why_and_the_others_are(store):
-    hand_in(store, "p-3", "Cem", "gone")
-    path = hand_in(store, "p-4", "Dan")
-    path.write_text("not a hand-in")
+    submit(store, "p-3", "Cem", "gone")
+    path = submit(store, "p-4", "Dan")
+    path.write_text("not a submission")
     assert give(store)
-    found = {one.person: one for one in list_handed(store)}
+    found = {one.person: one for one in list_graded(store)}
     assert "one of feedback-linearization" in found["p-3"].problem
     assert found["p-4"].problem != ""
     assert found["p-3"].grade is found["p-4"].grade is None
@@ -120,7 +120,7 @@ def test_what_cannot_be_graded_says_why_and_the_others_are(store):
 
 
 def test_where_nothing_isolates_a_law_gets_no_grade_until_something_does(store, monkeypatch):
-    hand_in(store, "p-1", "Ada", OWN, BROKEN)
+    submit(store, "p-1", "Ada", OWN, BROKEN)
 
     def refuse():
         raise NotIsolatedError("bwrap is not installed")
@@ -128,24 +128,24 @@ def test_where_nothing_isolates_a_law_gets_no_grade_until_something_does(store, 
     with monkeypatch.context() as patched:
         patched.setattr(grading, "check_isolation", refuse)
         assert give(store)
-    found = {(one.person, one.exercise): one for one in list_handed(store)}
+    found = {(one.person, one.exercise): one for one in list_graded(store)}
     assert "bwrap is not installed" in found["p-1", OWN].problem
     assert found["p-1", OWN].grade is None
     assert found["p-1", FL].grade is not None
 
 
 def test_a_law_that_fails_is_graded_with_the_line_and_its_problem_goes(store):
-    hand_in(store, "p-1", "Ada", OWN, BROKEN)
-    (own,) = [one for one in list_handed(store, "p-1") if one.exercise == OWN]
+    submit(store, "p-1", "Ada", OWN, BROKEN)
+    (own,) = [one for one in list_graded(store, "p-1") if one.exercise == OWN]
     book = open_book(store)
     assert own.problem == ""
     assert give(store)
-    (own,) = [one for one in list_handed(store, "p-1") if one.exercise == OWN]
+    (own,) = [one for one in list_graded(store, "p-1") if one.exercise == OWN]
     assert own.grade is not None
     assert own.grade.is_isolated
     law = [one for one in own.grade.criteria if one.step == "law"]
     assert "line 2: NameError" in law[0].feedback
     book.refuse(own.grade.submission, "It was refused.")
     assert give(store, again=True)
-    assert list_handed(store, "p-1")[-1].problem == ""
+    assert list_graded(store, "p-1")[-1].problem == ""
     assert "Ada,own-law," in write_csv([own.grade])

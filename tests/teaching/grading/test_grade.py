@@ -15,12 +15,12 @@ from svsa.evaluation.ranking.seeds import PUBLIC_SEED
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import parse_exercise
 from svsa.teaching.course.kept_law import MAX_LAW_BYTES
-from svsa.teaching.course.submission import HandIn, write_hand_in
+from svsa.teaching.course.submission import Submission, write_submission
 from svsa.teaching.grading import law_runs
 from svsa.teaching.grading.grade import grade
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.report import write_csv, write_page
-from svsa.teaching.grading.submission import Submission
+from svsa.teaching.grading.submitted_work import SubmittedWork
 from svsa.teaching.isolation import confinement
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.refusal import NotIsolatedError
@@ -30,8 +30,8 @@ from tests.teaching.grading.submissions import (
     GOOD,
     LAW_EXERCISE,
     LAZY,
-    hand_in_law,
     record_step,
+    submit_law,
     write_course,
 )
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
@@ -50,15 +50,15 @@ def run(*arguments):
     return CliRunner().invoke(app, words, catch_exceptions=False, env={"COLUMNS": "200"})
 
 
-def hand_in(law=LAZY, student="Ada"):
-    return Submission(HandIn(student=student, exercise="own-law", law_file="law.py"), law)
+def submit(law=LAZY, student="Ada"):
+    return SubmittedWork(Submission(student=student, exercise="own-law", law_file="law.py"), law)
 
 
 def test_a_run_that_replays_has_its_points(tmp_path):
     catalogue = Catalogue(tmp_path)
     runs = {step: record_step(catalogue, step) for step in ("load", "exact-model")}
-    given = HandIn(student="Ada", exercise=EXERCISE, runs=runs)
-    found = grade(Submission(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
+    given = Submission(student="Ada", exercise=EXERCISE, runs=runs)
+    found = grade(SubmittedWork(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
     assert found.seed is None
     assert found.points > 0
     assert {one.step for one in found.criteria if one.points} >= {"load"}
@@ -68,8 +68,8 @@ def test_a_run_of_which_one_bit_was_changed_is_refused(tmp_path):
     """Not the run's text but its simulation decides."""
     catalogue = Catalogue(tmp_path)
     runs = {"load": record_step(catalogue, "load", flip=True)}
-    given = HandIn(student="Ada", exercise=EXERCISE, runs=runs)
-    found = grade(Submission(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
+    given = Submission(student="Ada", exercise=EXERCISE, runs=runs)
+    found = grade(SubmittedWork(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
     assert found.points == 0
     told = [one.feedback for one in found.criteria if one.step == "load"]
     assert told
@@ -86,11 +86,11 @@ def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
 
     monkeypatch.setattr("svsa.teaching.grading.grade.run_draws", run_draws)
     for one, secret in (
-        (hand_in(), SECRET),
-        (hand_in(), SECRET),
-        (hand_in(), SECRET[::-1]),
-        (hand_in(GOOD), SECRET),
-        (hand_in(student="Bo"), SECRET),
+        (submit(), SECRET),
+        (submit(), SECRET),
+        (submit(), SECRET[::-1]),
+        (submit(GOOD), SECRET),
+        (submit(student="Bo"), SECRET),
     ):
         grade(one, OWN_LAW, None, secret)
     assert drawn[0] == drawn[1] == drawn[4]
@@ -99,7 +99,7 @@ def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
 
 
 def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):
-    good, lazy = (grade(hand_in(law), OWN_LAW, tmp_path, SECRET) for law in (GOOD, LAZY))
+    good, lazy = (grade(submit(law), OWN_LAW, tmp_path, SECRET) for law in (GOOD, LAZY))
     assert good.is_isolated
     assert good.max_points == lazy.max_points == 10
     assert good.points > 5 > lazy.points
@@ -107,17 +107,17 @@ def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):
 
 
 def test_a_law_that_fails_is_told_why_and_not_asked_again(tmp_path):
-    found = grade(hand_in(b"def law(*given): return 1 / 0"), OWN_LAW, tmp_path, SECRET)
+    found = grade(submit(b"def law(*given): return 1 / 0"), OWN_LAW, tmp_path, SECRET)
     assert found.points == 0
     assert "ZeroDivisionError" in found.criteria[0].feedback
 
 
 def test_no_law_has_no_points_and_a_law_that_nobody_asked_for_is_refused(tmp_path):
-    given = HandIn(student="Ada", exercise="own-law")
-    assert grade(Submission(given, None), OWN_LAW, tmp_path, SECRET).points == 0
-    given = HandIn(student="Ada", exercise=EXERCISE, law_file="law.py")
+    given = Submission(student="Ada", exercise="own-law")
+    assert grade(SubmittedWork(given, None), OWN_LAW, tmp_path, SECRET).points == 0
+    given = Submission(student="Ada", exercise=EXERCISE, law_file="law.py")
     with pytest.raises(svsa.ParameterError, match="asks for no law"):
-        grade(Submission(given, LAZY), find_exercise(EXERCISE), tmp_path, SECRET)
+        grade(SubmittedWork(given, LAZY), find_exercise(EXERCISE), tmp_path, SECRET)
 
 
 def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_path, monkeypatch):
@@ -125,8 +125,8 @@ def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_p
     with monkeypatch.context() as patched:
         patched.setattr(confinement.shutil, "which", lambda name: None)
         with pytest.raises(NotIsolatedError, match="cannot be isolated"):
-            grade(hand_in(), OWN_LAW, tmp_path, SECRET)
-        practice = grade(hand_in(), OWN_LAW, tmp_path, None)
+            grade(submit(), OWN_LAW, tmp_path, SECRET)
+        practice = grade(submit(), OWN_LAW, tmp_path, None)
     check_isolation.cache_clear()
     assert not practice.is_isolated
     assert "not isolated" in write_page([practice])
@@ -136,23 +136,23 @@ def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_p
 
 def test_a_law_stays_in_its_folder(tmp_path):
     (tmp_path / "other.py").write_bytes(GOOD)
-    path = hand_in_law(tmp_path / "ada", LAZY, law_file="../other.py")
-    with pytest.raises(svsa.ParameterError, match="a file beside the hand-in"):
-        Submission.read(path)
+    path = submit_law(tmp_path / "ada", LAZY, law_file="../other.py")
+    with pytest.raises(svsa.ParameterError, match="a file beside the submission"):
+        SubmittedWork.read(path)
     (tmp_path / "ada" / "link.py").symlink_to(tmp_path / "other.py")
-    path = hand_in_law(tmp_path / "ada", LAZY, law_file="link.py")
-    with pytest.raises(svsa.ParameterError, match="a file beside the hand-in"):
-        Submission.read(path)
-    path = hand_in_law(tmp_path / "ada", b"#" * (MAX_LAW_BYTES + 1))
+    path = submit_law(tmp_path / "ada", LAZY, law_file="link.py")
+    with pytest.raises(svsa.ParameterError, match="a file beside the submission"):
+        SubmittedWork.read(path)
+    path = submit_law(tmp_path / "ada", b"#" * (MAX_LAW_BYTES + 1))
     with pytest.raises(svsa.ParameterError, match="at most 65536 bytes"):
-        Submission.read(path)
+        SubmittedWork.read(path)
 
 
 def test_a_class_is_graded_once_and_told_as_page_and_csv(tmp_path):
     """What does not fit is refused by name, and the others have their grades."""
     course, book = write_course(tmp_path / "course"), tmp_path / "class"
-    ada = hand_in_law(tmp_path / "ada", LAZY, "<b>Ada</b>")
-    eve = hand_in_law(tmp_path / "eve", LAZY, "=Eve", exercise="none-such")
+    ada = submit_law(tmp_path / "ada", LAZY, "<b>Ada</b>")
+    eve = submit_law(tmp_path / "eve", LAZY, "=Eve", exercise="none-such")
     page, table = tmp_path / "grades.html", tmp_path / "grades.csv"
     options = ("--class", book, "--course", course, "--runs", tmp_path, "--page", page,
                "--csv", table)  # fmt: skip
@@ -183,9 +183,9 @@ def test_many_are_graded_side_by_side_and_one_that_does_not_fit_stops_none(tmp_p
     for number, exercise in enumerate(("none-such", EXERCISE, EXERCISE)):
         folder = tmp_path / str(number)
         folder.mkdir()
-        files.append(folder / "hand-in.json")
-        hand_in = HandIn(student=f"Student {number}", exercise=exercise)
-        write_hand_in(files[-1], hand_in)
+        files.append(folder / "submission.json")
+        submission = Submission(student=f"Student {number}", exercise=exercise)
+        write_submission(files[-1], submission)
     answer = run(*files, "--class", book, "--course", course, "--runs", tmp_path)
     assert answer.exit_code == 1
     assert "none-such" in answer.output
@@ -193,7 +193,7 @@ def test_many_are_graded_side_by_side_and_one_that_does_not_fit_stops_none(tmp_p
 
 
 def test_a_class_or_practice_is_said(tmp_path):
-    path = hand_in_law(tmp_path / "ada", LAZY)
+    path = submit_law(tmp_path / "ada", LAZY)
     with pytest.raises(svsa.ParameterError, match="or else --practice"):
         run(path)
     with pytest.raises(svsa.ParameterError, match="left out with --practice"):

@@ -1,4 +1,4 @@
-"""A law is tried before it is handed in, in isolation, and told plainly what came of it."""
+"""A law is tried before it is submitted, in isolation, and told plainly what came of it."""
 
 import pytest
 

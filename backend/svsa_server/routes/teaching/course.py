@@ -1,4 +1,4 @@
-"""The course: exercises, one's progress in them, runs judged, and handing in."""
+"""The course: exercises, one's progress in them, runs judged, and submission."""
 
 import asyncio
 from collections.abc import Callable
@@ -14,7 +14,7 @@ from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
 from svsa.teaching.course.exercise import Exercise
-from svsa.teaching.course.judge import judge_hand_in, judge_step
+from svsa.teaching.course.judge import judge_step, judge_submission
 from svsa.teaching.course.judgement import CriterionResult, Judgement
 from svsa.teaching.course.kept_law import check_law_length
 from svsa.teaching.course.progress import (
@@ -29,7 +29,7 @@ from svsa.teaching.course.progress import (
     visit_step,
 )
 from svsa.teaching.course.steps import Experiment, Predict
-from svsa.teaching.course.submission import write_hand_in
+from svsa.teaching.course.submission import write_submission
 from svsa.teaching.grading import law_trial
 from svsa_server.access.roles import Person
 from svsa_server.problems import UnknownError
@@ -41,12 +41,12 @@ from svsa_server.schemas.teaching.course import (
     CourseState,
     CriterionState,
     ExerciseState,
-    HandInRequest,
     JudgementState,
     LawRequest,
     PlaceRequest,
     RunRequest,
     SetupRequest,
+    SubmissionRequest,
     describe_criterion,
     describe_exercise,
     describe_summary,
@@ -177,7 +177,7 @@ async def try_law(
 ) -> ExerciseState:
     """Try a law in a process of its own on a scenario that everybody may see, and keep it.
 
-    The one that was kept last is handed in. It is kept also where it fails, or where this machine
+    The one that was kept last is submitted. It is kept also where it fails, or where this machine
     cannot isolate it and leaves it untried.
     """
     found = _find_exercise(request, exercise)
@@ -189,13 +189,13 @@ async def try_law(
     )
 
 
-@router.post("/course/{exercise}/hand-in", status_code=201)
-def hand_in(
+@router.post("/course/{exercise}/submission", status_code=201)
+def submit(
     request: Request,
     person: NamedPerson,
     runs: Runs,
     exercise: ExerciseName,
-    wanted: Annotated[HandInRequest, Body(examples=[{"student": "Ada"}])],
+    wanted: Annotated[SubmissionRequest, Body(examples=[{"student": "Ada"}])],
 ) -> JudgementState:
     """Hand in what is kept of an exercise, once; it is judged from its runs, and stands in a file.
 
@@ -206,22 +206,22 @@ def hand_in(
 
     def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
         missing = find_missing(found, progress)
-        if progress.handed_in is not None:
-            raise StateError(f"Exercise {exercise!r} was handed in already.")
+        if progress.submitted_at is not None:
+            raise StateError(f"Exercise {exercise!r} was submitted already.")
         if missing:
             raise StateError(f"Not done yet: {', '.join(missing)}.")
         student = person.name or wanted.student.strip() or _AT_HOME
-        given = progress.build_hand_in(exercise, student)
-        path = store.find_hand_in(exercise, person.id)
+        given = progress.build_submission(exercise, student)
+        path = store.find_submission(exercise, person.id)
         path.parent.mkdir(parents=True, exist_ok=True)
         if progress.law is not None:
             law = path.with_suffix(".py")
             law.write_bytes(progress.law.text.encode())
             given = given.changed(law_file=law.name)
-        judged.append(judge_hand_in(found, given, lambda run: _open_own(runs, person, run)))
-        write_hand_in(path, given)
+        judged.append(judge_submission(found, given, lambda run: _open_own(runs, person, run)))
+        write_submission(path, given)
         now = datetime.now(UTC).isoformat(timespec="seconds")
-        return progress.changed(handed_in=now, points=judged[0].points)
+        return progress.changed(submitted_at=now, points=judged[0].points)
 
     _change(request, person, exercise, keep)
     one = judged[0]

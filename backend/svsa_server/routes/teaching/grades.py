@@ -7,7 +7,7 @@ from fastapi import Body, Query, Request
 from fastapi.responses import HTMLResponse, Response
 
 from svsa.errors import StateError
-from svsa.teaching.grading.class_grades import BOOK_FOLDER, list_grades, list_handed
+from svsa.teaching.grading.class_grades import BOOK_FOLDER, list_graded, list_grades
 from svsa.teaching.grading.report import write_csv, write_page
 from svsa.teaching.isolation.probe import find_isolation_problem
 from svsa_server.access.owned import Owned
@@ -20,10 +20,10 @@ from svsa_server.schemas.evaluation.job import JobState, describe_job
 from svsa_server.schemas.teaching.grades import (
     GradesState,
     GradingRequest,
-    HandedState,
+    SubmissionState,
     describe_exercises,
-    describe_handed,
     describe_students,
+    describe_submission,
 )
 
 KIND = "grading"
@@ -39,12 +39,12 @@ _Person = Annotated[
 
 @router.get("")
 async def read_grades(request: Request) -> GradesState:
-    """Who handed in what, its points by criterion, and why something has no grade."""
-    handed = await asyncio.to_thread(list_handed, find_store(request))
+    """Who submitted what, its points by criterion, and why something has no grade."""
+    submitted = await asyncio.to_thread(list_graded, find_store(request))
     return GradesState(
         not_isolated=await asyncio.to_thread(find_isolation_problem),
         exercises=describe_exercises(list(request.app.state.course.values())),
-        students=describe_students(handed),
+        students=describe_students(submitted),
     )
 
 
@@ -54,16 +54,16 @@ async def grade_class(
     person: NamedPerson,
     wanted: Annotated[GradingRequest, Body(examples=[{"again": False}])],
 ) -> JobState:
-    """Grade what was handed in and has no grade, or all of it again: a job.
+    """Grade what was submitted and has no grade, or all of it again: a job.
 
     Runs are simulated again from their records, laws run in isolation on draws of the class's
     secret and the submission: graded again, a submission has the grade that it had. Where nothing
     isolates, a law gets no grade, and the table says why.
     """
     store = find_store(request)
-    files = tuple(await asyncio.to_thread(store.list_hand_ins))
+    files = tuple(await asyncio.to_thread(store.list_submissions))
     if not files:
-        raise StateError("Nothing was handed in yet: there is nothing to grade.")
+        raise StateError("Nothing was submitted yet: there is nothing to grade.")
     asked = Asked(
         files,
         request.app.state.course,
@@ -78,27 +78,27 @@ async def grade_class(
 @router.get("/class.csv", response_class=Response, responses=_CSV)
 async def download_grades(request: Request) -> Response:
     """All grades, a line each, with a column for every criterion."""
-    handed = await asyncio.to_thread(list_handed, find_store(request))
+    submitted = await asyncio.to_thread(list_graded, find_store(request))
     named = {"Content-Disposition": 'attachment; filename="grades.csv"'}
-    return Response(write_csv(list(list_grades(handed))), media_type="text/csv", headers=named)
+    return Response(write_csv(list(list_grades(submitted))), media_type="text/csv", headers=named)
 
 
 @router.get("/class.html", response_class=HTMLResponse)
 async def show_grades(request: Request, person: _Person = "") -> HTMLResponse:
     """The same as a page to be read or printed, of the class or of one student."""
-    handed = await asyncio.to_thread(list_handed, find_store(request), person or None)
-    return HTMLResponse(write_page(list(list_grades(handed))), headers=_POLICY)
+    submitted = await asyncio.to_thread(list_graded, find_store(request), person or None)
+    return HTMLResponse(write_page(list(list_grades(submitted))), headers=_POLICY)
 
 
 @router.get("/mine")
-async def read_own_grades(request: Request, person: NamedPerson) -> list[HandedState]:
-    """What one handed in oneself, with points and reasons."""
-    handed = await asyncio.to_thread(list_handed, find_store(request), person.id)
-    return [describe_handed(one) for one in handed]
+async def read_own_grades(request: Request, person: NamedPerson) -> list[SubmissionState]:
+    """What one submitted oneself, with points and reasons."""
+    submitted = await asyncio.to_thread(list_graded, find_store(request), person.id)
+    return [describe_submission(one) for one in submitted]
 
 
 @router.get("/mine.html", response_class=HTMLResponse)
 async def show_own_grades(request: Request, person: NamedPerson) -> HTMLResponse:
     """The same as a page."""
-    handed = await asyncio.to_thread(list_handed, find_store(request), person.id)
-    return HTMLResponse(write_page(list(list_grades(handed))), headers=_POLICY)
+    submitted = await asyncio.to_thread(list_graded, find_store(request), person.id)
+    return HTMLResponse(write_page(list(list_grades(submitted))), headers=_POLICY)

@@ -13,7 +13,9 @@ class JobState(BaseModel):
     title: str = Field(description="What it is about")
     created: str = Field(description="When it was asked for, ISO 8601 in UTC")
     status: Status = Field(description="cancelled: stopped before its end, what is done is kept")
-    done: int = Field(description="How much is done, in what it counts: candidates, runs, hand-ins")
+    done: int = Field(
+        description="How much is done, in what it counts: candidates, runs, submissions"
+    )
     total: int = Field(description="Of how much; 0 before it is begun")
     rate_per_s: float | None = Field(
         description="How much a second lately; null while nobody can say"

@@ -9,7 +9,7 @@ from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judgement import CriterionResult
 from svsa.teaching.course.kept_law import MAX_LAW_BYTES, KeptLaw
 from svsa.teaching.course.progress import ExerciseProgress, find_done, find_missing
-from svsa.teaching.course.steps import Experiment, Explain, HandInStep, Predict, Step
+from svsa.teaching.course.steps import Experiment, Explain, Predict, Step, SubmitStep
 from svsa.teaching.course.submission import LONGEST_NAME, Answer, StepName
 from svsa.teaching.course.text import render_text
 from svsa.teaching.grading.law_runs import POINTS
@@ -43,8 +43,8 @@ class RunRequest(Checked):
     )
 
 
-class HandInRequest(Checked):
-    """Who hands in; in a class it is the person who asks."""
+class SubmissionRequest(Checked):
+    """Who submits; in a class it is the person who asks."""
 
     student: str = quantity("", "Name", max_length=LONGEST_NAME, default="")
 
@@ -95,7 +95,7 @@ class StepState(BaseModel):
     """A step, what is known of it, and what may be done."""
 
     name: str
-    kind: Literal["read", "predict", "experiment", "explain", "hand-in"]
+    kind: Literal["read", "predict", "experiment", "explain", "submit"]
     title: str
     html: str = Field(description="Its text; what is of class math is TeX")
     max_points: float
@@ -111,7 +111,7 @@ class StepState(BaseModel):
     bench: BenchStepState | None = Field(
         description="How it is run on a bench; null where it is simulated only"
     )
-    law: bool = Field(default=False, description="Whether a law's file is handed in")
+    law: bool = Field(default=False, description="Whether a law's file is submitted")
     answer: Answer | None = None
     is_kept: bool = Field(description="Whether the answer cannot be changed any more")
     begun: bool
@@ -133,8 +133,8 @@ class ExerciseSummary(BaseModel):
     steps: int
     done: int
     at: str | None = Field(description="Step that was looked at last")
-    handed_in: str | None = Field(description="When, as ISO 8601; null where it was not")
-    points: float | None = Field(description="Of the hand-in")
+    submitted_at: str | None = Field(description="When, as ISO 8601; null where it was not")
+    points: float | None = Field(description="Of the submission")
     changes: int = Field(description="How often one's progress in it was changed")
 
 
@@ -142,8 +142,8 @@ class ExerciseState(ExerciseSummary):
     """An exercise with its steps."""
 
     html: str
-    missing: list[str] = Field(description="Steps that are to be done before it is handed in")
-    law: KeptLaw | None = Field(description="The law that was tried last, which is handed in")
+    missing: list[str] = Field(description="Steps that are to be done before it is submitted")
+    law: KeptLaw | None = Field(description="The law that was tried last, which is submitted")
     parts: list[StepState]
 
 
@@ -154,7 +154,7 @@ class CourseState(BaseModel):
 
 
 class JudgementState(BaseModel):
-    """A hand-in as it was judged."""
+    """A submission as it was judged."""
 
     exercise: str
     points: float
@@ -175,7 +175,7 @@ def describe_summary(exercise: Exercise, progress: ExerciseProgress) -> Exercise
         steps=len(exercise.steps),
         done=len(find_done(exercise, progress)),
         at=progress.at,
-        handed_in=progress.handed_in,
+        submitted_at=progress.submitted_at,
         points=progress.points,
         changes=progress.changes,
     )
@@ -201,7 +201,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
         html=render_text(step.text),
         max_points=0.0,
         answer=known.answer,
-        is_kept=progress.handed_in is not None,
+        is_kept=progress.submitted_at is not None,
         begun=known.begun,
         run_id=known.run,
         bench=None,
@@ -228,7 +228,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
             state.options = [OptionState(name=one.name, text=one.text) for one in step.options]
             state.max_points = step.points
             state.is_kept = state.is_kept or known.answer is not None
-        case HandInStep():
+        case SubmitStep():
             state.law = step.law
     return state
 

@@ -4,18 +4,18 @@ from pydantic import BaseModel, Field
 
 from svsa.inputs.checked import Checked, Flag, quantity
 from svsa.teaching.course.exercise import Exercise
-from svsa.teaching.grading.class_grades import Handed
+from svsa.teaching.grading.class_grades import GradedSubmission
 from svsa.teaching.grading.grade import Grade
 
 
 class GradingRequest(Checked):
-    """What is to be graded: what was handed in and has no grade, or all of it."""
+    """What is to be graded: what was submitted and has no grade, or all of it."""
 
     again: Flag = quantity("", "Run again also what has its grade", default=False)
 
 
-class HandedState(BaseModel):
-    """What somebody handed in of an exercise."""
+class SubmissionState(BaseModel):
+    """What somebody submitted of an exercise."""
 
     exercise: str
     grade: Grade | None = Field(description="Null where it is not graded yet")
@@ -23,11 +23,11 @@ class HandedState(BaseModel):
 
 
 class StudentState(BaseModel):
-    """A student with what was handed in."""
+    """A student with what was submitted."""
 
     person: str = Field(description="Id of the person")
     name: str
-    handed: list[HandedState]
+    submissions: list[SubmissionState]
 
 
 class GradedExercise(BaseModel):
@@ -48,19 +48,19 @@ class GradesState(BaseModel):
     students: list[StudentState]
 
 
-def describe_handed(one: Handed) -> HandedState:
-    """A hand-in on the wire."""
-    return HandedState(exercise=one.exercise, grade=one.grade, problem=one.problem)
+def describe_submission(one: GradedSubmission) -> SubmissionState:
+    """A submission on the wire."""
+    return SubmissionState(exercise=one.exercise, grade=one.grade, problem=one.problem)
 
 
-def describe_students(handed: list[Handed]) -> list[StudentState]:
-    """By person, each under the name of the last hand-in."""
+def describe_students(submitted: list[GradedSubmission]) -> list[StudentState]:
+    """By person, each under the name of the last submission."""
     students: dict[str, StudentState] = {}
-    for one in handed:
+    for one in submitted:
         known = students.setdefault(
-            one.person, StudentState(person=one.person, name=one.student, handed=[])
+            one.person, StudentState(person=one.person, name=one.student, submissions=[])
         )
-        known.handed.append(describe_handed(one))
+        known.submissions.append(describe_submission(one))
     return list(students.values())
 
 

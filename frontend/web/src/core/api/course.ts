@@ -30,8 +30,8 @@ export const checkRun = (exercise: string, step: string, run: string) =>
   >;
 export const putLaw = (exercise: string, law: string) =>
   request("put", pathOf(exercise, "/law"), { text: law }, LONG_WAIT_MS) as Promise<Exercise>;
-export const handIn = (exercise: string, student: string) =>
-  request("post", pathOf(exercise, "/hand-in"), { student }, LONG_WAIT_MS) as Promise<Judgement>;
+export const submit = (exercise: string, student: string) =>
+  request("post", pathOf(exercise, "/submission"), { student }, LONG_WAIT_MS) as Promise<Judgement>;
 /** Sets this page's session as an experiment asks, at t = 0 and paused. */
 export const setUpStep = (exercise: string, step: string) =>
   request("post", `${SESSION}/exercise`, { exercise, step }) as Promise<SessionState>;

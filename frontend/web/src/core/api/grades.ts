@@ -7,8 +7,8 @@ type Schemas = components["schemas"];
 
 export type Grades = Schemas["GradesState"];
 export type Student = Schemas["StudentState"];
-export type Handed = Schemas["HandedState"];
-export type Grade = NonNullable<Handed["grade"]>;
+export type Submission = Schemas["SubmissionState"];
+export type Grade = NonNullable<Submission["grade"]>;
 export type Criterion = Grade["criteria"][number];
 
 /** Whether this machine isolates a law is tried before the first answer. */
@@ -17,7 +17,7 @@ const LONG_WAIT_MS = 60_000;
 export const readGrades = () =>
   request("get", "grades", undefined, LONG_WAIT_MS) as Promise<Grades>;
 export const gradeClass = (again: boolean) => request("post", "grades", { again }) as Promise<Job>;
-export const readOwnGrades = () => request("get", "grades/mine") as Promise<Handed[]>;
+export const readOwnGrades = () => request("get", "grades/mine") as Promise<Submission[]>;
 
 const addressOf = (path: string): string => new URL(`grades/${path}`, API).href;
 export const GRADES_CSV = addressOf("class.csv");

@@ -2,9 +2,9 @@
 export const gradesText = {
   grades: {
     title: "Grades",
-    lead: "What was handed in, run again where nobody can peek: runs bit for bit from their records, laws in a process of their own on draws that come from the class's secret and the submission.",
+    lead: "What was submitted, run again where nobody can peek: runs bit for bit from their records, laws in a process of their own on draws that come from the class's secret and the submission.",
     loading: "The grades are on their way …",
-    empty: "Nothing was handed in yet",
+    empty: "Nothing was submitted yet",
     emptyHint: "Once somebody hands in an exercise in Learn, it stands here to be graded.",
     notIsolated: "No law is graded for a class on this machine; what has no law is graded.",
     table: "Points, a student a row, an exercise a column",
@@ -28,7 +28,7 @@ export const gradesText = {
     points: "Points",
     told: "Told",
     grade: (count: number) => (count === 0 ? "All is graded" : `Grade ${count}`),
-    gradeHint: "What was handed in and has no grade",
+    gradeHint: "What was submitted and has no grade",
     again: "Grade again",
     againHint: "Run all of it again: the same submission gets the same grade",
     csv: "CSV",

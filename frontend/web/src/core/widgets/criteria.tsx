@@ -32,7 +32,7 @@ export function Criteria({ grade }: { grade: Grade }) {
   );
 }
 
-/** What was verified of the runs that were handed in. */
+/** What was verified of the runs that were submitted. */
 export function VerifiedRuns({ grade }: { grade: Grade }) {
   return (
     <>

@@ -1,10 +1,10 @@
-/** What was done is handed in. */
+/** What was done is submitted. */
 import { useState } from "preact/hooks";
 import { isClass } from "../../core/state/access";
 import { personName } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { PlaceLink } from "../../runs/list/placelink";
-import { handIn, isBusy } from "./lesson";
+import { isBusy, submit } from "./lesson";
 import { OwnGrade } from "./owngrade";
 import { OwnLaw } from "./ownlaw";
 import type { Task } from "./task";
@@ -13,11 +13,11 @@ const words = text.lesson;
 
 export function Ending({ of, exercise, onDone }: Task) {
   const [name, setName] = useState(personName.peek());
-  if (exercise.handed_in !== null) {
+  if (exercise.submitted_at !== null) {
     return (
       <>
-        <p class="lesson-handed" role="status">
-          <strong>{words.handedIn(exercise.points ?? 0, exercise.max_points)}</strong>
+        <p class="lesson-submission" role="status">
+          <strong>{words.submitted(exercise.points ?? 0, exercise.max_points)}</strong>
           {of.law && <span>{words.law.later(exercise.law_points)}</span>}
         </p>
         <OwnGrade exercise={exercise.name} />
@@ -32,7 +32,7 @@ export function Ending({ of, exercise, onDone }: Task) {
         class="lesson-form"
         onSubmit={async (event) => {
           event.preventDefault();
-          await handIn(name);
+          await submit(name);
           requestAnimationFrame(onDone);
         }}
       >
@@ -69,12 +69,12 @@ export function Ending({ of, exercise, onDone }: Task) {
         <button
           type="submit"
           class="button is-primary"
-          title={words.handInHint}
+          title={words.submitHint}
           disabled={missing.length > 0 || isBusy.value}
         >
-          {words.handIn}
+          {words.submit}
         </button>
-        <small>{words.handInHint}</small>
+        <small>{words.submitHint}</small>
       </form>
     </>
   );

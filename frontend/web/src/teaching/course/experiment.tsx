@@ -78,7 +78,7 @@ export function Trial({ of, exercise, onDone }: Task) {
     isBusy.value ||
     !mayCommand.value ||
     !isDoneHere(of, bench.value) ||
-    exercise.handed_in !== null;
+    exercise.submitted_at !== null;
   const { mayBeSet, mayRun } = readinessOf(bench.value, isHeld.value);
   const asked = askedOf(of, bench.value);
   const isFree = of.free.length > 0;

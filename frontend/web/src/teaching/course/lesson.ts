@@ -6,7 +6,7 @@ import {
   checkRun,
   type Exercise,
   type ExerciseSummary,
-  handIn as giveIn,
+  submit as giveIn,
   listCourse,
   openOwnSession,
   putAnswer,
@@ -217,13 +217,13 @@ const isFinished = (run: string): Promise<boolean> =>
     () => false,
   );
 
-/** Tried by the server, and kept there until it is handed in. */
+/** Tried by the server, and kept there until it is submitted. */
 export async function tryLaw(law: string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
   show(await attempt(() => putLaw(name, law)));
 }
 
-export async function handIn(student: string): Promise<void> {
+export async function submit(student: string): Promise<void> {
   const name = exercise.peek()?.name ?? "";
   const judgement = await attempt(() => giveIn(name, student));
   if (judgement === null) return;

@@ -1,6 +1,6 @@
-/** The grade of what was handed in, once there is one. */
+/** The grade of what was submitted, once there is one. */
 import { useEffect, useState } from "preact/hooks";
-import { type Handed, OWN_PAGE, readOwnGrades } from "../../core/api/grades";
+import { OWN_PAGE, readOwnGrades, type Submission } from "../../core/api/grades";
 import { explain } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
@@ -8,13 +8,13 @@ import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteri
 const words = text.grades;
 
 export function OwnGrade({ exercise }: { exercise: string }) {
-  const [handed, setHanded] = useState<Handed | null>(null);
+  const [submission, setSubmission] = useState<Submission | null>(null);
   const [problem, setProblem] = useState("");
   useEffect(() => {
     let isGone = false;
     readOwnGrades().then(
       (all) => {
-        if (!isGone) setHanded(all.find((one) => one.exercise === exercise) ?? null);
+        if (!isGone) setSubmission(all.find((one) => one.exercise === exercise) ?? null);
       },
       (error) => {
         if (!isGone) setProblem(explain(error));
@@ -25,8 +25,8 @@ export function OwnGrade({ exercise }: { exercise: string }) {
     };
   }, [exercise]);
   if (problem !== "") return <p class="problem">{problem}</p>;
-  if (handed === null) return null;
-  const { grade } = handed;
+  if (submission === null) return null;
+  const { grade } = submission;
   return (
     <section class="lesson-grade" aria-labelledby="lesson-grade">
       <h4 id="lesson-grade">
@@ -34,7 +34,7 @@ export function OwnGrade({ exercise }: { exercise: string }) {
           ? words.noOwn
           : words.own(formatPoints(grade.points), formatPoints(grade.max_points))}
       </h4>
-      {grade === null && <p class="hint">{handed.problem || words.waits}</p>}
+      {grade === null && <p class="hint">{submission.problem || words.waits}</p>}
       {grade !== null && (
         <>
           <Criteria grade={grade} />

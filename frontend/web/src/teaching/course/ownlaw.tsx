@@ -1,4 +1,4 @@
-/** A law of one's own: a file or a text, tried at once, and kept until it is handed in. */
+/** A law of one's own: a file or a text, tried at once, and kept until it is submitted. */
 import { useMemo, useState } from "preact/hooks";
 import type { Exercise } from "../../core/api/course";
 import { text } from "../../core/text/en";

@@ -13,7 +13,7 @@ const words = text.learning;
 const lesson = text.lesson;
 
 function ExerciseCard({ of }: { of: ExerciseSummary }) {
-  const isDone = of.handed_in !== null;
+  const isDone = of.submitted_at !== null;
   const word = isDone ? lesson.look : of.done > 0 ? lesson.goOn : lesson.begin;
   return (
     <li class="exercise-card">
@@ -31,7 +31,9 @@ function ExerciseCard({ of }: { of: ExerciseSummary }) {
       />
       <p class="exercise-foot">
         <span>
-          {isDone ? lesson.handedIn(of.points ?? 0, of.max_points) : lesson.done(of.done, of.steps)}
+          {isDone
+            ? lesson.submitted(of.points ?? 0, of.max_points)
+            : lesson.done(of.done, of.steps)}
         </span>
         <PlaceLink
           class={isDone ? "button" : "button is-primary"}

@@ -48,7 +48,7 @@ function Task({ found, at }: { found: Exercise; at: Step }) {
       {at.kind === "predict" && <Prediction {...given} />}
       {at.kind === "experiment" && <Trial {...given} />}
       {at.kind === "explain" && <Question {...given} />}
-      {at.kind === "hand-in" && <Ending {...given} />}
+      {at.kind === "submit" && <Ending {...given} />}
     </div>
   );
 }

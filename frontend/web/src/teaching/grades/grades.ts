@@ -1,6 +1,6 @@
 /** The grades of a class, what of them is looked at, and the grading that is under way. */
 import { computed, signal } from "@preact/signals";
-import { gradeClass, type Handed, readGrades, type Student } from "../../core/api/grades";
+import { gradeClass, readGrades, type Student, type Submission } from "../../core/api/grades";
 import { followResults } from "../../core/jobs/results";
 
 const results = followResults("grading", readGrades);
@@ -8,33 +8,33 @@ export const { found: grades, problem, job, open: openGrades, leave, cancel } = 
 /** Person and exercise whose points are shown by criterion. */
 export const picked = signal<{ person: string; exercise: string } | null>(null);
 
-export const handedBy = (student: Student, exercise: string): Handed | undefined =>
-  student.handed.find((one) => one.exercise === exercise);
+export const submissionOf = (student: Student, exercise: string): Submission | undefined =>
+  student.submissions.find((one) => one.exercise === exercise);
 
 export const shown = computed(() => {
   const at = picked.value;
   const student = grades.value?.students.find(({ person }) => person === at?.person);
-  const handed = student && at && handedBy(student, at.exercise);
-  return student && handed ? { student, handed } : null;
+  const submission = student && at && submissionOf(student, at.exercise);
+  return student && submission ? { student, submission } : null;
 });
 
-/** Exercises that somebody handed in, in their order. */
+/** Exercises that somebody submitted, in their order. */
 export const columns = computed(() =>
   (grades.value?.exercises ?? []).filter(({ name }) =>
-    grades.value?.students.some((student) => handedBy(student, name) !== undefined),
+    grades.value?.students.some((student) => submissionOf(student, name) !== undefined),
   ),
 );
 
-/** How many hand-ins have no grade. */
+/** How many submissions have no grade. */
 export const ungraded = computed(() =>
   (grades.value?.students ?? [])
-    .flatMap(({ handed }) => handed)
+    .flatMap(({ submissions }) => submissions)
     .reduce((count, { grade }) => count + (grade === null ? 1 : 0), 0),
 );
 
 /** Points of all that is graded, null where nothing is. */
 export function sumOf(student: Student): { points: number; most: number } | null {
-  const given = student.handed.flatMap(({ grade }) => grade ?? []);
+  const given = student.submissions.flatMap(({ grade }) => grade ?? []);
   if (given.length === 0) return null;
   return {
     points: given.reduce((sum, one) => sum + one.points, 0),

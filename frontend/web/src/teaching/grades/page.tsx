@@ -2,9 +2,9 @@ import { useEffect } from "preact/hooks";
 import {
   GRADES_CSV,
   GRADES_PAGE,
-  type Handed,
   pageOfStudent,
   type Student,
+  type Submission,
 } from "../../core/api/grades";
 import { isGoing, JobProgress } from "../../core/jobs/progress";
 import { text } from "../../core/text/en";
@@ -14,41 +14,41 @@ import {
   columns,
   gradeAll,
   grades,
-  handedBy,
   job,
   leave,
   openGrades,
   picked,
   problem,
   shown,
+  submissionOf,
   sumOf,
   ungraded,
 } from "./grades";
 
 const words = text.grades;
 
-/** What of a hand-in stands in the table. */
-function tellHanded({ grade, problem: why }: Handed): string {
+/** What of a submission stands in the table. */
+function describeSubmission({ grade, problem: why }: Submission): string {
   if (grade !== null) return words.of(formatPoints(grade.points), formatPoints(grade.max_points));
   return why === "" ? words.ungraded : words.refused;
 }
 
 function Cell({ student, exercise }: { student: Student; exercise: string }) {
-  const handed = handedBy(student, exercise);
-  if (handed === undefined) return <td class="grades-none">{words.nothing}</td>;
+  const submission = submissionOf(student, exercise);
+  if (submission === undefined) return <td class="grades-none">{words.nothing}</td>;
   const at = picked.value;
   const isShown = at?.person === student.person && at.exercise === exercise;
   return (
     <td>
       <button
         type="button"
-        class={handed.problem === "" ? "" : "is-refused"}
+        class={submission.problem === "" ? "" : "is-refused"}
         aria-pressed={isShown}
         onClick={() => {
           picked.value = isShown ? null : { person: student.person, exercise };
         }}
       >
-        {tellHanded(handed)}
+        {describeSubmission(submission)}
       </button>
     </td>
   );
@@ -105,21 +105,21 @@ function Table() {
 function Picked() {
   const now = shown.value;
   if (now === null) return <p class="hint">{words.pick}</p>;
-  const { student, handed } = now;
-  const { grade } = handed;
-  const exercise = grades.value?.exercises.find(({ name }) => name === handed.exercise);
+  const { student, submission } = now;
+  const { grade } = submission;
+  const exercise = grades.value?.exercises.find(({ name }) => name === submission.exercise);
   return (
     <section class="surface card" aria-labelledby="grades-picked">
       <h3 id="grades-picked">
-        {student.name}: {exercise?.title ?? handed.exercise}
+        {student.name}: {exercise?.title ?? submission.exercise}
       </h3>
-      {handed.problem !== "" && (
+      {submission.problem !== "" && (
         <p class="problem">
-          {grade === null ? words.noGrade : words.keptGrade} {handed.problem}
+          {grade === null ? words.noGrade : words.keptGrade} {submission.problem}
         </p>
       )}
       {grade === null ? (
-        handed.problem === "" && <p>{words.notYet}</p>
+        submission.problem === "" && <p>{words.notYet}</p>
       ) : (
         <>
           <div class="desk-scroll">
@@ -177,7 +177,7 @@ function Acts() {
   );
 }
 
-/** A class's grades: given by running again what was handed in, and shown by criterion. */
+/** A class's grades: given by running again what was submitted, and shown by criterion. */
 export function GradesPage() {
   useEffect(() => {
     void openGrades();

@@ -30,10 +30,10 @@ describe("the text of a law", () => {
 
   it("that is refused leaves the one that is kept, and says why", async () => {
     const before = lesson.exercise.value;
-    putLaw.mockRejectedValue(new RefusedError(409, "It was handed in."));
+    putLaw.mockRejectedValue(new RefusedError(409, "It was submitted."));
     await lesson.tryLaw("law");
     expect(lesson.exercise.value).toBe(before);
-    expect(lesson.problem.value).toContain("It was handed in.");
+    expect(lesson.problem.value).toContain("It was submitted.");
     expect(lesson.isBusy.value).toBe(false);
   });
 });

@@ -1,6 +1,6 @@
 import "../../browserless";
 import { beforeEach, describe, expect, test, vi } from "vitest";
-import type { Grades, Handed } from "../../../src/core/api/grades";
+import type { Grades, Submission } from "../../../src/core/api/grades";
 
 const { columns, gradeAll, grades, job, leave, picked, problem, shown, sumOf, ungraded } =
   await import("../../../src/teaching/grades/grades");
@@ -8,12 +8,12 @@ const { formatPoints } = await import("../../../src/core/widgets/criteria");
 const { pageOfStudent } = await import("../../../src/core/api/grades");
 const { readPlace, writePlace } = await import("../../../src/runs/list/place");
 
-const handedIn = (exercise: string, points: number | null, why = ""): Handed =>
+const submitted = (exercise: string, points: number | null, why = ""): Submission =>
   ({
     exercise,
     problem: why,
     grade: points === null ? null : { points, max_points: 10, criteria: [] },
-  }) as unknown as Handed;
+  }) as unknown as Submission;
 
 const CLASS = {
   not_isolated: null,
@@ -23,8 +23,8 @@ const CLASS = {
     { name: "three", number: 3, title: "Three" },
   ],
   students: [
-    { person: "p-1", name: "Ada", handed: [handedIn("three", 7.25), handedIn("one", 10)] },
-    { person: "p-2", name: "Bob", handed: [handedIn("one", null, "no bwrap")] },
+    { person: "p-1", name: "Ada", submissions: [submitted("three", 7.25), submitted("one", 10)] },
+    { person: "p-2", name: "Bob", submissions: [submitted("one", null, "no bwrap")] },
   ],
 } as Grades;
 
@@ -34,7 +34,7 @@ beforeEach(() => {
 });
 
 describe("the table", () => {
-  test("has the exercises that somebody handed in, in their order", () => {
+  test("has the exercises that somebody submitted, in their order", () => {
     expect(columns.value.map(({ name }) => name)).toEqual(["one", "three"]);
   });
 
@@ -47,7 +47,7 @@ describe("the table", () => {
 
   test("shows what is picked, and nothing once it is gone", () => {
     picked.value = { person: "p-2", exercise: "one" };
-    expect(shown.value?.handed.problem).toBe("no bwrap");
+    expect(shown.value?.submission.problem).toBe("no bwrap");
     picked.value = { person: "p-2", exercise: "three" };
     expect(shown.value).toBeNull();
   });
@@ -85,14 +85,14 @@ describe("grading", () => {
   });
 
   test("that is refused says why", async () => {
-    const refused = { detail: "Nothing was handed in yet", violations: [] };
+    const refused = { detail: "Nothing was submitted yet", violations: [] };
     vi.stubGlobal("fetch", async () => ({
       ok: false,
       status: 409,
       text: async () => JSON.stringify(refused),
     }));
     await gradeAll(false);
-    expect(problem.value).toContain("Nothing was handed in yet");
+    expect(problem.value).toContain("Nothing was submitted yet");
     expect(job.value).toBeNull();
   });
 });

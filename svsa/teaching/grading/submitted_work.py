@@ -1,4 +1,4 @@
-"""A submission: a hand-in with its law's text, and one number for all of it."""
+"""A submission: a submission with its law's text, and one number for all of it."""
 
 import hashlib
 from pathlib import Path
@@ -6,33 +6,33 @@ from typing import NamedTuple, Self
 
 from svsa.errors import ParameterError, Violation
 from svsa.teaching.course.kept_law import MAX_LAW_BYTES
-from svsa.teaching.course.submission import HandIn, read_hand_in
+from svsa.teaching.course.submission import Submission, read_submission
 
 
-class Submission(NamedTuple):
-    """What was handed in. law: text of the law's file, None where none belongs to it."""
+class SubmittedWork(NamedTuple):
+    """What was submitted. law: text of the law's file, None where none belongs to it."""
 
-    hand_in: HandIn
+    submission: Submission
     law: bytes | None
 
     @classmethod
     def read(cls, path: Path) -> Self:
-        """The submission of a hand-in's file; its law stands in the same folder.
+        """The submission of a submission's file; its law stands in the same folder.
 
         Raises `ParameterError`.
         """
-        hand_in = read_hand_in(path)
-        if hand_in.law_file is None:
-            return cls(hand_in, None)
+        submission = read_submission(path)
+        if submission.law_file is None:
+            return cls(submission, None)
         try:
-            return cls(hand_in, read_law(path.parent, hand_in.law_file))
+            return cls(submission, read_law(path.parent, submission.law_file))
         except ParameterError as error:
             raise ParameterError(*error.violations, file=str(path)) from None
 
     @property
     def digest(self) -> str:
-        """SHA-256 of everything that was handed in, in hexadecimal."""
-        told = self.hand_in.model_dump_json(exclude={"law_file"}).encode()
+        """SHA-256 of everything that was submitted, in hexadecimal."""
+        told = self.submission.model_dump_json(exclude={"law_file"}).encode()
         law = b"" if self.law is None else hashlib.sha256(self.law).digest()
         return hashlib.sha256(hashlib.sha256(told).digest() + law).hexdigest()
 
@@ -46,7 +46,7 @@ def read_law(folder: Path, name: str) -> bytes:
     """The text of a law's file in a folder, which it cannot leave; raises `ParameterError`."""
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()):
-        raise ParameterError(Violation("law_file", name, "", "a file beside the hand-in"))
+        raise ParameterError(Violation("law_file", name, "", "a file beside the submission"))
     return read_law_file(path)
 
 
