@@ -14,7 +14,7 @@ from svsa.control.observers.disturbance import compute_shares
 from svsa.numerics.exponential import exp
 from svsa.runs.configuration import Configuration, Lane
 from svsa.simulation.loop.lane import Blocks
-from svsa.simulation.plant.effects import build_bench
+from svsa.simulation.plant.effects import build_effect_constants
 from svsa.simulation.reference.trajectories import compute_start_value
 
 Bind: TypeAlias = Callable[[Configuration, Lane, Blocks], BoundLaw]
@@ -32,7 +32,7 @@ def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: in
         shares=compute_shares(lane.observer or c.observer, c.sampling.period_s),
         torque1_max=c.limits.torque1_nm if limited else math.inf,
         torque2_max=c.limits.torque2_nm if limited else math.inf,
-        bench=build_bench(c.effects, c.seed, c.actuator, c.sampling.period_s),
+        effects=build_effect_constants(c.effects, c.seed, c.actuator, c.sampling.period_s),
         decay=exp(-estimation.corner_rad_per_s * c.sampling.period_s) if estimation else 0.0,
         domain=build_domain(c.actuator, c.limits),
         period=c.sampling.period_s,

@@ -196,7 +196,7 @@ def test_a_law_that_branches_on_its_state_is_called_for_one_run_after_the_other(
 def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -> None:
     rig = svsa.RIG
     mixed = [build("ndobc", effects=rig.changed(delay_samples=delay)) for delay in (1, 2)]
-    with pytest.raises(svsa.ParameterError, match=r"blocks\.bench\.delay.*every run of a batch"):
+    with pytest.raises(svsa.ParameterError, match=r"blocks\.effects\.delay.*every run of a batch"):
         build_run_batch(mixed)
 
 

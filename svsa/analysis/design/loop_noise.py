@@ -7,7 +7,7 @@ import numpy as np
 
 from svsa.analysis.design.sampled_loop import TORQUES, linearize_tick
 from svsa.runs.configuration import Configuration
-from svsa.simulation.plant.effects import RIG, Effects, build_bench
+from svsa.simulation.plant.effects import RIG, Effects, build_effect_constants
 
 
 class LoopNoise(NamedTuple):
@@ -40,9 +40,11 @@ def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
     solves P = A P Aᵀ + B Q Bᵀ.
     """
     sensing = configuration.effects
-    bench = build_bench(sensing, 0, configuration.actuator, configuration.sampling.period_s)
-    motor = bench.motor_step**2 / 12.0 + bench.motor_std**2
-    deflection = bench.deflection_step**2 / 12.0 + bench.deflection_std**2
+    constants = build_effect_constants(
+        sensing, 0, configuration.actuator, configuration.sampling.period_s
+    )
+    motor = constants.motor_step**2 / 12.0 + constants.motor_std**2
+    deflection = constants.deflection_step**2 / 12.0 + constants.deflection_std**2
     loop = linearize_tick(configuration, sigma)
     radius = loop.radius
     if radius >= 1.0:

@@ -12,7 +12,7 @@ import numpy as np
 from svsa.actuators.dynamics import Actuator, compute_internal_torque
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
-from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.plant.loads import LoadTable
 from svsa.simulation.plant.sensors import read_sensors
@@ -119,7 +119,7 @@ def simulate(
     actuator = Actuator(
         c.M, c.B1, c.B2, c.D, c.D1, c.D2, c.K, setting.gamma, setting.mu0, setting.reaction
     )
-    bench = Bench(
+    effects = EffectConstants(
         0.0, 0.0, 0.0, 0.0, 0, 0, setting.lag, c.coulomb1, c.coulomb2,
         c.coulomb1 * c.static_ratio, c.coulomb2 * c.static_ratio, c.stribeck, c.creep1, c.creep2,
         c.gravity_moment,
@@ -133,7 +133,7 @@ def simulate(
         made = compute_shifted_torque(torques.made, first + k, shift1, shift2)
         asked = compute_shifted_torque(torques.asked, first + k, shift1, shift2)
         x = integrate_period(
-            actuator, bench, x, made, asked, setting.loads, first + k, setting.period, 1
+            actuator, effects, x, made, asked, setting.loads, first + k, setting.period, 1
         )
 
 
@@ -182,14 +182,16 @@ def compute_unit_torques(setting: Setting, angles: np.ndarray, torques: np.ndarr
 
 
 @compiled
-def measure(bench: Bench, first_tick: int, states: np.ndarray, measured: np.ndarray) -> None:
+def measure(
+    effects: EffectConstants, first_tick: int, states: np.ndarray, measured: np.ndarray
+) -> None:
     """What the sensors say of the true angles.
 
-    bench: `Bench`. states: (rows, 3) θ1, θ2, φ. measured: (rows, 3), the same as measured,
-    written.
+    effects: `EffectConstants`. states: (rows, 3) θ1, θ2, φ. measured: (rows, 3), the same as
+    measured, written.
     """
     for k in range(states.shape[0]):
         theta1, theta2, phi = states[k, 0], states[k, 1], states[k, 2]
         x = State(theta1 + phi, 0.0, theta1, 0.0, theta2, 0.0)
-        y = read_sensors(bench, x, first_tick + k)
+        y = read_sensors(effects, x, first_tick + k)
         measured[k, 0], measured[k, 1], measured[k, 2] = y.theta1, y.theta2, y.phi

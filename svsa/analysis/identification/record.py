@@ -19,7 +19,7 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.replay import list_loads
-from svsa.simulation.plant.effects import build_bench
+from svsa.simulation.plant.effects import build_effect_constants
 
 SEGMENT_S = 0.25
 MIN_SEGMENTS = 24
@@ -93,7 +93,10 @@ def read_evidence(record: Record) -> Evidence:
     if not is_measured:
         true = angles.copy()
         measure(
-            build_bench(effects, configuration.seed, a, period), record.first_tick, true, angles
+            build_effect_constants(effects, configuration.seed, a, period),
+            record.first_tick,
+            true,
+            angles,
         )
     torques = build_torques(torques, is_measured, lag, period)
     return Evidence(configuration, setting, angles, torques, segments, length, int(np.sum(loaded)))

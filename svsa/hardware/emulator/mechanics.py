@@ -18,7 +18,7 @@ from svsa.numerics.compilation import compiled
 from svsa.numerics.packed import pack, view_field
 from svsa.simulation.loop.lane import AT_REST, NO_TORQUE
 from svsa.simulation.loop.measured import read_state, store_state, store_torque
-from svsa.simulation.plant.effects import Bench, Effects, build_bench
+from svsa.simulation.plant.effects import EffectConstants, Effects, build_effect_constants
 from svsa.simulation.plant.integration import coast
 from svsa.simulation.plant.loads import (
     Load,
@@ -38,7 +38,7 @@ class _Plant(NamedTuple):
     """What stays as it is: the true actuator, its effects, its stops."""
 
     actuator: Actuator
-    bench: Bench
+    bench: EffectConstants
     stops: Stops
 
 
@@ -77,7 +77,7 @@ class Mechanics:
         slope = compute_lever_ratio_slope(p.actuator.spiral_reduction)
         plant = _Plant(
             build_actuator(p.actuator, p.lever_ratio),
-            build_bench(effects, p.seed, p.actuator, _PERIOD_S),
+            build_effect_constants(effects, p.seed, p.actuator, _PERIOD_S),
             Stops(
                 (p.lever_ratio_min - p.lever_ratio) / slope,
                 (p.lever_ratio_max - p.lever_ratio) / slope,

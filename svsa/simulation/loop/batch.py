@@ -129,7 +129,7 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
         ]
         return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
     row, bits = next(rows), next(columns)
-    if not bits.any() and (".bench" in name or name.endswith(".decay")):
+    if not bits.any() and (".effects" in name or name.endswith(".decay")):
         return type(values)(0)
     if name.endswith((".seed", "_address")):
         return Word(row)
@@ -227,7 +227,7 @@ def advance_groups(
                 lane.estimate,
                 lane.applied,
                 blocks.period,
-                blocks.bench,
+                blocks.effects,
                 lane.x,
                 tick,
             )

@@ -20,7 +20,7 @@ from svsa.numerics.simd.each import put, take
 from svsa.numerics.simd.number import WIDTH
 from svsa.numerics.simd.record import Column, VectorRecord, find_kind
 from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, UNMOVED
-from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.sensors import build_positions, read_positions
 
 
@@ -82,18 +82,20 @@ def compute_one_by_one(
     estimate: Disturbance,
     applied: Torque,
     period: float,
-    bench: Bench,
+    effects: EffectConstants,
     state: State,
     tick: int,
 ) -> Torque:
     """u of those that run, `Torque`, N·m; 0 of the others, whose law is not called.
 
     constants: `Addresses` of every run's law, which has the nominal model, too. memories: (8,
-    words), written. bench, state: what is measured is read of, at `tick`. Else as `Law` says.
+    words), written. effects, state: what is measured is read of, at `tick`. Else as `Law` says.
     """
     nothing = Torque(0.0, 0.0)
     torque = choose(runs, nothing, nothing)
-    measured = read_positions(bench, state, tick) if constants.is_measuring else build_positions(x)
+    measured = (
+        read_positions(effects, state, tick) if constants.is_measuring else build_positions(x)
+    )
     for i in range(WIDTH):
         if take(runs, i):
             law = take(constants, i)
@@ -133,12 +135,12 @@ def compute_side_by_side(
     estimate: Disturbance,
     applied: Torque,
     period: float,
-    bench: Bench,
+    effects: EffectConstants,
     state: State,
     tick: int,
 ) -> Torque:
     """u of all eight at once, `Torque`, N·m: `law` compiled for vectors."""
     if is_told:
-        measured = read_positions(bench, state, tick)
+        measured = read_positions(effects, state, tick)
         return law(nominal, constants, memory, x, reference, estimate, applied, period, measured)
     return law(nominal, constants, memory, x, reference, estimate, applied, period)

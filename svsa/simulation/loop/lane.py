@@ -10,7 +10,7 @@ from svsa.actuators.signals import Disturbance, Positions, Reference, State, Tor
 from svsa.control.call import BoundLaw
 from svsa.numerics.borrowed import borrow
 from svsa.numerics.compilation import compiled
-from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, Bench
+from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, EffectConstants
 from svsa.simulation.plant.loads import LoadTable
 from svsa.simulation.reference.transition import Stack
 
@@ -34,7 +34,7 @@ class Blocks(NamedTuple):
     shares: tuple[float, float, float]
     torque1_max: float
     torque2_max: float
-    bench: Bench
+    effects: EffectConstants
     decay: float
     domain: Domain
     period: float

@@ -38,7 +38,7 @@ from svsa.simulation.loop.lane import (
 )
 from svsa.simulation.loop.publish import publish
 from svsa.simulation.plant.drive import compute_lagged_torque, compute_mean_torque
-from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.integration import compute_plant_rate, integrate_from
 from svsa.simulation.plant.loads import compute_load
 from svsa.simulation.plant.sensors import are_inexact, build_positions, read_positions, read_sensors
@@ -70,13 +70,13 @@ def compute_control(
 
 @compiled
 def delay(
-    bench: Bench, asked: tuple[float, ...], torque: Torque
+    effects: EffectConstants, asked: tuple[float, ...], torque: Torque
 ) -> tuple[tuple[float, ...], Torque]:
     """The queue of asked torques with this one in front, and the torque that is due now."""
     asked = (torque.u1, torque.u2) + asked[:-2]  # noqa: RUF005  numba knows no unpacking here
-    if bench.delay == 0:
+    if effects.delay == 0:
         return asked, torque
-    return asked, Torque(asked[2 * bench.delay], asked[2 * bench.delay + 1])
+    return asked, Torque(asked[2 * effects.delay], asked[2 * effects.delay + 1])
 
 
 @compiled
@@ -134,10 +134,10 @@ def observe_state(
 @compiled
 def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int) -> State:
     """x̂ at `tick`, of the plant's state x: x itself where the sensors are perfect."""
-    differs = (blocks.decay > 0.0) | are_inexact(blocks.bench)
+    differs = (blocks.decay > 0.0) | are_inexact(blocks.effects)
     if not some(differs):
         return x
-    measurement = read_sensors(blocks.bench, x, tick)
+    measurement = read_sensors(blocks.effects, x, tick)
     known = observe_state(blocks, lane.known, lane.estimate, applied, measurement)
     return choose(differs, known, x)
 
@@ -146,7 +146,7 @@ def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int)
 def measure(blocks: Blocks, call: Call, x: State, tick: int) -> Positions:
     """`Positions` that a law is told which takes them; what another one is not told is x itself."""
     if call.is_measuring:
-        return read_positions(blocks.bench, x, tick)
+        return read_positions(blocks.effects, x, tick)
     return build_positions(x)
 
 
@@ -218,11 +218,11 @@ def apply_torque(
 @compiled
 def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: int) -> Action:
     """`Action` of a torque within the limits, N·m: delay, drive, loads and what they do at once."""
-    bench, time = blocks.bench, tick * blocks.period
-    asked, target = delay(bench, lane.asked, torque)
+    effects, time = blocks.effects, tick * blocks.period
+    asked, target = delay(effects, lane.asked, torque)
     load = compute_load(inputs.loads, tick, blocks.period, time)
-    made = compute_lagged_torque(lane.torque, target, bench.lag, 0.0)
-    rate = compute_plant_rate(blocks.plant, bench, lane.x, made, load)
+    made = compute_lagged_torque(lane.torque, target, effects.lag, 0.0)
+    rate = compute_plant_rate(blocks.plant, effects, lane.x, made, load)
     return Action(asked, target, made, load, rate)
 
 
@@ -231,14 +231,14 @@ def move(
     blocks: Blocks, inputs: Inputs, lane: LaneState, F: InternalTorque, action: Action, tick: int
 ) -> tuple[LaneState, InternalTorque]:
     """The rest of the tick: plant, read, observer. Returns `LaneState` and F_n(x̂) at its end."""
-    plant, nominal, bench, period = blocks.plant, blocks.nominal, blocks.bench, blocks.period
+    plant, nominal, effects, period = blocks.plant, blocks.nominal, blocks.effects, blocks.period
     start, target, load = lane.torque, action.target, action.load
     table, steps = inputs.loads, blocks.steps
     x = integrate_from(
-        plant, bench, lane.x, action.rate, start, target, table, load, tick, period, steps
+        plant, effects, lane.x, action.rate, start, target, table, load, tick, period, steps
     )
-    made = compute_lagged_torque(start, target, bench.lag, period)
-    applied = compute_mean_torque(start, target, bench.lag, period)
+    made = compute_lagged_torque(start, target, effects.lag, period)
+    applied = compute_mean_torque(start, target, effects.lag, period)
     known = sense(blocks, lane, x, applied, tick + 1)
     F_known = compute_internal_torque(nominal, known)
     observed = correct_disturbance_estimate(

@@ -87,7 +87,7 @@ EVERY = RIG.changed(
 )
 
 
-class Bench(NamedTuple):
+class EffectConstants(NamedTuple):
     """The effects as constants of the compiled loop; 0 means off.
 
     motor_step, deflection_step: one count, rad at the gearbox output. motor_std,
@@ -112,9 +112,9 @@ class Bench(NamedTuple):
     gravity_moment: float
 
 
-def build_bench(
+def build_effect_constants(
     effects: Effects, seed: int, actuator: ActuatorParameters, period_s: float
-) -> Bench:
+) -> EffectConstants:
     """The constants of the effects that are on; without noise nothing is drawn of the seed.
 
     The creep velocity of friction is the least at which one Runge–Kutta step a period still
@@ -129,7 +129,7 @@ def build_bench(
     turn = 2.0 * math.pi
     motor_counts = encoders.motor_counts_per_rev * encoders.gear_ratio if encoders else math.inf
     deflection_counts = encoders.deflection_counts_per_rev if encoders else math.inf
-    return Bench(
+    return EffectConstants(
         motor_step=turn / motor_counts,
         deflection_step=turn / deflection_counts,
         motor_std=noise.motor_std_rad if noise else 0.0,

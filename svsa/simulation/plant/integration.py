@@ -5,7 +5,7 @@ from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, some
 from svsa.simulation.plant.drive import compute_lagged_torque
-from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.friction import compute_friction
 from svsa.simulation.plant.loads import LoadTable, compute_load
 from svsa.simulation.plant.stops import Stops, hit_stops
@@ -13,19 +13,19 @@ from svsa.simulation.plant.stops import Stops, hit_stops
 
 @compiled
 def compute_plant_load(
-    bench: Bench, table: LoadTable, x: State, tick: int, period: float, time: float
+    effects: EffectConstants, table: LoadTable, x: State, tick: int, period: float, time: float
 ) -> ExternalLoad:
     """All that acts on the plant besides the motors: loads, weight of the link, friction.
 
-    bench: `Bench`. table: `LoadTable`. x: `State`. Returns `ExternalLoad`.
+    effects: `EffectConstants`. table: `LoadTable`. x: `State`. Returns `ExternalLoad`.
     """
-    return add_resistance(bench, compute_load(table, tick, period, time), x)
+    return add_resistance(effects, compute_load(table, tick, period, time), x)
 
 
 @compiled
-def add_resistance(bench: Bench, load: ExternalLoad, x: State) -> ExternalLoad:
+def add_resistance(effects: EffectConstants, load: ExternalLoad, x: State) -> ExternalLoad:
     """The load of the table and what the plant has of its own: weight of the link, friction."""
-    b, w4, w6 = bench, load.w4, load.w6
+    b, w4, w6 = effects, load.w4, load.w6
     has_friction1, has_friction2 = b.static1 > 0.0, b.static2 > 0.0
     if some(has_friction1):
         friction = compute_friction(x.dtheta1, b.coulomb1, b.static1, b.stribeck, b.creep1)
@@ -33,21 +33,21 @@ def add_resistance(bench: Bench, load: ExternalLoad, x: State) -> ExternalLoad:
     if some(has_friction2):
         friction = compute_friction(x.dtheta2, b.coulomb2, b.static2, b.stribeck, b.creep2)
         w6 = choose(has_friction2, w6 - friction, w6)
-    return ExternalLoad(load.w2, w4, w6, load.inertia, load.gravity_moment + bench.gravity_moment)
+    return ExternalLoad(load.w2, w4, w6, load.inertia, load.gravity_moment + effects.gravity_moment)
 
 
 @compiled
 def compute_plant_rate(
-    actuator: Actuator, bench: Bench, x: State, torque: Torque, load: ExternalLoad
+    actuator: Actuator, effects: EffectConstants, x: State, torque: Torque, load: ExternalLoad
 ) -> State:
     """ẋ of the plant under the motors' torque, the loads and everything else that acts (Eq 1)."""
-    return compute_rate(actuator, x, torque, add_resistance(bench, load, x))
+    return compute_rate(actuator, x, torque, add_resistance(effects, load, x))
 
 
 @compiled
 def integrate_period(
     actuator: Actuator,
-    bench: Bench,
+    effects: EffectConstants,
     x: State,
     start: Torque,
     target: Torque,
@@ -58,20 +58,22 @@ def integrate_period(
 ) -> State:
     """The state at the end of the control period that begins at `tick` (RK4).
 
-    actuator: `Actuator`, the true plant. bench: `Bench`. x: `State`. start: `Torque` that
-    the motors make at the beginning, target: `Torque` asked of them, N·m. table:
+    actuator: `Actuator`, the true plant. effects: `EffectConstants`. x: `State`. start: `Torque`
+    that the motors make at the beginning, target: `Torque` asked of them, N·m. table:
     `LoadTable`. period: T, s. steps: Runge–Kutta steps in the period, ≥ 1.
     """
     load = compute_load(table, tick, period, tick * period)
-    torque = compute_lagged_torque(start, target, bench.lag, 0.0)
-    rate = compute_plant_rate(actuator, bench, x, torque, load)
-    return integrate_from(actuator, bench, x, rate, start, target, table, load, tick, period, steps)
+    torque = compute_lagged_torque(start, target, effects.lag, 0.0)
+    rate = compute_plant_rate(actuator, effects, x, torque, load)
+    return integrate_from(
+        actuator, effects, x, rate, start, target, table, load, tick, period, steps
+    )
 
 
 @compiled
 def integrate_from(
     actuator: Actuator,
-    bench: Bench,
+    effects: EffectConstants,
     x: State,
     rate: State,
     start: Torque,
@@ -88,15 +90,15 @@ def integrate_from(
     for i in range(steps):
         since = i * h
         time = tick * period + since
-        u0 = compute_lagged_torque(start, target, bench.lag, since)
-        u1 = compute_lagged_torque(start, target, bench.lag, since + 0.5 * h)
-        u2 = compute_lagged_torque(start, target, bench.lag, since + h)
+        u0 = compute_lagged_torque(start, target, effects.lag, since)
+        u1 = compute_lagged_torque(start, target, effects.lag, since + 0.5 * h)
+        u2 = compute_lagged_torque(start, target, effects.lag, since + h)
         middle = follow_load(table, early, tick, period, time + 0.5 * h)
         late = follow_load(table, early, tick, period, time + h)
-        k1 = rate if i == 0 else compute_plant_rate(actuator, bench, x, u0, early)
-        k2 = compute_plant_rate(actuator, bench, shift(x, k1, 0.5 * h), u1, middle)
-        k3 = compute_plant_rate(actuator, bench, shift(x, k2, 0.5 * h), u1, middle)
-        k4 = compute_plant_rate(actuator, bench, shift(x, k3, h), u2, late)
+        k1 = rate if i == 0 else compute_plant_rate(actuator, effects, x, u0, early)
+        k2 = compute_plant_rate(actuator, effects, shift(x, k1, 0.5 * h), u1, middle)
+        k3 = compute_plant_rate(actuator, effects, shift(x, k2, 0.5 * h), u1, middle)
+        k4 = compute_plant_rate(actuator, effects, shift(x, k3, h), u2, late)
         x = shift(shift(shift(shift(x, k1, h / 6.0), k2, h / 3.0), k3, h / 3.0), k4, h / 6.0)
         early = late
     return x
@@ -113,7 +115,7 @@ def follow_load(
 @compiled
 def coast(
     actuator: Actuator,
-    bench: Bench,
+    effects: EffectConstants,
     stops: Stops,
     x: State,
     torque: Torque,
@@ -125,13 +127,13 @@ def coast(
 ) -> tuple[State, Torque]:
     """x and the motors' torque `count` periods after `tick`, the target held (RK4, one step each).
 
-    actuator: `Actuator`, the true plant. bench: `Bench`. stops: `Stops`. x: `State`.
+    actuator: `Actuator`, the true plant. effects: `EffectConstants`. stops: `Stops`. x: `State`.
     torque: `Torque` that the motors make at the beginning, target: `Torque` asked of them,
     N·m. table: `LoadTable`. period: s. Returns (`State`, `Torque`).
     """
     for i in range(tick, tick + count):
-        x = integrate_period(actuator, bench, x, torque, target, table, i, period, 1)
-        torque = compute_lagged_torque(torque, target, bench.lag, period)
+        x = integrate_period(actuator, effects, x, torque, target, table, i, period, 1)
+        torque = compute_lagged_torque(torque, target, effects.lag, period)
         inertia = actuator.M + compute_load(table, i, period, i * period).inertia
         x = hit_stops(stops, x, inertia, actuator.B1)
     return x, torque

@@ -5,7 +5,7 @@ import numpy as np
 from svsa.actuators.signals import Measurement, Positions, State
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, some
-from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.noise import draw_normal
 
 
@@ -28,9 +28,12 @@ def add_noise(angle: float, std: float, seed: int, tick: int, channel: int) -> f
 
 
 @compiled
-def are_inexact(bench: Bench) -> bool:
+def are_inexact(effects: EffectConstants) -> bool:
     """Whether the sensors have counts or noise; else what is measured is the state itself."""
-    counts, noise = bench.motor_step + bench.deflection_step, bench.motor_std + bench.deflection_std
+    counts, noise = (
+        effects.motor_step + effects.deflection_step,
+        effects.motor_std + effects.deflection_std,
+    )
     return counts + noise > 0.0
 
 
@@ -41,28 +44,28 @@ def build_positions(x: State) -> Positions:
 
 
 @compiled
-def read_positions(bench: Bench, x: State, tick: int) -> Positions:
-    """`Positions` that the encoders say of x, `State` at the start of `tick`. bench: `Bench`."""
-    exact, differs = build_positions(x), are_inexact(bench)
+def read_positions(effects: EffectConstants, x: State, tick: int) -> Positions:
+    """`Positions` that the encoders say of x, `State` at the start of `tick`. effects: `EffectConstants`."""
+    exact, differs = build_positions(x), are_inexact(effects)
     if not some(differs):
         return exact
-    y = read_sensors(bench, x, tick)
+    y = read_sensors(effects, x, tick)
     return choose(differs, Positions(y.theta1 + y.phi, y.theta1, y.theta2), exact)
 
 
 @compiled
-def read_sensors(bench: Bench, x: State, tick: int) -> Measurement:
+def read_sensors(effects: EffectConstants, x: State, tick: int) -> Measurement:
     """θ1, θ2 from the motor encoders and φ from the deflection encoder; velocities as known.
 
-    bench: `Bench`. x: `State` at the start of `tick`. Returns `Measurement`.
+    effects: `EffectConstants`. x: `State` at the start of `tick`. Returns `Measurement`.
     """
-    theta1 = add_noise(x.theta1, bench.motor_std, bench.seed, tick, 0)
-    theta2 = add_noise(x.theta2, bench.motor_std, bench.seed, tick, 1)
-    phi = add_noise(x.q - x.theta1, bench.deflection_std, bench.seed, tick, 2)
+    theta1 = add_noise(x.theta1, effects.motor_std, effects.seed, tick, 0)
+    theta2 = add_noise(x.theta2, effects.motor_std, effects.seed, tick, 1)
+    phi = add_noise(x.q - x.theta1, effects.deflection_std, effects.seed, tick, 2)
     return Measurement(
-        quantize(theta1, bench.motor_step),
-        quantize(theta2, bench.motor_step),
-        quantize(phi, bench.deflection_step),
+        quantize(theta1, effects.motor_step),
+        quantize(theta2, effects.motor_step),
+        quantize(phi, effects.deflection_step),
         x.dq,
         x.dtheta1,
         x.dtheta2,

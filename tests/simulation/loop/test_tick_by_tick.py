@@ -78,7 +78,7 @@ def initial(configuration):
 def compose_tick(blocks, law, inputs, lane, tick, sample):
     """`advance_tick` written out in Python over the same compiled pieces."""
     assert check_domain(blocks.domain, blocks.plant, lane.x) == INSIDE
-    bench, period, time = blocks.bench, blocks.period, tick * blocks.period
+    effects, period, time = blocks.effects, blocks.period, tick * blocks.period
     reference = read_reference(inputs, time)
     call = build_call(law, lane.memory)
     measured = measure(blocks, call, lane.x, tick)
@@ -86,17 +86,17 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
         blocks, call, lane.known, reference, lane.estimate, lane.applied, measured
     )
     assert math.isfinite(torque.u1 + torque.u2)
-    asked, target = delay(bench, lane.asked, torque)
+    asked, target = delay(effects, lane.asked, torque)
     load = compute_load(inputs.loads, tick, period, time)
-    made = compute_lagged_torque(lane.torque, target, bench.lag, 0.0)
-    rate = compute_plant_rate(blocks.plant, bench, lane.x, made, load)
+    made = compute_lagged_torque(lane.torque, target, effects.lag, 0.0)
+    rate = compute_plant_rate(blocks.plant, effects, lane.x, made, load)
     F = compute_internal_torque(blocks.nominal, lane.known)
     publish(blocks, reference, lane, F, lane.estimate, made, rate, time, sample)
     x = integrate_period(
-        blocks.plant, bench, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
+        blocks.plant, effects, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
     )
-    made = compute_lagged_torque(lane.torque, target, bench.lag, period)
-    applied = compute_mean_torque(lane.torque, target, bench.lag, period)
+    made = compute_lagged_torque(lane.torque, target, effects.lag, period)
+    applied = compute_mean_torque(lane.torque, target, effects.lag, period)
     known = sense(blocks, lane, x, applied, tick + 1)
     estimate = update_disturbance_estimate(
         blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period

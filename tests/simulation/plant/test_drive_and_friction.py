@@ -20,7 +20,12 @@ from svsa.simulation.plant.drive import (
     compute_late_torque,
     compute_mean_torque,
 )
-from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, CurrentLag, Friction, build_bench
+from svsa.simulation.plant.effects import (
+    MAX_DELAY_SAMPLES,
+    CurrentLag,
+    Friction,
+    build_effect_constants,
+)
 from svsa.simulation.plant.friction import compute_friction
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.reference.transition import build_stack
@@ -35,7 +40,9 @@ speeds = st.floats(-20.0, 20.0)
 
 
 def build_friction_bench(period=T, **changes):
-    return build_bench(svsa.Effects(friction=Friction(**changes)), 0, DESIGN.actuator, period)
+    return build_effect_constants(
+        svsa.Effects(friction=Friction(**changes)), 0, DESIGN.actuator, period
+    )
 
 
 @pytest.mark.parametrize("lag", [1e-5, 5e-4, 0.05])
@@ -85,7 +92,7 @@ def test_a_vanishing_lag_is_no_lag():
 def test_the_plant_feels_the_lag_inside_the_period():
     """A free motor gains (T/B) times the mean torque, not the target's; RK4 sees the curve."""
     effects = svsa.Effects(current_lag=CurrentLag(time_constant_s=5e-4))
-    bench = build_bench(effects, 0, DESIGN.actuator, T)
+    bench = build_effect_constants(effects, 0, DESIGN.actuator, T)
     mean = compute_mean_torque(START, TARGET, bench.lag, T)
     end = integrate_period(FREE, bench, AT_REST, START, TARGET, NO_LOADS, 0, T, 16)
     assert end.dtheta1 == pytest.approx(T * mean.u1 / FREE.B1, rel=1e-6)

@@ -16,7 +16,7 @@ from svsa.numerics.compilation import compiled
 from svsa.runs.paper import LOAD_TIME_S, get_figure
 from svsa.runs.result.simulate import simulate
 from svsa.runs.run import Run
-from svsa.simulation.plant.effects import Bench
+from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.plant.loads import LoadTable, compute_load
 
@@ -29,13 +29,13 @@ ANGLES = [0, 2, 4]
 class Problem(NamedTuple):
     """The plant from one state on, period after period.
 
-    actuator, bench, loads: the plant's, as the loop has them. first: tick of the state x, (6,).
+    actuator, effects, loads: the plant's, as the loop has them. first: tick of the state x, (6,).
     period: s. torques: (periods, 2), of the motors. forces: (periods, 3), those and the loads, on
     link, motor 1 and motor 2; both N·m and held for a period.
     """
 
     actuator: Actuator
-    bench: Bench
+    effects: EffectConstants
     loads: LoadTable
     first: int
     period: float
@@ -59,7 +59,7 @@ def build_problem(duration_s: float) -> Problem:
     blocks = run.blocks[0]
     return Problem(
         blocks.plant,
-        blocks.bench,
+        blocks.effects,
         run.inputs.loads,
         first,
         run.period_s,
@@ -77,7 +77,7 @@ def integrate(problem: Problem, steps: int, states: np.ndarray) -> None:
     x = State(p.x[0], p.x[1], p.x[2], p.x[3], p.x[4], p.x[5])
     for i in range(len(rows)):
         u = Torque(torques[i, 0], torques[i, 1])
-        x = integrate_period(p.actuator, p.bench, x, u, u, loads, p.first + i, p.period, steps)
+        x = integrate_period(p.actuator, p.effects, x, u, u, loads, p.first + i, p.period, steps)
         rows[i] = x
 
 
