@@ -195,7 +195,7 @@ def follow_figure(law, missed):
             y = x.theta1, x.theta2, x.q - x.theta1, x.dq, x.dtheta1, x.dtheta2
             carried["measured"].view(float).reshape(-1)[:] = y
             follow_and_decide(constants, run.inputs, carried, tick)
-            torque = Torque(*carried["asked"][0].tolist())
+            torque = Torque(*carried["limited"][0].tolist())
             publish_and_predict(constants, carried, *torque, tick, row)
             found[tick] = (*torque, *carried["believed"][0].tolist())
         x = predict_state(run.blocks[0].nominal, x, LINK_LOAD, torque, run.period_s)

@@ -75,7 +75,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
 
     def hear(n: np.ndarray) -> np.ndarray:
         heard = Measurement(n[0], n[1], n[2], 0.0, 0.0, 0.0)
-        known, estimate = observe(blocks, rest.known, rest.estimate, rest.torque, heard)
+        known, estimate = observe(blocks, rest.known, rest.estimate, rest.actual, heard)
         return _pack(rest._replace(known=known, estimate=estimate), (n[0] + n[2], n[0], n[1]))
 
     def push(torque: float) -> np.ndarray:
@@ -99,7 +99,15 @@ def find_rest(run: Run) -> LaneState:
 
 
 def _pack(lane: LaneState, heard: Sequence[float] = (0.0, 0.0, 0.0)) -> np.ndarray:
-    parts = (lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, lane.memory)
+    parts = (
+        lane.x,
+        lane.known,
+        lane.estimate,
+        lane.actual,
+        lane.applied,
+        lane.limited,
+        lane.memory,
+    )
     return np.concatenate((*parts, heard))
 
 

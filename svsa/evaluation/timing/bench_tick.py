@@ -51,7 +51,7 @@ class BenchTicks:
         self._constants = pack(BenchConstants(run.blocks[0], Actuation(0.0, 0.0), call))
         self._inputs, self._carried = run.inputs, pack(Carried())
         self._measured = self._carried["measured"].view(float).reshape(-1)
-        self.asked = self._carried["asked"].view(float).reshape(-1)
+        self.limited = self._carried["limited"].view(float).reshape(-1)
         self._y, self._u = samples[:, MEASURED].copy(), samples[:, TORQUES].tolist()
         self._row = np.empty(len(CHANNELS))
 

@@ -34,7 +34,7 @@ from svsa.simulation.loop.measured import (
 
 STATUSES = tuple(BenchStatus)
 MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
-MOTION = ("known", "made", "before", "sent")
+MOTION = ("known", "actual", "before", "sent")
 """Of what is carried (`Carried`): what the first tick of a run finds."""
 FARTHEST_RAD = 2.0 * math.pi
 """Where a reference may be."""
@@ -58,9 +58,9 @@ class Plant(Protocol):
         ...
 
     def write(
-        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+        self, now: float, limited: Torque, known: State, estimate: Disturbance, missed: int
     ) -> Torque:
-        """Send what may be sent of `asked`; returns the torque that was really sent, N·m."""
+        """Send what may be sent of `limited`; returns the torque that was really sent, N·m."""
         ...
 
 
@@ -108,9 +108,9 @@ class BenchLoop:
         self.run = Run(configuration, start=Start(self._mu0, AT_REST), bind=bind)
         self._scratch = np.empty(len(CHANNELS))
         self._carried = _NOTHING.copy()
-        self._known, self._estimate, self._asked, self._expected, self._measured, self._ages = (
+        self._known, self._estimate, self._limited, self._expected, self._measured, self._ages = (
             view_field(self._carried, name)
-            for name in ("known", "estimate", "asked", "expected", "measured", "ages_s")
+            for name in ("known", "estimate", "limited", "expected", "measured", "ages_s")
         )
         self._blocks: Blocks | None = None
         self._called: tuple[BoundLaw, np.ndarray] | None = None
@@ -201,8 +201,8 @@ class BenchLoop:
         if missed and not begins and moving:
             self.sink.skip(self.run.tick, missed)
             self.run.tick += missed
-        known, estimate, asked = self._decide(measurement, reading.ages_s)
-        sent = plant.write(now, asked if moving else NO_TORQUE, known, estimate, missed)
+        known, estimate, limited = self._decide(measurement, reading.ages_s)
+        sent = plant.write(now, limited if moving else NO_TORQUE, known, estimate, missed)
         tick = self.run.tick
         row = self.sink.get_row(tick) if moving else self._scratch
         self._publish(sent, row)
@@ -222,8 +222,8 @@ class BenchLoop:
             self._connect()
         self._measured[:], self._ages[:] = y, ages_s
         follow_and_decide(self._constants, run.inputs, self._carried, run.tick)
-        known, estimate, asked = self._known, self._estimate, self._asked
-        return State(*known.tolist()), Disturbance(*estimate.tolist()), Torque(*asked.tolist())
+        known, estimate, limited = self._known, self._estimate, self._limited
+        return State(*known.tolist()), Disturbance(*estimate.tolist()), Torque(*limited.tolist())
 
     def _connect(self) -> None:
         """Pack what is constant as the run has it now, its law with the memory of that."""

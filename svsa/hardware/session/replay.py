@@ -63,7 +63,7 @@ class RecordedPlant:
     def __init__(self, samples: np.ndarray) -> None:
         self._measured = samples[:, MEASURED].tolist()
         self.sent = samples[:, TORQUES]
-        self.asked = np.full_like(self.sent, np.nan)
+        self.limited = np.full_like(self.sent, np.nan)
         self.tick = 0
 
     def start(self, now: float) -> None:
@@ -74,9 +74,9 @@ class RecordedPlant:
         return Reading(y, (0.0, 0.0), (0.0, 0.0, 0.0), (0, 0, 0))
 
     def write(  # noqa: D102
-        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+        self, now: float, limited: Torque, known: State, estimate: Disturbance, missed: int
     ) -> Torque:
-        self.asked[self.tick] = asked
+        self.limited[self.tick] = asked
         return Torque(*self.sent[self.tick].tolist())
 
 

@@ -60,9 +60,9 @@ class Start(NamedTuple):
     x: State
     known: State
     estimate: Disturbance
-    torque: Torque
+    actual: Torque
     applied: Torque
-    asked: tuple[float, ...]
+    limited: tuple[float, ...]
 
 
 class Beginning(NamedTuple):
@@ -208,7 +208,7 @@ def advance_groups(
         blocks, constants, start = read(rows[i])
         memory, given = view(memories[i]), pick_inputs(inputs, i)
         x, known, estimate = start.x, start.known, start.estimate
-        lane = LaneState(x, known, estimate, start.torque, start.applied, start.asked, memory)
+        lane = LaneState(x, known, estimate, start.actual, start.applied, start.limited, memory)
         code, ended = load(results[i], 0), load(results[i], 1)
         runs, tally = code == 0.0, read_tally(results[i])
         left = some(code != 0.0)
@@ -217,7 +217,7 @@ def advance_groups(
         for tick in range(first, stop if some(runs) else first):
             reference = read_first_reference(given, tick * blocks.period)
             found = check_domain(blocks.domain, blocks.plant, lane.x)
-            asked = compute(
+            commanded = compute(
                 runs & (found == INSIDE),
                 blocks.nominal,
                 constants,
@@ -231,7 +231,7 @@ def advance_groups(
                 lane.x,
                 tick,
             )
-            torque = limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
+            torque = limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
             is_torque = abs(torque.u1 + torque.u2) < math.inf
             found = choose((found != INSIDE) | is_torque, found, NOT_FINITE)
             leaves = runs & (found != INSIDE)
@@ -241,7 +241,7 @@ def advance_groups(
                 if not some(runs):
                     break
             action = act(blocks, given, lane, torque, tick)
-            tally = measure(tally, runs, window, blocks, reference, lane.x, action.made, tick)
+            tally = measure(tally, runs, window, blocks, reference, lane.x, action.actual, tick)
             reached, F = move(blocks, given, lane, F, action, tick)
             lane = hold(runs, reached, lane) if left else reached
         row = write(results[i], 0, (code, ended))
@@ -250,9 +250,9 @@ def advance_groups(
         row = write(rows[i], start_row, lane.x)
         row = write(rows[i], row, lane.known)
         row = write(rows[i], row, lane.estimate)
-        row = write(rows[i], row, lane.torque)
+        row = write(rows[i], row, lane.actual)
         row = write(rows[i], row, lane.applied)
-        write(rows[i], row, lane.asked)
+        write(rows[i], row, lane.limited)
 
 
 @compiled
@@ -262,9 +262,9 @@ def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
         choose(runs, reached.x, lane.x),
         choose(runs, reached.known, lane.known),
         choose(runs, reached.estimate, lane.estimate),
-        choose(runs, reached.torque, lane.torque),
+        choose(runs, reached.actual, lane.actual),
         choose(runs, reached.applied, lane.applied),
-        choose(runs, reached.asked, lane.asked),
+        choose(runs, reached.limited, lane.limited),
         lane.memory,
     )
 

@@ -107,7 +107,7 @@ def compute_one_by_one(
                 0,
                 constants.is_measuring,
             )
-            asked = compute_law(
+            commanded = compute_law(
                 call,
                 take(x, i),
                 take(reference, i),
@@ -116,7 +116,7 @@ def compute_one_by_one(
                 period,
                 take(measured, i),
             )
-            torque = put(torque, i, asked)
+            torque = put(torque, i, commanded)
     return torque
 
 

@@ -53,38 +53,38 @@ class LaneState(NamedTuple):
     """What one lane, a controller and its plant, carries from tick to tick.
 
     x: the plant's state. known: x̂, what the controller knows of it. estimate: ŵ, N·m.
-    torque: what the motors make now, N·m. applied: the mean of what they made in the last period,
-    N·m. asked: the torques asked for in the last samples, newest first, (u1, u2) one after the
+    actual: what the motors make now, N·m. applied: mean actual torque of the last period,
+    N·m. limited: the limited torques of the last samples, newest first, (u1, u2) one after the
     other, for the delay. memory: what the law remembers, see `Law.start_memory`.
     """
 
     x: State
     known: State
     estimate: Disturbance
-    torque: Torque
+    actual: Torque
     applied: Torque
-    asked: tuple[float, ...]
+    limited: tuple[float, ...]
     memory: np.ndarray
 
 
 class Action(NamedTuple):
     """What a torque begins in a tick.
 
-    asked: the delay's queue with it. target: what is due of it now, made: what the motors make
+    limited: the delay's queue with it. delayed: what is due of it now. actual: what the motors make
     of that at once, N·m. load: `ExternalLoad`. rate: ẋ under both.
     """
 
-    asked: tuple[float, ...]
-    target: Torque
-    made: Torque
+    limited: tuple[float, ...]
+    delayed: Torque
+    actual: Torque
     load: ExternalLoad
     rate: State
 
 
 def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
     """A lane at its start. memory: of its law. x: where its plant is, which is known."""
-    asked = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)
-    return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, asked, memory)
+    limited = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)
+    return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, limited, memory)
 
 
 @compiled
@@ -109,5 +109,5 @@ def borrow_law(law: BoundLaw) -> BoundLaw:
 def remember(lane: LaneState, memory: np.ndarray) -> LaneState:
     """The lane with another memory of its law."""
     return LaneState(
-        lane.x, lane.known, lane.estimate, lane.torque, lane.applied, lane.asked, memory
+        lane.x, lane.known, lane.estimate, lane.actual, lane.applied, lane.limited, memory
     )

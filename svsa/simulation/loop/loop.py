@@ -64,19 +64,19 @@ def compute_control(
     measured: Positions,
 ) -> Torque:
     """The torque that the law of this `Call` asks for, after the limits, N·m."""
-    asked = compute_law(call, x, reference, estimate, applied, blocks.period, measured)
-    return limit_torque(asked, blocks.torque1_max, blocks.torque2_max)
+    commanded = compute_law(call, x, reference, estimate, applied, blocks.period, measured)
+    return limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
 
 
 @compiled
 def delay(
-    effects: EffectConstants, asked: tuple[float, ...], torque: Torque
+    effects: EffectConstants, limited: tuple[float, ...], torque: Torque
 ) -> tuple[tuple[float, ...], Torque]:
-    """The queue of asked torques with this one in front, and the torque that is due now."""
-    asked = (torque.u1, torque.u2) + asked[:-2]  # noqa: RUF005  numba knows no unpacking here
+    """The queue of limited torques with this one in front, and the torque that is due now."""
+    limited = (torque.u1, torque.u2) + limited[:-2]  # noqa: RUF005  numba knows no unpacking here
     if effects.delay == 0:
-        return asked, torque
-    return asked, Torque(asked[2 * effects.delay], asked[2 * effects.delay + 1])
+        return limited, torque
+    return limited, Torque(limited[2 * effects.delay], limited[2 * effects.delay + 1])
 
 
 @compiled
@@ -206,12 +206,12 @@ def apply_torque(
     """The tick from the controller's torque on: write, plant, read, observer, publish.
 
     lane: `LaneState` at the start of the tick. F: F_n(x̂) then, `InternalTorque`, N·m. reference:
-    `Reference` then. torque: asked for, within the limits, N·m. estimate: the ŵ behind it,
+    `Reference` then. torque: limited, N·m. estimate: the ŵ behind it,
     `Disturbance`, N·m. sample: (channels,), written. Returns `LaneState` and F at the end.
     """
     action = act(blocks, inputs, lane, torque, tick)
     time = tick * blocks.period
-    publish(blocks, reference, lane, F, estimate, action.made, action.rate, time, sample)
+    publish(blocks, reference, lane, F, estimate, action.actual, action.rate, time, sample)
     return move(blocks, inputs, lane, F, action, tick)
 
 
@@ -219,11 +219,11 @@ def apply_torque(
 def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: int) -> Action:
     """`Action` of a torque within the limits, N·m: delay, drive, loads and what they do at once."""
     effects, time = blocks.effects, tick * blocks.period
-    asked, target = delay(effects, lane.asked, torque)
+    limited, delayed = delay(effects, lane.limited, torque)
     load = compute_load(inputs.loads, tick, blocks.period, time)
-    made = compute_lagged_torque(lane.torque, target, effects.lag, 0.0)
-    rate = compute_plant_rate(blocks.plant, effects, lane.x, made, load)
-    return Action(asked, target, made, load, rate)
+    actual = compute_lagged_torque(lane.actual, delayed, effects.lag, 0.0)
+    rate = compute_plant_rate(blocks.plant, effects, lane.x, actual, load)
+    return Action(limited, delayed, actual, load, rate)
 
 
 @compiled
@@ -232,19 +232,19 @@ def move(
 ) -> tuple[LaneState, InternalTorque]:
     """The rest of the tick: plant, read, observer. Returns `LaneState` and F_n(x̂) at its end."""
     plant, nominal, effects, period = blocks.plant, blocks.nominal, blocks.effects, blocks.period
-    start, target, load = lane.torque, action.target, action.load
+    start, delayed, load = lane.actual, action.delayed, action.load
     table, steps = inputs.loads, blocks.steps
     x = integrate_from(
-        plant, effects, lane.x, action.rate, start, target, table, load, tick, period, steps
+        plant, effects, lane.x, action.rate, start, delayed, table, load, tick, period, steps
     )
-    made = compute_lagged_torque(start, target, effects.lag, period)
-    applied = compute_mean_torque(start, target, effects.lag, period)
+    actual = compute_lagged_torque(start, delayed, effects.lag, period)
+    applied = compute_mean_torque(start, delayed, effects.lag, period)
     known = sense(blocks, lane, x, applied, tick + 1)
     F_known = compute_internal_torque(nominal, known)
     observed = correct_disturbance_estimate(
         nominal, blocks.shares, lane.estimate, lane.known, F, known, F_known, applied, period
     )
-    return LaneState(x, known, observed, made, applied, action.asked, lane.memory), F_known
+    return LaneState(x, known, observed, actual, applied, action.limited, lane.memory), F_known
 
 
 @compiled

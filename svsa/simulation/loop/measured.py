@@ -57,14 +57,14 @@ class Carried(NamedTuple):
 
     known: State = AT_REST
     estimate: Disturbance = UNDISTURBED
-    made: Torque = NO_TORQUE
+    actual: Torque = NO_TORQUE
     before: Torque = NO_TORQUE
     sent: Torque = NO_TORQUE
     expected: State = AT_REST
     measured: Measurement = Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     ages_s: tuple[float, float, float] = (0.0, 0.0, 0.0)
     reference: Reference = NO_REFERENCE
-    asked: Torque = NO_TORQUE
+    limited: Torque = NO_TORQUE
     believed: Disturbance = UNDISTURBED
 
 
@@ -105,7 +105,7 @@ def find_late_torque(constants: np.record, carried: np.record) -> tuple[Torque, 
     """What the motors make a period later, and what acts until then, as `Torque`s, N·m."""
     c, actuation = carried, constants.actuation
     return compute_late_torque(
-        Torque(c.made.u1, c.made.u2),
+        Torque(c.actual.u1, c.actual.u2),
         Torque(c.before.u1, c.before.u2),
         Torque(c.sent.u1, c.sent.u2),
         actuation.lag,
@@ -123,18 +123,18 @@ def follow_and_decide(
     constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
     """
     k, c = constants[0], carried[0]
-    made, applied = find_late_torque(k, c)
+    actual, applied = find_late_torque(k, c)
     y = c.measured
     measured = Measurement(y.theta1, y.theta2, y.phi, y.dq, y.dtheta1, y.dtheta2)
     known, estimate = read_state(c.known), read_disturbance(c.estimate)
     x, w = observe(k.blocks, known, estimate, applied, measured)
     positions = Positions(y.theta1 + y.phi, y.theta1, y.theta2)
-    r, asked = decide(k.blocks, k.call, inputs, x, w, applied, positions, tick)
+    r, limited = decide(k.blocks, k.call, inputs, x, w, applied, positions, tick)
     store_state(c.known, x)
     store_disturbance(c.estimate, w)
     store_disturbance(c.believed, read_estimate(k.call, w))
-    store_torque(c.made, made)
-    store_torque(c.asked, asked)
+    store_torque(c.actual, actual)
+    store_torque(c.limited, limited)
     p = c.reference
     p.q, p.dq, p.ddq, p.dddq, p.ddddq = r.q, r.dq, r.ddq, r.dddq, r.ddddq
     p.sigma, p.dsigma, p.ddsigma = r.sigma, r.dsigma, r.ddsigma
@@ -165,10 +165,10 @@ def pass_ticks(
     k, c = constants[0], carried[0]
     w = read_disturbance(c.estimate)
     for passed in range(count):
-        made, applied = find_late_torque(k, c)
+        actual, applied = find_late_torque(k, c)
         x = predict_state(k.blocks.nominal, read_state(c.known), w, applied, k.blocks.period)
         store_state(c.known, x)
-        store_torque(c.made, made)
+        store_torque(c.actual, actual)
         store_torque(c.before, c.sent)
         positions = Positions(x.q, x.theta1, x.theta2)
         decide(k.blocks, k.call, inputs, x, w, applied, positions, first + passed)

@@ -7,52 +7,52 @@ from svsa.numerics.simd.choice import choose, some
 
 
 @compiled
-def approach(start: Torque, target: Torque, rest: float) -> Torque:
-    """`Torque` with this share (1) of the way from `start` to `target` left, N·m."""
+def approach(start: Torque, delayed: Torque, rest: float) -> Torque:
+    """`Torque` with this share (1) of the way from `start` to `delayed` left, N·m."""
     return Torque(
-        target.u1 + (start.u1 - target.u1) * rest, target.u2 + (start.u2 - target.u2) * rest
+        delayed.u1 + (start.u1 - delayed.u1) * rest, delayed.u2 + (start.u2 - delayed.u2) * rest
     )
 
 
 @compiled
-def compute_lagged_torque(start: Torque, target: Torque, lag: float, since: float) -> Torque:
+def compute_lagged_torque(start: Torque, delayed: Torque, lag: float, since: float) -> Torque:
     """First-order lag of the current loop: u + (τ_0 − u) e^(−t/τ), N·m.
 
-    start: `Torque` at the beginning of the period. target: `Torque` asked for. lag: time
+    start: `Torque` at the beginning of the period. delayed: `Torque` after the delay. lag: time
     constant, s; 0 is none. since: time in the period, s.
     """
     lags = lag > 0.0
     if not some(lags):
-        return target
-    return choose(lags, approach(start, target, exp(-since / lag)), target)
+        return delayed
+    return choose(lags, approach(start, delayed, exp(-since / lag)), delayed)
 
 
 @compiled
-def compute_mean_torque(start: Torque, target: Torque, lag: float, period: float) -> Torque:
+def compute_mean_torque(start: Torque, delayed: Torque, lag: float, period: float) -> Torque:
     """The mean of `compute_lagged_torque` over a period (s): what the observer is told."""
     lags = lag > 0.0
     if not some(lags):
-        return target
+        return delayed
     rest = lag / period * -expm1(-period / lag)
-    return choose(lags, approach(start, target, rest), target)
+    return choose(lags, approach(start, delayed, rest), delayed)
 
 
 @compiled
 def compute_late_torque(
-    start: Torque, before: Torque, target: Torque, lag: float, latency: float, period: float
+    start: Torque, before: Torque, delayed: Torque, lag: float, latency: float, period: float
 ) -> tuple[Torque, Torque]:
-    """The motors' torque where a new target comes `latency` (s) after the period began.
+    """The motors' torque where a new torque arrives `latency` (s) after the period began.
 
-    start: `Torque` made at the beginning. before, target: asked for until and after, N·m.
+    start: `Torque` made at the beginning. before, delayed: what arrived until then and after, N·m.
     lag: time constant, s. 0 ≤ latency ≤ period, s. Returns (`Torque` at the end of the
     period, mean `Torque` over it).
     """
     rest = period - latency
     met = compute_lagged_torque(start, before, lag, latency)
     early = compute_mean_torque(start, before, lag, latency) if latency > 0.0 else start
-    late = compute_mean_torque(met, target, lag, rest) if rest > 0.0 else met
+    late = compute_mean_torque(met, delayed, lag, rest) if rest > 0.0 else met
     mean = Torque(
         (early.u1 * latency + late.u1 * rest) / period,
         (early.u2 * latency + late.u2 * rest) / period,
     )
-    return compute_lagged_torque(met, target, lag, rest), mean
+    return compute_lagged_torque(met, delayed, lag, rest), mean

@@ -50,7 +50,7 @@ def integrate_period(
     effects: EffectConstants,
     x: State,
     start: Torque,
-    target: Torque,
+    delayed: Torque,
     table: LoadTable,
     tick: int,
     period: float,
@@ -59,14 +59,14 @@ def integrate_period(
     """The state at the end of the control period that begins at `tick` (RK4).
 
     actuator: `Actuator`, the true plant. effects: `EffectConstants`. x: `State`. start: `Torque`
-    that the motors make at the beginning, target: `Torque` asked of them, N·m. table:
+    that the motors make at the beginning, delayed: `Torque` after the delay, N·m. table:
     `LoadTable`. period: T, s. steps: Runge–Kutta steps in the period, ≥ 1.
     """
     load = compute_load(table, tick, period, tick * period)
-    torque = compute_lagged_torque(start, target, effects.lag, 0.0)
+    torque = compute_lagged_torque(start, delayed, effects.lag, 0.0)
     rate = compute_plant_rate(actuator, effects, x, torque, load)
     return integrate_from(
-        actuator, effects, x, rate, start, target, table, load, tick, period, steps
+        actuator, effects, x, rate, start, delayed, table, load, tick, period, steps
     )
 
 
@@ -77,7 +77,7 @@ def integrate_from(
     x: State,
     rate: State,
     start: Torque,
-    target: Torque,
+    delayed: Torque,
     table: LoadTable,
     load: ExternalLoad,
     tick: int,
@@ -90,9 +90,9 @@ def integrate_from(
     for i in range(steps):
         since = i * h
         time = tick * period + since
-        u0 = compute_lagged_torque(start, target, effects.lag, since)
-        u1 = compute_lagged_torque(start, target, effects.lag, since + 0.5 * h)
-        u2 = compute_lagged_torque(start, target, effects.lag, since + h)
+        u0 = compute_lagged_torque(start, delayed, effects.lag, since)
+        u1 = compute_lagged_torque(start, delayed, effects.lag, since + 0.5 * h)
+        u2 = compute_lagged_torque(start, delayed, effects.lag, since + h)
         middle = follow_load(table, early, tick, period, time + 0.5 * h)
         late = follow_load(table, early, tick, period, time + h)
         k1 = rate if i == 0 else compute_plant_rate(actuator, effects, x, u0, early)
@@ -119,21 +119,22 @@ def coast(
     stops: Stops,
     x: State,
     torque: Torque,
-    target: Torque,
+    delayed: Torque,
     table: LoadTable,
     tick: int,
     period: float,
     count: int,
 ) -> tuple[State, Torque]:
-    """x and the motors' torque `count` periods after `tick`, the target held (RK4, one step each).
+    """x and the motors' torque `count` periods after `tick`, the delayed torque held (RK4, one step
+    each).
 
     actuator: `Actuator`, the true plant. effects: `EffectConstants`. stops: `Stops`. x: `State`.
-    torque: `Torque` that the motors make at the beginning, target: `Torque` asked of them,
+    torque: `Torque` that the motors make at the beginning, delayed: `Torque` asked of them,
     N·m. table: `LoadTable`. period: s. Returns (`State`, `Torque`).
     """
     for i in range(tick, tick + count):
-        x = integrate_period(actuator, effects, x, torque, target, table, i, period, 1)
-        torque = compute_lagged_torque(torque, target, effects.lag, period)
+        x = integrate_period(actuator, effects, x, torque, delayed, table, i, period, 1)
+        torque = compute_lagged_torque(torque, delayed, effects.lag, period)
         inertia = actuator.M + compute_load(table, i, period, i * period).inertia
         x = hit_stops(stops, x, inertia, actuator.B1)
     return x, torque

@@ -113,7 +113,7 @@ def test_the_ticks_that_are_timed_decide_what_the_run_did(law: str) -> None:
     asked = np.empty((len(samples), 2))
     for tick in range(len(samples)):
         assert ticks.run_tick(tick) > 0.0
-        asked[tick] = ticks.asked
+        asked[tick] = ticks.limited
     assert_allclose(np.clip(asked, np.negative(limits), limits), samples[:, TORQUES], atol=1e-9)
 
 

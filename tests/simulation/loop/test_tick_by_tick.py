@@ -86,22 +86,30 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
         blocks, call, lane.known, reference, lane.estimate, lane.applied, measured
     )
     assert math.isfinite(torque.u1 + torque.u2)
-    asked, target = delay(effects, lane.asked, torque)
+    limited, delayed = delay(effects, lane.limited, torque)
     load = compute_load(inputs.loads, tick, period, time)
-    made = compute_lagged_torque(lane.torque, target, effects.lag, 0.0)
-    rate = compute_plant_rate(blocks.plant, effects, lane.x, made, load)
+    actual = compute_lagged_torque(lane.actual, delayed, effects.lag, 0.0)
+    rate = compute_plant_rate(blocks.plant, effects, lane.x, actual, load)
     F = compute_internal_torque(blocks.nominal, lane.known)
-    publish(blocks, reference, lane, F, lane.estimate, made, rate, time, sample)
+    publish(blocks, reference, lane, F, lane.estimate, actual, rate, time, sample)
     x = integrate_period(
-        blocks.plant, effects, lane.x, lane.torque, target, inputs.loads, tick, period, blocks.steps
+        blocks.plant,
+        effects,
+        lane.x,
+        lane.actual,
+        delayed,
+        inputs.loads,
+        tick,
+        period,
+        blocks.steps,
     )
-    made = compute_lagged_torque(lane.torque, target, effects.lag, period)
-    applied = compute_mean_torque(lane.torque, target, effects.lag, period)
+    actual = compute_lagged_torque(lane.actual, delayed, effects.lag, period)
+    applied = compute_mean_torque(lane.actual, delayed, effects.lag, period)
     known = sense(blocks, lane, x, applied, tick + 1)
     estimate = update_disturbance_estimate(
         blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period
     )
-    return LaneState(x, known, estimate, made, applied, asked, lane.memory)
+    return LaneState(x, known, estimate, actual, applied, limited, lane.memory)
 
 
 def test_one_call_is_what_a_run_does(parts, initial, whole):
