@@ -175,9 +175,9 @@ class CanPlant:
         return self._sensing.read(self._get_bus(), now, known)
 
     def write(
-        self, now: float, asked: Torque, known: State, estimate: Disturbance, missed: int
+        self, now: float, limited: Torque, known: State, estimate: Disturbance, missed: int
     ) -> Torque:
-        """Send what may be sent of `asked`; returns the torque that was really sent, N·m.
+        """Send what may be sent of `limited`; returns the torque that was really sent, N·m.
 
         known: x̂. estimate: ŵ, N·m. missed: ticks lost before this one.
         """
@@ -185,7 +185,7 @@ class CanPlant:
             held_s = self._bench.safety.loop_s if self._is_stopped else math.inf
             self._guard.pass_ticks(missed, held_s, self._sensing.current_a)
         self._guard.counts = self._sensing.find_new_counts()
-        torque = self._machine.update(self._find_conditions(missed), asked, known, estimate)
+        torque = self._machine.update(self._find_conditions(missed), limited, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
         try:
             if status is BenchStatus.FAULT:

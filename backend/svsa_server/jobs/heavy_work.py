@@ -45,7 +45,7 @@ class HeavyWork:
         """What the job returns, done in a worker; raises what it raises, and `BusyError`."""
         if self._taken >= self._most:
             raise BusyError(
-                f"{self._taken} exports, replays, comparisons, maps and laws in the ranking are being"
+                f"{self._taken} exports, replays, comparisons, maps and laws of the ranking are"
                 f" worked at, which is all this lab takes at once: try again in {RETRY_AFTER_S} s."
             )
         self._taken += 1

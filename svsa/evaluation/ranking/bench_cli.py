@@ -1,4 +1,4 @@
-"""`svsa ranking bench`: laws in the paper's bench figures, on the emulated rig, beside a comparison."""
+"""`svsa ranking bench`: laws in the paper's bench figures on the emulator, next to a baseline."""
 
 import json
 from pathlib import Path
@@ -36,7 +36,7 @@ def bench(
         Path | None, typer.Option(help="Show what was kept there, and measure nothing.")
     ] = None,
 ) -> None:
-    """Run laws through Figures 6A, 6B and 7 on the emulated rig: 12 numbers beside a comparison's."""
+    """Run laws through Figures 6A, 6B and 7 on the emulator: 12 numbers next to a baseline's."""
     kept = read_bench_runs(save) if save is not None and save.exists() else None
     figures = tuple(dict.fromkeys(_check_figure(key) for key in figure or BENCH_FIGURES))
     if results is None:

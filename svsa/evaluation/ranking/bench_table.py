@@ -29,7 +29,7 @@ def build_table(runs: BenchRuns, comparison: str) -> Table:
         title="Position errors [°] as the emulated rig measures them, through CAN",
         title_justify="left",
         caption=f"Before: rms 1–5 s; peak 5–7 s; settled: rms 8–20 s; recov.: s. No worse: in how"
-        f" many numbers than {get_title(comparison)}, in bold. A load of 2 N·m on the link from 5 s on.",
+        f" many numbers than {get_title(comparison)}, in bold. Load: 2 N·m on the link from 5 s.",
         caption_justify="left",
     )
     table.add_column("law", no_wrap=True)

@@ -122,11 +122,11 @@ class Guard:
         self._vibrations = (Vibration(self._period), Vibration(self._period))
         check_packed_domain(self._bounds, _STILL)  # compiled here, not in the first tick that runs
 
-    def limit(self, asked: Torque, known: State) -> Torque:
-        """What of `asked` may be sent, N·m."""
+    def limit(self, limited: Torque, known: State) -> Torque:
+        """What of `limited` may be sent, N·m."""
         return Torque(
-            self.motor1.limit(asked.u1, known.theta1, self._period),
-            self.motor2.limit(asked.u2, known.theta2, self._period),
+            self.motor1.limit(limited.u1, known.theta1, self._period),
+            self.motor2.limit(limited.u2, known.theta2, self._period),
         )
 
     def note(self, sent: Torque, current_a: tuple[float, float]) -> None:
@@ -152,9 +152,9 @@ class Guard:
         """The motor that is too warm, or None."""
         return self.motor1.find_overload() or self.motor2.find_overload()
 
-    def check(self, asked: Torque, known: State, estimate: Disturbance) -> Alarm | None:
+    def check(self, limited: Torque, known: State, estimate: Disturbance) -> Alarm | None:
         """Why the run ends, or None. known: x̂. estimate: ŵ, N·m."""
-        if not math.isfinite(asked.u1 + asked.u2 + sum(known) + sum(estimate)):
+        if not math.isfinite(limited.u1 + limited.u2 + sum(known) + sum(estimate)):
             return Alarm("not_finite", "A torque or a state was not a finite number.", {})
         alarm = (
             self.motor1.check(known.theta1, known.dtheta1)

@@ -127,17 +127,17 @@ class Machine:
             self.fault = Fault(alarm.code, 0, self._tick, time_s, alarm.message, alarm.values)
 
     def update(
-        self, conditions: Conditions, asked: Torque, known: State, estimate: Disturbance
+        self, conditions: Conditions, limited: Torque, known: State, estimate: Disturbance
     ) -> Torque:
         """The torque that may be sent in this tick, N·m; the state goes on.
 
-        asked: by the controller. known: x̂. estimate: ŵ.
+        limited: torque of the law, N·m. known: x̂. estimate: ŵ.
         """
         if self._tick and self.status in MOVING:
             self._tick += conditions.missed
         alarm = self._find_alarm(conditions)
         if alarm is None and self.status in MOVING:
-            alarm = self._guard.check(asked, known, estimate)
+            alarm = self._guard.check(limited, known, estimate)
         if alarm is not None:
             self.fail(alarm)
         if self.status in ARMING:
@@ -155,7 +155,7 @@ class Machine:
         if max(conditions.ages_s) > self._safety.stale_zero_s:
             return NO_TORQUE
         share = self._share
-        return self._guard.limit(Torque(share * asked.u1, share * asked.u2), known)
+        return self._guard.limit(Torque(share * limited.u1, share * limited.u2), known)
 
     def _find_alarm(self, conditions: Conditions) -> Alarm | None:
         """What of the bench itself ends its run, in the states in which it is watched."""

@@ -28,15 +28,15 @@ class Verified(NamedTuple):
     """What holds of a bench's record.
 
     ticks, missed: samples, and those of them that the loop was too late for. lanes: simulated ones
-    beside. share_as_asked: of the samples in which the torque sent is the one that the law asked
-    for, to a step of the drive's current; in the others it was held back.
+    in parallel. share_as_limited: of the samples in which the torque sent is the limited torque of
+    the law, to a step of the drive's current; in the others the guard reduced it.
     """
 
     plant: PlantKind
     ticks: int
     missed: int
     lanes: int
-    share_as_asked: float
+    share_as_limited: float
 
     @property
     def told(self) -> str:
@@ -51,12 +51,12 @@ class Verified(NamedTuple):
             f" torques sent in its {self.ticks} samples{late} references, observer, estimate and"
             f" errors were worked out again{beside}: the same, bit for bit. The torques sent are"
             f" those that its law asks for, to a step of the drives, in"
-            f" {100.0 * self.share_as_asked:.1f} % of the samples, and never beyond them."
+            f" {100.0 * self.share_as_limited:.1f} % of the samples, and never beyond them."
         )
 
 
 class RecordedPlant:
-    """A bench that measures and sends what it did. asked: what the law asked for, (ticks, 2)."""
+    """A bench that measures and sends what it did. limited: the law's, (ticks, 2)."""
 
     status = BenchStatus.RUN
 
@@ -76,7 +76,7 @@ class RecordedPlant:
     def write(  # noqa: D102
         self, now: float, limited: Torque, known: State, estimate: Disturbance, missed: int
     ) -> Torque:
-        self.limited[self.tick] = asked
+        self.limited[self.tick] = limited
         return Torque(*self.sent[self.tick].tolist())
 
 
@@ -141,23 +141,23 @@ def _compare(record: Record, again: np.ndarray, samples: np.ndarray) -> None:
 def _compare_torques(
     record: Record, plant: RecordedPlant, torque_step_nm: tuple[float, float]
 ) -> float:
-    """The share of samples whose torques are as asked; raises `RecordError` where one is beyond.
+    """The share of samples whose torques are as limited; raises `RecordError` where one is beyond.
 
     What a bench holds back (limits, heat, rate of change, its ramp, a drive that takes nothing
-    yet) lies between zero, the torque before, and the one that is asked for.
+    yet) lies between zero, the torque before, and the limited one.
     """
     there = np.flatnonzero(np.isfinite(plant.sent[:, 0]))
-    sent, asked = plant.sent[there], plant.asked[there]
+    sent, limited = plant.sent[there], plant.limited[there]
     last = np.vstack([np.zeros(2), sent[:-1]])
     room = _HALF_STEP * np.array(torque_step_nm)
-    least = np.minimum(np.minimum(asked, last), 0.0) - room
-    most = np.maximum(np.maximum(asked, last), 0.0) + room
+    least = np.minimum(np.minimum(limited, last), 0.0) - room
+    most = np.maximum(np.maximum(limited, last), 0.0) + room
     beyond = ((sent < least) | (sent > most)).any(axis=1)
     if beyond.any():
         row = int(np.argmax(beyond))
         raise RecordError(
             f"Run {record.header.run_id} was not controlled by its law: at tick {there[row]} it"
             f" sent {sent[row].round(4).tolist()} N·m, and the law asks for"
-            f" {asked[row].round(4).tolist()} N·m."
+            f" {limited[row].round(4).tolist()} N·m."
         )
-    return float((np.abs(sent - asked) <= room).all(axis=1).mean())
+    return float((np.abs(sent - limited) <= room).all(axis=1).mean())

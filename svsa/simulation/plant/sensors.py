@@ -45,7 +45,7 @@ def build_positions(x: State) -> Positions:
 
 @compiled
 def read_positions(effects: EffectConstants, x: State, tick: int) -> Positions:
-    """`Positions` that the encoders say of x, `State` at the start of `tick`. effects: `EffectConstants`."""
+    """`Positions` that the encoders measure of x, `State` at the start of `tick`."""
     exact, differs = build_positions(x), are_inexact(effects)
     if not some(differs):
         return exact

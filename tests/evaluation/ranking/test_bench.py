@@ -1,4 +1,4 @@
-"""`svsa ranking bench`: twelve numbers a law on the emulated rig, beside a comparison's, and in a file."""
+"""`svsa ranking bench`: twelve numbers per law on the emulator, next to a baseline's."""
 
 import json
 import os
