@@ -34,10 +34,8 @@ LONGEST_END_S = 60.0
 """The server ends after this time even if its sessions are not closed by then."""
 
 HEALTH = f"{API}/health"
-_LAB_STOPS = {f"{API}/{stop}" for stop in ("quick-stop", "emergency-stop")}
-_SESSION_STOPS = {
-    f"{API}/sessions/{SHARED_SESSION}/{stop}" for stop in ("quick-stop", "emergency-stop")
-}
+_LAB_STOP = f"{API}/quick-stop"
+_STOPS = {_LAB_STOP, f"{API}/sessions/{SHARED_SESSION}/quick-stop"}
 _log = logging.getLogger("svsa")
 
 
@@ -101,10 +99,10 @@ class ResponsiveApp:
             " all others. It is not known whether the request has an effect. Restart the server"
             " if this persists."
         )
-        if path in _LAB_STOPS | _SESSION_STOPS and isinstance(self._shared, BenchSession):
+        if path in _STOPS and isinstance(self._shared, BenchSession):
             self._shared.stop_from_keyboard()
             _log.warning("A quick stop was passed to the loop of the bench. %s", detail)
-            if path in _LAB_STOPS:
+            if path == _LAB_STOP:
                 return Response(status_code=204)
             detail = f"The quick stop was passed to the loop of the bench. {detail}"
         headers = {"Retry-After": str(math.ceil(SILENT_S))}
@@ -144,7 +142,7 @@ def _is_urgent(scope: Scope) -> bool:
     path, method = find_path(scope), scope.get("method")
     if path == HEALTH:
         return method in ("GET", "HEAD")
-    return method == "POST" and path in _LAB_STOPS | _SESSION_STOPS
+    return method == "POST" and path in _STOPS
 
 
 async def _find_owner(scope: Scope, kind: Kind, name: str) -> Owner:

@@ -48,7 +48,6 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         "POST /api/v1/join",
         "POST /api/v1/return",
         "POST /api/v1/quick-stop",  # whoever sees something go wrong may stop it
-        "POST /api/v1/emergency-stop",
         "GET /lti/keys",
         "GET /lti/login",
         "POST /lti/login",
@@ -98,7 +97,6 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         "WEBSOCKET /viser/{session}/",
         f"POST {_SESSION}/pause",
         f"POST {_SESSION}/quick-stop",
-        f"POST {_SESSION}/emergency-stop",
         f"POST {_SESSION}/predict",
         f"POST {_SESSION}/bench/endurance",
         f"POST {_SESSION}/design/response",

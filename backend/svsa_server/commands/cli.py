@@ -3,7 +3,7 @@
 import gc
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -74,4 +74,12 @@ def openapi() -> None:
     require_extra("server")
     from svsa_server.app import build_app
 
-    print(json.dumps(build_app().openapi(), indent=2))
+    print(_write_lines(build_app().openapi(), depth=3))
+
+
+def _write_lines(schema: dict[str, Any], depth: int) -> str:
+    """JSON with a line for each operation and each component, so that a diff shows what changed."""
+    if depth == 0 or not isinstance(schema, dict):
+        return json.dumps(schema)
+    lines = (f"{json.dumps(key)}: {_write_lines(part, depth - 1)}" for key, part in schema.items())
+    return "{\n" + ",\n".join(lines) + "\n}"

@@ -15,7 +15,7 @@ from svsa_server.leases.names import LONGEST_NAME
 
 CLIENT_HEADER = "SVSA-Client"
 # What is open to all whoever holds the lease: it stops, it only asks, or it is the hand itself.
-STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop"), ("POST", "/emergency-stop")})
+STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop")})
 ASKING = (
     "/predict",
     "/bench/endurance",

@@ -45,7 +45,6 @@ def test_one_too_many_is_told_when_it_is_not(monkeypatch: pytest.MonkeyPatch) ->
         ("POST", SESSION + "/pause", None),
         ("POST", SESSION + "/quick-stop", None),
         ("POST", "/api/v1/quick-stop", None),
-        ("POST", "/api/v1/emergency-stop", None),
         ("GET", SESSION, None),
     ],
 )

@@ -25,8 +25,6 @@ def test_every_installed_law_says_what_it_is(lab: Lab) -> None:
         "default": 54.6,
         "low": 5.0,
         "high": 150.0,
-        "least": 5.0,
-        "most": 150.0,
     }
 
 

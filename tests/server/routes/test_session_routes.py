@@ -124,15 +124,10 @@ def test_figures_health_and_documentation(lab: Lab) -> None:
     assert all("examples" in body["schema"] or "examples" in body for body in bodies)
 
 
-def test_the_quick_stop_still_answers_to_its_old_name_which_is_deprecated(lab: Lab) -> None:
-    paths = lab.client.get("/openapi.json").json()["paths"]
-    for folder in ("/api/v1", "/api/v1/sessions/{session}"):
-        assert "deprecated" not in paths[folder + "/quick-stop"]["post"]
-        assert paths[folder + "/emergency-stop"]["post"]["deprecated"] is True
-    for route in ("/quick-stop", "/emergency-stop"):
-        lab.client.post(lab.session + "/start").raise_for_status()
-        stopped = lab.client.post(lab.session + route).raise_for_status().json()
-        assert stopped["status"] == "paused"
-        event = stopped["events"][-1]
-        assert (event["kind"], event["label"]) == ("quick_stop", "Quick stop")
+def test_the_quick_stop_pauses_a_simulation_and_enters_an_event(lab: Lab) -> None:
+    lab.client.post(lab.session + "/start").raise_for_status()
+    stopped = lab.client.post(lab.session + "/quick-stop").raise_for_status().json()
+    assert stopped["status"] == "paused"
+    event = stopped["events"][-1]
+    assert (event["kind"], event["label"]) == ("quick_stop", "Quick stop")
     lab.client.post(lab.session + "/start").raise_for_status()

@@ -19,7 +19,6 @@ async def read_health() -> Health:
     return Health(version=svsa.__version__)
 
 
-@router.post("/emergency-stop", status_code=204, deprecated=True, operation_id="emergency_stop_lab")
 @router.post("/quick-stop", status_code=204)
 def quick_stop_lab(request: Request) -> None:
     """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 from fastapi import Body
-from pydantic import BaseModel, Field, computed_field
+from pydantic import BaseModel, Field
 
 from svsa.simulation.reference.preview import sample_reference
 from svsa.simulation.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness
@@ -47,18 +47,6 @@ class ReferencePreview(BaseModel):
     low: float = Field(description="Least value")
     high: float = Field(description="Greatest value")
     peak_rate: float = Field(description="Greatest |first derivative|, rad/s or N·m/rad/s")
-
-    @computed_field(description="Now `low`", json_schema_extra={"deprecated": True})
-    @property
-    def least(self) -> float:
-        """`low`, as it was called."""
-        return self.low
-
-    @computed_field(description="Now `high`", json_schema_extra={"deprecated": True})
-    @property
-    def greatest(self) -> float:
-        """`high`, as it was called."""
-        return self.high
 
 
 @router.post("/csv")

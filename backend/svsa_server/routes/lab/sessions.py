@@ -73,7 +73,6 @@ def pause(hosted: NamedSession) -> SessionState:
     return build_state(hosted)
 
 
-@router.post("/{session}/emergency-stop", deprecated=True, operation_id="emergency_stop")
 @router.post("/{session}/quick-stop")
 def quick_stop(hosted: NamedSession) -> SessionState:
     """Zero current at once on a bench, latched until cleared; a simulation pauses.

@@ -38,11 +38,11 @@ from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.teaching.course import (
     AnswerRequest,
+    CourseLawRequest,
     CourseState,
     CriterionState,
     ExerciseState,
     JudgementState,
-    LawRequest,
     PlaceRequest,
     RunRequest,
     SetupRequest,
@@ -173,7 +173,9 @@ async def try_law(
     person: NamedPerson,
     work: Work,
     exercise: ExerciseName,
-    wanted: Annotated[LawRequest, Body(examples=[{"text": "def law(*given): return 0.0, 0.0\n"}])],
+    wanted: Annotated[
+        CourseLawRequest, Body(examples=[{"text": "def law(*given): return 0.0, 0.0\n"}])
+    ],
 ) -> ExerciseState:
     """Try a law in a process of its own on a scenario that everybody may see, and keep it.
 

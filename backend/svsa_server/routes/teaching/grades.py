@@ -18,9 +18,9 @@ from svsa_server.routes.teaching.course import find_store
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.job import JobState, describe_job
 from svsa_server.schemas.teaching.grades import (
+    GradedSubmissionState,
     GradesState,
     GradingRequest,
-    SubmissionState,
     describe_exercises,
     describe_students,
     describe_submission,
@@ -91,7 +91,7 @@ async def show_grades(request: Request, person: _Person = "") -> HTMLResponse:
 
 
 @router.get("/mine")
-async def read_own_grades(request: Request, person: NamedPerson) -> list[SubmissionState]:
+async def read_own_grades(request: Request, person: NamedPerson) -> list[GradedSubmissionState]:
     """What one submitted oneself, with points and reasons."""
     submitted = await asyncio.to_thread(list_graded, find_store(request), person.id)
     return [describe_submission(one) for one in submitted]

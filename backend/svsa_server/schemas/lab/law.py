@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, Field, computed_field
+from pydantic import AfterValidator, BaseModel, Field
 
 from svsa.control.installed import (
     LawError,
@@ -43,18 +43,6 @@ class ParameterState(BaseModel):
     default: Value
     low: float | None = Field(description="Null where nothing bounds it from below")
     high: float | None = Field(description="Null where nothing bounds it from above")
-
-    @computed_field(description="Now `low`", json_schema_extra={"deprecated": True})
-    @property
-    def least(self) -> float | None:
-        """`low`, as it was called."""
-        return self.low
-
-    @computed_field(description="Now `high`", json_schema_extra={"deprecated": True})
-    @property
-    def most(self) -> float | None:
-        """`high`, as it was called."""
-        return self.high
 
 
 class LawState(BaseModel):

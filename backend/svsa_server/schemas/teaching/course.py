@@ -49,7 +49,7 @@ class SubmissionRequest(Checked):
     student: str = quantity("", "Name", max_length=LONGEST_NAME, default="")
 
 
-class LawRequest(Checked):
+class CourseLawRequest(Checked):
     """A law that is to be tried and kept."""
 
     text: Annotated[str, Field(min_length=1, max_length=MAX_LAW_BYTES)] = quantity(

@@ -14,7 +14,7 @@ class GradingRequest(Checked):
     again: Flag = quantity("", "Run again also what has its grade", default=False)
 
 
-class SubmissionState(BaseModel):
+class GradedSubmissionState(BaseModel):
     """What somebody submitted of an exercise."""
 
     exercise: str
@@ -27,7 +27,7 @@ class StudentState(BaseModel):
 
     person: str = Field(description="Id of the person")
     name: str
-    submissions: list[SubmissionState]
+    submissions: list[GradedSubmissionState]
 
 
 class GradedExercise(BaseModel):
@@ -48,9 +48,9 @@ class GradesState(BaseModel):
     students: list[StudentState]
 
 
-def describe_submission(one: GradedSubmission) -> SubmissionState:
+def describe_submission(one: GradedSubmission) -> GradedSubmissionState:
     """A submission on the wire."""
-    return SubmissionState(exercise=one.exercise, grade=one.grade, problem=one.problem)
+    return GradedSubmissionState(exercise=one.exercise, grade=one.grade, problem=one.problem)
 
 
 def describe_students(submitted: list[GradedSubmission]) -> list[StudentState]:

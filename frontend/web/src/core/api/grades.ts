@@ -7,7 +7,7 @@ type Schemas = components["schemas"];
 
 export type Grades = Schemas["GradesState"];
 export type Student = Schemas["StudentState"];
-export type Submission = Schemas["SubmissionState"];
+export type Submission = Schemas["GradedSubmissionState"];
 export type Grade = NonNullable<Submission["grade"]>;
 export type Criterion = Grade["criteria"][number];
 
