@@ -4,11 +4,12 @@ With it, and the samples as they were measured and sent, every other number of t
 out again.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
 
+from svsa.runs.records.former_words import MOTION, translate_fields
 from svsa.runs.records.header import RecordError, replace_file
 
 START_FILE = "bench-start.json"
@@ -51,7 +52,8 @@ def read_start(folder: Path) -> BenchStart | None:
     Raises `RecordError` where the file is damaged.
     """
     try:
-        return _START.validate_json((folder / START_FILE).read_bytes())
+        start = _START.validate_json((folder / START_FILE).read_bytes())
+        return replace(start, motion=translate_fields(start.motion, MOTION))
     except FileNotFoundError:
         return None
     except (OSError, ValidationError) as error:

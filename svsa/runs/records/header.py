@@ -14,6 +14,7 @@ from pydantic import model_validator
 from svsa.actuators.signals import Channel
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.runs.records.former_words import FIELDS, translate_fields
 
 FORMAT = 1
 LONGEST_NAME = 200
@@ -122,6 +123,8 @@ def parse_header(text: str) -> RecordHeader:
     if written.get("format") != FORMAT:
         known = f"this version of svsa reads format {FORMAT}"
         raise RecordError(f"format {str(written.get('format'))[:40]}, but {known}")
+    if "configuration" in written:
+        written["configuration"] = translate_fields(written["configuration"], FIELDS)
     try:
         return RecordHeader(**written)
     except ParameterError as error:

@@ -15,6 +15,7 @@ from svsa.errors import Fault
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import START_FILE, BenchStart, dump_start
 from svsa.runs.records.fault import FAULT_FILE, dump_fault
+from svsa.runs.records.former_words import translate_command
 from svsa.runs.records.header import (
     COMMANDS_FILE,
     PARQUET_FILE,
@@ -33,9 +34,6 @@ FAULT_KEY = b"svsa.fault"
 START_KEY = b"svsa.bench_start"
 EVENTS_KEY = b"svsa.events"
 ROWS_A_GROUP = 65_536
-
-FORMER_KINDS = {"controller": "law"}
-"""Kinds of commands as older records name them, and what they are called today."""
 
 Commands = list[tuple[int, dict[str, Any]]]
 Batches = Iterable[pa.RecordBatch]
@@ -157,10 +155,8 @@ def read_commands(folder: Path) -> tuple[Commands, int]:
     for number, line in enumerate(content[:whole].splitlines(), 1):
         try:
             written = json.loads(line)
-            command = _check(written["command"], dict)
-            kind = command.get("kind")
-            named = command | {"kind": FORMER_KINDS[kind]} if kind in FORMER_KINDS else command
-            commands.append((_check(written["tick"], int), named))
+            command = translate_command(_check(written["command"], dict))
+            commands.append((_check(written["tick"], int), command))
         except (ValueError, KeyError, TypeError) as error:
             text = f"{COMMANDS_FILE} of record {folder.name} is damaged in line {number}: {error}"
             raise RecordError(text) from None

@@ -5,15 +5,17 @@ set up; an answer to a question is kept as it was first given, since its feedbac
 right.
 """
 
+import json
 from collections.abc import Sequence
 from glob import escape
 from pathlib import Path
 from threading import Lock
-
-from pydantic import ValidationError
+from typing import Any
 
 from svsa.errors import StateError
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.runs.records import former_words
+from svsa.runs.records.former_words import translate_fields
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import check_answer
 from svsa.teaching.course.judgement import CriterionResult
@@ -183,6 +185,14 @@ def _sum(results: Sequence[CriterionResult]) -> float:
     return sum(one.points for one in results)
 
 
+def _translate(written: Any) -> Any:
+    """The progress in an exercise, in the present words."""
+    present = translate_fields(written, former_words.PROGRESS)
+    if isinstance(present, dict) and present.get("at") in former_words.STEPS:
+        present["at"] = former_words.STEPS[present["at"]]
+    return present
+
+
 class ProgressStore:
     """Progress of people in a folder, a file each, whole or not at all. Thread-safe.
 
@@ -192,12 +202,17 @@ class ProgressStore:
     def __init__(self, folder: Path) -> None:
         self.folder = folder / COURSE_FOLDER
         self.lock = Lock()
+        former = self.folder / former_words.SUBMISSIONS
+        if former.is_dir() and not (self.folder / SUBMISSIONS).exists():
+            former.rename(self.folder / SUBMISSIONS)
 
     def read(self, person: str) -> PersonProgress:
         """What is kept of a person; nothing where there is none, or it cannot be read."""
         try:
-            return PersonProgress.model_validate_json(self._find(person).read_bytes())
-        except (OSError, ValidationError):
+            written = json.loads(self._find(person).read_bytes())
+            exercises = written.get("exercises", {}).items()
+            return PersonProgress(exercises={name: _translate(one) for name, one in exercises})
+        except (OSError, ValueError, AttributeError):
             return PersonProgress()
 
     def write(self, person: str, progress: PersonProgress) -> None:

@@ -179,3 +179,14 @@ def test_a_lecturer_s_folder_is_served(tmp_path):
         listed = lab.client.get(COURSE).json()["exercises"]
 
     assert ("first", "A first one") in [(one["name"], one["title"]) for one in listed]
+
+
+def test_progress_with_former_words_is_kept(student, data):
+    """Of an exercise that was handed in before the words changed."""
+    folder = data / "course"
+    (folder / "people").mkdir(parents=True, exist_ok=True)
+    written = {"at": "hand-in", "handed_in": "2026-01-02T03:04:05+00:00", "points": 7.5}
+    path = folder / "people" / "home.json"
+    path.write_text(json.dumps({"exercises": {NAME: written}}), encoding="utf-8")
+    state = student.read()
+    assert (state["at"], state["submitted_at"]) == ("submit", written["handed_in"])

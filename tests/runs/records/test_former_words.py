@@ -1,0 +1,50 @@
+"""Records made before the fields and commands got their present names are read and replayed."""
+
+from pathlib import Path
+
+import pytest
+
+from svsa.hardware.session.replay import verify_bench_record
+from svsa.runs.records.former_words import FIELDS, KINDS, MOTION
+from svsa.runs.records.reader import open_record
+from svsa.runs.records.resimulation import compare_with_simulation, read_origin
+from svsa.runs.result.recorded import open_run
+
+RECORDS = Path(__file__).parents[2] / "data" / "records"
+
+
+@pytest.mark.parametrize(("name", "file"), [("simulated", "header.json"), ("bench", "header.json")])
+def test_the_records_have_the_former_words(name: str, file: str) -> None:
+    """Otherwise the other tests would show nothing."""
+    text = (RECORDS / name / file).read_text(encoding="utf-8")
+    assert all(f'"{former}"' in text for former in FIELDS)
+
+
+@pytest.mark.parametrize("name", ["simulated", "comparisons"])
+def test_a_former_record_is_its_simulation_bit_for_bit(name: str) -> None:
+    record = open_record(RECORDS / name)
+    compared = compare_with_simulation(record)
+    assert compared.identical, compared.first_difference
+    assert compared.ticks == record.tick_count > 0
+
+
+def test_a_former_command_has_its_present_kind() -> None:
+    commands = (RECORDS / "comparisons" / "commands.jsonl").read_text(encoding="utf-8")
+    assert '"kind": "rivals"' in commands
+    _, (first, _) = read_origin(open_record(RECORDS / "comparisons"))
+    assert first.kind == KINDS["rivals"]
+    assert [lane.law for lane in first.argument] == ["fl"]
+
+
+def test_a_former_record_of_a_bench_follows_from_what_was_measured() -> None:
+    start = (RECORDS / "bench" / "bench-start.json").read_text(encoding="utf-8")
+    assert all(f'"{former}"' in start for former in MOTION)
+    record = open_record(RECORDS / "bench")
+    verified = verify_bench_record(record)
+    assert (verified.ticks, verified.missed) == (record.tick_count, 0)
+
+
+def test_a_former_record_is_opened_as_a_result() -> None:
+    result = open_run(RECORDS / "simulated")
+    lanes = (result, *result.comparisons)
+    assert [one.law for one in lanes] == ["ndobc", "fl", "ndobc_s"]
