@@ -5,7 +5,7 @@ PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
   frontend/scene/svsa_scene/cameras.json
-# All but the peers of `svsa bench`, which are large and which nothing here needs.
+# All but the peers of `svsa benchmark`, which are large and which nothing here needs.
 LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti
 # Each module in one process: in the order of the folders, the browser last, since its driver keeps
 # an event loop running. On two cores two more, for what waits for something most of the time.
@@ -24,7 +24,7 @@ COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all $(COMPILED) & \
   $(WEB) test && $(MAKE) --no-print-directory .venv/tests; \
   page=$$?; wait $$! && exit $$page
 
-.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page schema lock screenshots ranking bench clean
+.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page schema lock screenshots ranking benchmark clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -37,7 +37,7 @@ dev: .venv/installed $(PAGE)  ## the lab, and the page rebuilt as you type (on t
 	@$(BIN)/svsa serve --port 8000 & $(WEB) run dev
 
 bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
-	@$(BIN)/svsa rig --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/hardware/emulator/bench.toml
+	@$(BIN)/svsa emulator --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/hardware/emulator/bench.toml
 
 test: .venv/installed $(PAGE)  ## nearly every promise of the lab, where it is soonest shown, and the main ways
 	@$(COMPILE_AND_TEST_PAGE)
@@ -93,8 +93,8 @@ ranking: .venv/installed  ## every law measured, and what is written of them: af
 	$(BIN)/svsa ranking bench ndobc_s ndobc_w --save svsa/evaluation/ranking/bench_results.json
 	$(BIN)/svsa ranking publish
 
-bench: .venv/installed  ## what the loop costs, beside a C loop of the same work
-	$(BIN)/svsa bench
+benchmark: .venv/installed  ## what the loop costs, beside a C loop of the same work
+	$(BIN)/svsa benchmark
 
 lock: .venv/installed  ## requirements.lock, every package with its hashes, at their newest
 	$(BIN)/uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \

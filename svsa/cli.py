@@ -28,7 +28,7 @@ from svsa.evaluation.ranking.cli import ranking
 from svsa.evaluation.studies.cli import study
 from svsa.evaluation.tuning.cli import tune
 from svsa.hardware.cli import bench_check, bench_home
-from svsa.hardware.emulator.cli import rig
+from svsa.hardware.emulator.cli import emulator
 from svsa.inputs.extras import DISTRIBUTION, list_missing, require_extra
 from svsa.numerics.compilation import is_compiled_before
 from svsa.runs.result.cli import compare
@@ -111,14 +111,14 @@ app.add_typer(falsify, name="falsify")
 app.add_typer(course, name="course")
 app.command("grade")(grade_command)
 app.command("compare")(compare)
-app.command("rig")(rig)
+app.command("emulator")(emulator)
 app.command("identify")(identify)
 app.command("stability")(stability)
 app.command("bench-check")(bench_check)
 app.command("bench-home")(bench_home)
 
 
-@app.command("bench")
+@app.command("benchmark")
 def measure_costs(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     repeats: Annotated[int, typer.Option(min=1, help="How often each is measured.")] = 15,

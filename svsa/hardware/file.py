@@ -135,8 +135,8 @@ class EmulatorSettings(Checked):
     control_port: Whole = quantity("", "Its control port", ge=1, le=65535)
     lockstep: Flag = quantity(
         "",
-        "The rig (`svsa rig --lockstep`) waits for the loop: a busy machine makes both slow, not"
-        " late",
+        "The emulator (`svsa emulator --lockstep`) waits for the loop: a busy machine slows both,"
+        " not late",
         default=False,
     )
 

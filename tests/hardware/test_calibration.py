@@ -136,7 +136,7 @@ def test_signs_are_noted_in_a_record_of_this_bench_only(bench):
 
 
 def test_the_rigs_own_record_fits_its_bench_file():
-    """Else `svsa rig` and the figures through CAN would not arm."""
+    """Else `svsa emulator` and the figures through CAN would not arm."""
     bench = read_bench(RIG_BENCH)
     assert list_problems(bench, find_calibration(bench)) == []
 

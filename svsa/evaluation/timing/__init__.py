@@ -1,1 +1,1 @@
-"""What the loop costs: `svsa bench`."""
+"""What the loop costs: `svsa benchmark`."""

@@ -1,4 +1,4 @@
-"""`svsa bench`: what the loop costs, beside a C loop of the same work in the same minute.
+"""`svsa benchmark`: what the loop costs, beside a C loop of the same work in the same minute.
 
 Times are CPU times, the least of many, ours and C's one after the other in turns, so that only
 their ratio speaks: it is hardly moved by what else the machine does, nor by how fast it is.
@@ -105,7 +105,7 @@ def run_c_lanes(loop: CLoop, run: Run, ticks: int) -> tuple[np.ndarray, np.ndarr
 
 
 def measure(repeats: int = REPEATS) -> dict[str, Any]:
-    """The figures of `svsa bench` but for what compiling and starting cost.
+    """The figures of `svsa benchmark` but for what compiling and starting cost.
 
     What needs the C loop is None where there is none (see `build_c_loop`).
     """

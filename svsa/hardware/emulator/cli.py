@@ -1,4 +1,4 @@
-"""`svsa rig`: the emulated rig as a command."""
+"""`svsa emulator`: the emulated rig as a command."""
 
 import math
 import signal
@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 
-def rig(
+def emulator(
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port of socketcand.")] = 29536,
     control_port: Annotated[
         int, typer.Option(min=0, max=65535, help="Port for loads and faults.")
@@ -78,4 +78,4 @@ def rig(
 
 
 if __name__ == "__main__":
-    typer.run(rig)
+    typer.run(emulator)

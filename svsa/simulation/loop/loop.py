@@ -6,8 +6,19 @@
                        ▲                                     │
                        └────────────────── x ────────────────┘      ──▶ publish
 
+A motor torque has one name at each stage (N·m, at the gearbox output):
+
+    name        set by                     meaning
+    commanded   control law                output of the law
+    limited     limits                     within ± torque_max; the law's output where no limit acts
+    delayed     delay of the loop          limited torque of `delay_samples` ticks ago
+    actual      lag of the current loop    torque that acts on the plant at this moment
+    applied     plant                      mean of the actual torque over the period, for observers
+
+On a bench `sent` is the limited torque after the guard of the drives (`hardware/safety`).
+
 `advance` runs many ticks of it in one compiled call that does not hold the GIL. It is compiled
-once: the law is a compiled function that it is given.
+once: the law is a compiled function that it receives.
 """
 
 import math

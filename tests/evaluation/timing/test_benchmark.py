@@ -1,4 +1,4 @@
-"""What `svsa bench` compares: a C loop that does the same work, and the figures it tells."""
+"""What `svsa benchmark` compares: a C loop that does the same work, and the figures it tells."""
 
 import json
 import shutil
@@ -53,7 +53,7 @@ def test_the_lanes_of_the_c_loop_run_the_same(c_loop: benchmark.CLoop, ours: np.
 
 @pytest.mark.exhaustive
 def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -> None:
-    answer = RUNNER.invoke(app, ["bench", "--json", "--repeats", "1", "--no-start"])
+    answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "1", "--no-start"])
     assert answer.exit_code == 0, answer.output
     costs = json.loads(answer.stdout)
     numbers = (
@@ -95,7 +95,7 @@ def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
     one = {"ideal": svsa.IDEAL}
     monkeypatch.setattr(batch_rates, "EFFECTS", one)  # each is compiled, and not the subject
     monkeypatch.setattr(comparison, "PEERS", {})
-    answer = RUNNER.invoke(app, ["bench", "--json", "--repeats", "1", "--no-start"])
+    answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "1", "--no-start"])
     costs = json.loads(answer.stdout)
     assert costs["ratio_to_c"] is None
     assert costs["batch_ratio_to_c"] is None
@@ -119,11 +119,11 @@ def test_the_ticks_that_are_timed_decide_what_the_run_did(law: str) -> None:
 
 def test_the_command_tells_the_ticks_of_every_law(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bench_tick, "list_law_names", lambda: ("ndobc", "ilc"))
-    answer = RUNNER.invoke(app, ["bench", "--laws", "--json", "--repeats", "1"])
+    answer = RUNNER.invoke(app, ["benchmark", "--laws", "--json", "--repeats", "1"])
     assert answer.exit_code == 0, answer.output
     costs = json.loads(answer.stdout)
     assert list(costs) == ["ndobc", "ilc"]
     for cost in costs.values():
         assert 0.0 < cost["loop_us"] < cost["worst_us"]
         assert cost["median_us"] <= cost["worst_us"]
-    assert "ilc" in RUNNER.invoke(app, ["bench", "--laws", "--repeats", "1"]).stdout
+    assert "ilc" in RUNNER.invoke(app, ["benchmark", "--laws", "--repeats", "1"]).stdout

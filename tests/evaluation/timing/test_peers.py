@@ -1,4 +1,4 @@
-"""The peers of `svsa bench`: the same problem, solved as exactly as here."""
+"""The peers of `svsa benchmark`: the same problem, solved as exactly as here."""
 
 from importlib.util import find_spec
 
