@@ -1,16 +1,19 @@
 """Laws in the paper's bench figures on the emulated rig, several at once."""
 
 import os
+import signal
 from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, wait
+from concurrent.futures import Future, wait
 from itertools import product
+from multiprocessing.managers import SyncManager
 from queue import Queue
+from threading import Event
 
 from svsa.errors import FaultError
 from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
 from svsa.evaluation.ranking.measure import Tell, build_rig_errors
 from svsa.evaluation.ranking.row import RigErrors
-from svsa.evaluation.workers import choose_start
+from svsa.evaluation.workers import choose_start, start_workers
 from svsa.inputs.extras import require_extra
 from svsa.inputs.release import __version__
 from svsa.runs.paper import DURATION_S, get_figure
@@ -57,17 +60,23 @@ def measure_run(number: int, job: Job, tell: TellOf) -> BenchRun:
 
 
 def _measure_side_by_side(jobs: Sequence[Job], workers: int, tell: TellOf) -> tuple[BenchRun, ...]:
-    """In processes of their own, which say through a queue how far they are."""
-    context = choose_start()
-    with context.Manager() as manager, ProcessPoolExecutor(workers, context) as pool:
-        told: Queue[tuple[int, float]] = manager.Queue()
-        asked = [pool.submit(_measure_apart, n, job, told) for n, job in enumerate(jobs)]
+    """In processes of their own, which report their progress through a queue.
+
+    Ctrl-C reaches this process only; the runs end at their next report, and with them their
+    emulators.
+    """
+    manager = SyncManager(ctx=choose_start())
+    manager.start(signal.signal, (signal.SIGINT, signal.SIG_IGN))
+    with manager, start_workers(workers) as pool:
+        told, ends = manager.Queue(), manager.Event()
+        asked = [pool.submit(_measure_apart, n, job, told, ends) for n, job in enumerate(jobs)]
         try:
             while wait(asked, POLL_S).not_done and not any(map(_has_failed, asked)):
                 _pass_on(told, tell)
             _pass_on(told, tell)
             return tuple(one.result() for one in asked)
         finally:
+            ends.set()
             pool.shutdown(cancel_futures=True)
 
 
@@ -80,5 +89,11 @@ def _pass_on(told: Queue[tuple[int, float]], tell: TellOf) -> None:
         tell(*told.get())
 
 
-def _measure_apart(number: int, job: Job, told: Queue[tuple[int, float]]) -> BenchRun:
-    return measure_run(number, job, lambda *share: told.put(share))
+def _measure_apart(number: int, job: Job, told: Queue[tuple[int, float]], ends: Event) -> BenchRun:
+    def tell(number: int, share: float) -> None:
+        if ends.is_set():
+            raise KeyboardInterrupt
+        told.put((number, share))
+
+    tell(number, 0.0)
+    return measure_run(number, job, tell)

@@ -36,8 +36,14 @@ def start_rig(lockstep: bool = True, idle_s: float = 120.0, *options: str) -> It
         "0",
     ]
     command += ["--idle-s", str(idle_s), *options, *(["--lockstep"] if lockstep else [])]
+    # In a session of its own: Ctrl-C reaches who uses the emulator first, and does not end it
+    # under an open bus.
     process = subprocess.Popen(  # noqa: S603
-        command, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
+        command,
+        stdout=subprocess.PIPE,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
     )
     try:
         if process.stdout is None:

@@ -18,7 +18,9 @@ main()
 
 
 @pytest.mark.wall_clock(2.0)
-@pytest.mark.parametrize("command", ["stability --starts 101", "ranking run ndobc --json"])
+@pytest.mark.parametrize(
+    "command", ["stability --starts 101", "ranking run ndobc --json", "ranking bench ndobc --json"]
+)
 def test_ctrl_c_ends_a_command(tmp_path, command):
     with subprocess.Popen(
         [sys.executable, "-c", START, *command.split()],
