@@ -13,7 +13,7 @@ const SENTENCE = /^[A-Z][a-z]+,? [a-zA-Z]/;
 const PATIENCE_MS = 60_000;
 
 const files = import.meta.glob<string>(
-  ["../../src/**/*.{ts,tsx}", "!../../src/text/**", "!../../src/**/*.d.ts"],
+  ["../../../src/**/*.{ts,tsx}", "!../../../src/core/text/**", "!../../../src/**/*.d.ts"],
   { query: "?raw", import: "default", eager: true },
 );
 
