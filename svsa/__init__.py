@@ -55,8 +55,9 @@ from svsa.simulation.reference.sine import (
 from svsa.simulation.reference.steps import StepsPosition, StepsStiffness
 
 if TYPE_CHECKING:
-    from svsa import design, falsify
+    from svsa.analysis import design
     from svsa.client import connect, connect_async
+    from svsa.evaluation import falsifier as falsify
     from svsa.evaluation.tuning.tuner import tune
     from svsa.runs.records.catalogue.runs import Catalogue
     from svsa.runs.result.recorded import export_run, list_runs, open_run, resimulate

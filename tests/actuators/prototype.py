@@ -12,7 +12,7 @@ from svsa.actuators.lever import compute_zero_stiffness_deflection
 from svsa.actuators.signals import CHANNELS, State, Torque
 from svsa.control.laws.feedback_linearization import build_gains
 from svsa.runs.configuration import load_prototype
-from svsa.simulation.plant.effects import build_bench
+from svsa.simulation.plant.effects import build_effect_constants
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.plant.loads import build_load_table
 
@@ -24,7 +24,7 @@ GAINS = build_gains(DESIGN.gains)
 K = PLANT.K
 NO_TORQUE = Torque(0.0, 0.0)
 NO_LOADS = build_load_table(())
-IDEAL_BENCH = build_bench(svsa.IDEAL, 0, DESIGN.actuator, 0.001)
+IDEAL_BENCH = build_effect_constants(svsa.IDEAL, 0, DESIGN.actuator, 0.001)
 
 LEVER_RATIO_RANGE = (0.2861, 0.7904)
 

@@ -11,7 +11,7 @@ from svsa.errors import ParameterError
 from svsa.hardware.emulator.mechanics import GRID_US, Mechanics
 from svsa.hardware.emulator.parameters import RigParameters, read_rig
 from svsa.runs.configuration import load_prototype
-from svsa.simulation.plant.effects import CurrentLag, Effects, Friction, build_bench
+from svsa.simulation.plant.effects import CurrentLag, Effects, Friction, build_effect_constants
 from svsa.simulation.plant.integration import coast, integrate_period
 from svsa.simulation.plant.loads import (
     ConstantLoad,
@@ -33,7 +33,7 @@ FREE = RigParameters(friction=None, current_lag=None)
 def test_coasting_is_so_many_periods_of_the_simulated_plant(count):
     """One compiled call gives the bits that `integrate_period` gives period by period."""
     effects = Effects(friction=Friction(), current_lag=CurrentLag())
-    bench = build_bench(effects, 0, load_prototype().actuator, PERIOD)
+    bench = build_effect_constants(effects, 0, load_prototype().actuator, PERIOD)
     table = build_load_table(
         (schedule_load(1, ConstantLoad(torque_nm=(1.0, 0.0, 0.0)), 5, PERIOD),)
     )

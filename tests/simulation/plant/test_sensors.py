@@ -10,7 +10,7 @@ from numba import njit
 
 import svsa
 from svsa.actuators.signals import State
-from svsa.simulation.plant.effects import Encoders, SensorNoise, build_bench
+from svsa.simulation.plant.effects import Encoders, SensorNoise, build_effect_constants
 from svsa.simulation.plant.noise import draw_normal, draw_uniform
 from svsa.simulation.plant.sensors import add_noise, quantize, read_sensors
 from tests.actuators.prototype import DESIGN, IDEAL_BENCH, drawn
@@ -35,7 +35,7 @@ def numbers(request):
 
 
 def build_noisy_bench(effects, seed=0):
-    return build_bench(effects, seed, DESIGN.actuator, 0.001)
+    return build_effect_constants(effects, seed, DESIGN.actuator, 0.001)
 
 
 def test_an_angle_is_rounded_to_the_nearest_count():
