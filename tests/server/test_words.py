@@ -49,7 +49,7 @@ def test_a_figure_has_its_load_whatever_starts_it() -> None:
 
 def test_who_leaves_the_domain_of_the_model_is_told_what_to_try() -> None:
     """And no word is about a fault that there is not."""
-    file = ROOT / "frontend/web/src/core/text/faults.ts"
+    file = ROOT / "frontend/web/src/core/text/page.ts"
     advised = set(re.findall(r"^  (\w+):$", file.read_text(encoding="utf-8"), re.MULTILINE))
     assert advised >= set(FAULT_CODES.values())
     assert advised <= set(FAULTS)

@@ -1,5 +1,5 @@
 import { Plots } from "../core/plots/plots";
-import { comings } from "../core/state/access";
+import { comings } from "../core/state/control";
 import { phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { FalsifierPage } from "../evaluation/falsifier/page";

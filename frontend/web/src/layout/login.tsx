@@ -1,7 +1,7 @@
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { login } from "../core/api/access";
 import { RefusedError } from "../core/api/errors";
-import { access, comings, learnAccess } from "../core/state/access";
+import { access, comings, learnAccess } from "../core/state/control";
 import { openStream, phase } from "../core/state/session";
 import { text } from "../core/text/en";
 import { StopBanners } from "../lab/safety/stopbanner";

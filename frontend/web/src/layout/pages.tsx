@@ -1,6 +1,6 @@
 import { computed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { isClass, isInstructor } from "../core/state/access";
+import { isClass, isInstructor } from "../core/state/control";
 import { session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { Popup } from "../core/widgets/popup";

@@ -4,7 +4,7 @@ import type { Figure, SessionState, Speed } from "../core/api/types";
 import { perform } from "../core/state/actions";
 import { toggleRun } from "../core/state/commands";
 import { mayCommand, takesCommands } from "../core/state/control";
-import { presetOf } from "../core/state/effects";
+import { presetOf } from "../core/state/plant";
 import { isLive } from "../core/state/session";
 import { text } from "../core/text/en";
 

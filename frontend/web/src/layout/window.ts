@@ -4,7 +4,7 @@ import { RECOVERY_SHARE } from "../core/plots/statistics";
 import { text } from "../core/text/en";
 import { measuredText } from "../core/text/measured";
 import { formatNumber } from "../core/units";
-import { bestOf } from "../core/widgets/best";
+import { bestOf } from "../core/widgets/tables";
 
 const { windows } = text;
 

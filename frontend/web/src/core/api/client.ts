@@ -1,8 +1,7 @@
 /** The public REST API, one function a call. The page has no other door to the server. */
 import { ChangedError, RefusedError, UnansweredError } from "./errors";
-import { client } from "./identity";
 import { learnOutcome } from "./outcome";
-import { API, LONGEST_WAIT_MS, request, sessionName } from "./request";
+import { API, client, LONGEST_WAIT_MS, request, sessionName } from "./request";
 import type {
   Axis,
   Body,

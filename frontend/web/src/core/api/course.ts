@@ -1,5 +1,7 @@
-/** The course: exercises, one's progress in them, runs judged; one function a call. */
-import { request, sessionName } from "./request";
+/** The course: exercises, progress, judged runs and grades. */
+
+import type { Job } from "./jobs";
+import { API, request, sessionName } from "./request";
 import type { components } from "./schema";
 import type { SessionState } from "./types";
 
@@ -45,3 +47,25 @@ export const recordStep = (name: string) =>
 /** The name of a private session of one's own. */
 export const openOwnSession = async () =>
   ((await request("post", "sessions", {}, LONG_WAIT_MS)) as SessionState).session;
+
+// Grades: a class's, for its instructor, and one's own.
+
+export type Grades = Schemas["GradesState"];
+export type Student = Schemas["StudentState"];
+export type Submission = Schemas["GradedSubmissionState"];
+export type Grade = NonNullable<Submission["grade"]>;
+export type Criterion = Grade["criteria"][number];
+
+/** Whether this machine isolates a law is tried before the first answer. */
+
+export const readGrades = () =>
+  request("get", "grades", undefined, LONG_WAIT_MS) as Promise<Grades>;
+export const gradeClass = (again: boolean) => request("post", "grades", { again }) as Promise<Job>;
+export const readOwnGrades = () => request("get", "grades/mine") as Promise<Submission[]>;
+
+const addressOf = (path: string): string => new URL(`grades/${path}`, API).href;
+export const GRADES_CSV = addressOf("class.csv");
+export const GRADES_PAGE = addressOf("class.html");
+export const OWN_PAGE = addressOf("mine.html");
+export const pageOfStudent = (person: string): string =>
+  `${GRADES_PAGE}?person=${encodeURIComponent(person)}`;

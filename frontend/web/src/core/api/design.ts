@@ -1,7 +1,7 @@
-/** Ask the server what gains and observer would do; nothing is changed by it. */
+/** What the server computes in advance for a design or a reference; the session stays unchanged. */
 import { request, sessionName } from "./request";
 import type { components } from "./schema";
-import type { Load, SessionState } from "./types";
+import type { Load, PositionReference, Sent, SessionState, StiffnessReference } from "./types";
 
 type Schemas = components["schemas"];
 
@@ -35,3 +35,15 @@ export const askRegion = (wanted: RegionRequest) =>
 /** A private simulated session with this design, stable or not. */
 export const simulateDesign = (wanted: DesignRequest) =>
   request("post", `${SESSION}/design/simulation`, wanted) as Promise<SessionState>;
+
+// References before they are followed: read from a CSV, and looked at; nothing is changed.
+
+export type Follows = "position" | "stiffness";
+export type Reference = Sent<PositionReference> | Sent<StiffnessReference>;
+export type Preview = Schemas["ReferencePreview"];
+export type Series = Schemas["PositionSeries"] | Schemas["StiffnessSeries"];
+
+export const readSeries = (csv: string) =>
+  request("post", "references/csv", csv) as Promise<Series>;
+export const previewReference = (follows: Follows, reference: Reference) =>
+  request("post", `references/${follows}/preview`, reference) as Promise<Preview>;

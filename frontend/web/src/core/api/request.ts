@@ -1,8 +1,41 @@
-/** One request to the server, and which session the page is about. */
+/** One request to the server, with the id by which the server recognises this tab. */
 import { noteCall } from "./calls";
 import { LockedError, RefusedError, UnansweredError } from "./errors";
-import { client, drawText } from "./identity";
 import type { Method, Refusal } from "./types";
+
+const KEY = "svsa.client";
+
+/** 128 random bits as text. */
+export function drawText(): string {
+  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}
+
+/** What a reload keeps; a tab that was made from this one by duplication finds nothing. */
+function takeKept(): string | null {
+  try {
+    const kept = sessionStorage.getItem(KEY);
+    sessionStorage.removeItem(KEY);
+    return kept;
+  } catch {
+    return null;
+  }
+}
+
+export const client = takeKept() ?? drawText();
+
+window.addEventListener("pagehide", () => {
+  try {
+    sessionStorage.setItem(KEY, client);
+  } catch {
+    // A tab that keeps nothing is another client after a reload.
+  }
+});
+window.addEventListener("pageshow", (event) => {
+  if (event.persisted) takeKept();
+});
+
+// One request to the server, and which session the page is about.
 
 export const API = new URL("api/v1/", document.baseURI);
 const SHARED = "lab";

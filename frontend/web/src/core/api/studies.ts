@@ -1,7 +1,6 @@
 /** Studies and the jobs that work at them, one function a call. */
 import { LockedError, RefusedError, UnansweredError } from "./errors";
-import { client } from "./identity";
-import { API, request } from "./request";
+import { API, client, request } from "./request";
 import type { components } from "./schema";
 import type { Law, Refusal } from "./types";
 

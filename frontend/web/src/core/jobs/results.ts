@@ -1,7 +1,7 @@
 /** What jobs of one kind add to: read where it is looked at, and again when one of them has ended. */
 import { type Signal, signal } from "@preact/signals";
 import type { Job } from "../api/jobs";
-import { attempting, telling } from "../state/attempt";
+import { attempting, telling } from "../state/actions";
 import { followJobs } from "./follow";
 
 export interface Results<T> {

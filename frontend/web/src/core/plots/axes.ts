@@ -1,7 +1,104 @@
-/** The axes of every plot look the same, and stand at the same place. */
+/** The axes of every plot: limits, ticks and look. */
+
 import type uPlot from "uplot";
+import { text } from "../text/en";
+import { formatNumber } from "../units";
 import { palette } from "./palette";
-import { formatTicks, timeStep } from "./ticks";
+import type { Span } from "./spans";
+
+/** The smallest of 1, 2, 2.5, 5 × 10ⁿ that is at least `value`. */
+export function niceStep(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  for (const factor of [1, 2, 2.5, 5]) {
+    if (factor * power >= value * (1 - 1e-9)) return factor * power;
+  }
+  return 10 * power;
+}
+
+/**
+ * Round limits around [low, high], at least `span` wide, with a little air.
+ * Without data (null, or no finite number) the limits are ±span/2.
+ */
+export function niceRange(low: number | null, high: number | null, span: number): [number, number] {
+  if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) {
+    return [-span / 2, span / 2];
+  }
+  const middle = (low + high) / 2;
+  const half = Math.max((high - low) * 0.54, span / 2);
+  const step = niceStep(half / 5);
+  return [
+    Math.floor((middle - half) / step + 1e-9) * step,
+    Math.ceil((middle + half) / step - 1e-9) * step,
+  ];
+}
+
+/** Stretches the limits to a bound that the data come near to. */
+export function includeBounds(
+  low: number,
+  high: number,
+  bounds: readonly number[],
+): [number, number] {
+  const reach = Math.max(Math.abs(low), Math.abs(high));
+  const near = bounds.filter((bound) => reach >= bound * 0.85);
+  if (near.length === 0) return [low, high];
+  const outermost = Math.max(...near) * 1.08;
+  return [Math.min(low, -outermost), Math.max(high, outermost)];
+}
+
+// Where the numbers of an axis stand, and how they are written.
+
+/** Round places on an axis, at most about `most`. */
+export function placeTicks({ from, to }: Span, most: number): number[] {
+  const step = niceStep((to - from) / most);
+  const first = Math.ceil(from / step - 1e-9);
+  const last = Math.floor(to / step + 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);
+}
+
+function tickDecimals(splits: readonly number[]): number {
+  const step = Math.abs((splits[1] ?? 1) - (splits[0] ?? 0));
+  for (let decimals = 0; decimals < 6; decimals++) {
+    if (Math.abs(step - Number(step.toFixed(decimals))) < step * 1e-6) return decimals;
+  }
+  return 6;
+}
+
+export function formatTicks(splits: readonly number[]): string[] {
+  const decimals = tickDecimals(splits);
+  return splits.map((value) => formatNumber(Number(value.toFixed(decimals)), 12, decimals));
+}
+
+/** Steps of a time axis, s. */
+const TIME_STEPS_S = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20];
+const LARGEST_STEP_S = 20;
+/** No digit of the font is wider. */
+const DIGIT_PX = 7;
+const BETWEEN_WORDS_PX = 16;
+const MIN_BETWEEN_PX = 64;
+const MIN_GAP_PX = 6;
+
+/** The step of a time axis so wide, CSS pixels, on which its numbers have room beside each other. */
+export function timeStep({ from, to }: Span, width: number): number {
+  const hasRoom = (step: number) => {
+    const last = Math.floor(to / step);
+    const lengths = [last, last - 1].map((index) => text.plots.timeTick(index * step).length);
+    const words = Math.max(MIN_BETWEEN_PX, Math.max(...lengths) * DIGIT_PX + BETWEEN_WORDS_PX);
+    return (step / (to - from)) * width >= words;
+  };
+  return TIME_STEPS_S.find(hasRoom) ?? LARGEST_STEP_S;
+}
+
+/**
+ * Where words about `x` begin that stay on an axis from 0 to `width`; null where they would come
+ * too near to the next ones, `step` away.
+ */
+export function placeWords(x: number, words: number, width: number, step: number): number | null {
+  const left = Math.max(0, Math.min(x - words / 2, width - words));
+  const shift = Math.abs(left + words / 2 - x);
+  return shift + words + MIN_GAP_PX > step ? null : left;
+}
+
+// The axes of every plot look the same, and stand at the same place.
 
 /** Room left and right of the curves, CSS pixels; also the place of everything laid over the plots. */
 export const LEFT_PX = 50;

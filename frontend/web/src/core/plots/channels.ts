@@ -1,8 +1,9 @@
 /** The server's channels as plots show them: unit, scale, ink, and which belong together. */
 import type { SessionState, StreamedName } from "../api/types";
-import type { DerivedName } from "../stream/derived";
+import type { DerivedName } from "../stream/ring";
+import { text } from "../text/en";
 import { DEGREES_PER_RADIAN } from "../units";
-import type { PlotColour } from "./definitions";
+import type { Bound, PlotColour, Trace } from "./definitions";
 
 /** Every channel of the library, and what the page derives of them. */
 export type ChannelName = Exclude<StreamedName, "time_s"> | DerivedName;
@@ -99,3 +100,23 @@ export const unitOf = (channels: readonly ChannelName[]): string =>
 
 export const spanOf = (channels: readonly ChannelName[]): number =>
   Math.max(...channels.map((name) => CHANNELS[name].span));
+
+// Fixed limits of what a plot shows, as the session has them now.
+
+/** One for each channel with a limit; in its curve's colour where there is one lane. */
+export function boundsOf(traces: readonly Trace[], state: SessionState | null): Bound[] {
+  if (state === null) return [];
+  const isAlone = traces.every((trace) => trace.lane === 1);
+  const limits = new Map<string, Bound>();
+  for (const { channel, colour } of traces) {
+    const name = channel as ChannelName;
+    const value = CHANNELS[name].bound?.(state);
+    if (value === undefined || limits.has(channel)) continue;
+    limits.set(channel, {
+      label: text.plots.limit(text.channelLabels[name]),
+      value: value * CHANNELS[name].factor,
+      colour: isAlone ? colour : "reference",
+    });
+  }
+  return [...limits.values()];
+}

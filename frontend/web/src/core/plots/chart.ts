@@ -1,15 +1,14 @@
 /** One plot over time: uPlot has the scales, the axes and the grid; the strokes are a layer on it. */
 import uPlot from "uplot";
 import { session } from "../state/session";
-import { LEFT_PX, RIGHT_PX, timeGrid, valueAxis } from "./axes";
-import { boundsOf } from "./bounds";
+import { includeBounds, LEFT_PX, niceRange, RIGHT_PX, timeGrid, valueAxis } from "./axes";
+import { boundsOf } from "./channels";
 import { Curve } from "./curves";
 import { extentOf } from "./decimation";
 import type { Bound, Trace } from "./definitions";
 import { drawEventLines } from "./eventlines";
 import { type Frame, StrokeLayer } from "./layer";
 import { drawBeginning, drawBounds, drawCursorSamples } from "./marks";
-import { includeBounds, niceRange } from "./range";
 import type { ChartView } from "./span";
 
 const MARGIN_PX = 6;

@@ -7,8 +7,7 @@ import type { Cast } from "../state/lanes";
 import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
 import { CHANNELS, type ChannelName } from "./channels";
-import type { Trace } from "./definitions";
-import { isWithin } from "./pieces";
+import { isWithin, type Trace } from "./definitions";
 import type { Span } from "./spans";
 
 export interface CsvColumn {

@@ -2,10 +2,9 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
 import { session } from "../state/session";
 import { text } from "../text/en";
-import { closeOnEscape } from "../widgets/escape";
-import { isLoad } from "./eventlines";
+import { closeOnEscape } from "../widgets/panel";
+import { isLoad, nameMarks, type PlacedMark, rankOf } from "./eventlines";
 import { onFrame, shareOf } from "./frame";
-import { nameMarks, type PlacedMark, rankOf } from "./marklabels";
 import { shownRing } from "./span";
 import { StepNumbers } from "./stepnumbers";
 

@@ -1,8 +1,8 @@
 /** The second around the last event, which stands still beside the plots while they go on. */
 import { computed, effect, signal } from "@preact/signals";
 import type { SessionEvent } from "../api/types";
+import { remember, remembered } from "../state/preferences";
 import { samples, selectionCount, session } from "../state/session";
-import { remember, remembered } from "../state/storage";
 import type { SampleRing } from "../stream/ring";
 import { type ChartView, held, shownRing } from "./span";
 import { mayShow, type Span } from "./spans";

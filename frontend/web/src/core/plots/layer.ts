@@ -8,8 +8,26 @@ import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { type Curve, drawSigns, type Place } from "./curves";
 import { palette } from "./palette";
-import { type Piece, piecesOf } from "./roll";
 import type { Span } from "./spans";
+
+/** Columns of the roll, from one up to before another; `shift` is from columns of the plot to them. */
+export interface Piece {
+  from: number;
+  to: number;
+  shift: number;
+}
+
+/**
+ * Where the columns of a plot from `first` on are on a roll as wide as the plot, `start` being where
+ * its column 0 is: up to the end of the roll, then on from its beginning.
+ */
+export function piecesOf(start: number, first: number, width: number): Piece[] {
+  const pieces = [
+    { from: start + first, to: width, shift: start },
+    { from: Math.max(0, start + first - width), to: start, shift: start - width },
+  ];
+  return pieces.filter((piece) => piece.from < piece.to);
+}
 
 /** Everything that the strokes depend on but time. */
 export interface Frame {

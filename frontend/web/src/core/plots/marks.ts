@@ -4,9 +4,8 @@ import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
 import { cursorSamples } from "./cursors";
 import { addSign, type Curve, placeOn } from "./curves";
-import type { Bound } from "./definitions";
+import { type Bound, readPiece } from "./definitions";
 import { palette } from "./palette";
-import { readPiece } from "./pieces";
 import { shownRing } from "./span";
 
 const LABEL_PX = 11;

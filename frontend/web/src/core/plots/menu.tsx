@@ -1,8 +1,8 @@
 import { text } from "../text/en";
 import { Popup } from "../widgets/popup";
-import { ChannelChoice } from "./channelchoice";
 import { CHANNELS_BY_UNIT, type ChannelName, unitOf } from "./channels";
 import type { Trace } from "./definitions";
+import { ChannelChoice } from "./picker";
 import { savePlotCsv, savePng, saveSvg } from "./save";
 import { choosePhase, type PlotSetup, removePlot, toggleChannel } from "./setups";
 

@@ -1,14 +1,12 @@
 /** The phase plane: one channel over another, a curve a lane, of the span that all plots show. */
 import uPlot from "uplot";
 import type { SampleRing, Stretch } from "../stream/ring";
-import { LEFT_PX, otherAxis, RIGHT_PX, valueAxis } from "./axes";
+import { LEFT_PX, niceRange, otherAxis, RIGHT_PX, valueAxis } from "./axes";
 import { cursorSamples } from "./cursors";
 import { addSign, Curve, pathOf, placeOn } from "./curves";
 import { makeRoom } from "./decimation";
-import type { Trace } from "./definitions";
+import { isWithin, samplesOf, type Trace } from "./definitions";
 import { palette } from "./palette";
-import { isWithin, samplesOf } from "./pieces";
-import { niceRange } from "./range";
 import { shownRing, shownSpan } from "./span";
 
 const X_AXIS_PX = 24;

@@ -1,15 +1,13 @@
 /** What the plots show, as files. */
 import { session } from "../state/session";
 import { text } from "../text/en";
-import { boundsOf } from "./bounds";
-import { CHANNELS, type ChannelName, spanOf, unitOf } from "./channels";
+import { includeBounds, niceRange } from "./axes";
+import { boundsOf, CHANNELS, type ChannelName, spanOf, unitOf } from "./channels";
 import { columnsOf, writeCsv } from "./csv";
 import { Curve } from "./curves";
 import { emptyPoints, extentOf, makeRoom } from "./decimation";
-import type { Trace } from "./definitions";
+import { samplesOf, type Trace } from "./definitions";
 import { palette } from "./palette";
-import { samplesOf } from "./pieces";
-import { includeBounds, niceRange } from "./range";
 import { type PlotSetup, setups } from "./setups";
 import { shownCast, shownRing, shownSpan } from "./span";
 import { type Drawing, drawSvg, HEIGHT, WIDTH } from "./svg";

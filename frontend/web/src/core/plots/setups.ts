@@ -1,7 +1,7 @@
 /** Which plots there are and what is in them, as the reader arranged them and the browser keeps them. */
 import { computed, signal } from "@preact/signals";
-import { remember, remembered } from "../state/storage";
-import { sourcesOf } from "../stream/derived";
+import { remember, remembered } from "../state/preferences";
+import { sourcesOf } from "../stream/ring";
 import { CHANNELS, type ChannelName, isChannel } from "./channels";
 
 const EVERY_PRESET = {

@@ -1,6 +1,5 @@
 /** Spans of time, as numbers. */
-import { LONGEST_WINDOW_S } from "../stream/rates";
-import type { SampleRing } from "../stream/ring";
+import { LONGEST_WINDOW_S, type SampleRing } from "../stream/ring";
 
 /** Limits of the time axis, s. */
 export interface Span {

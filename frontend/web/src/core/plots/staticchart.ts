@@ -1,10 +1,10 @@
 /** A plot of curves that stand still: of a recorded run, or of several over one another. */
-import { type ReadonlySignal, signal } from "@preact/signals";
+import { effect, type ReadonlySignal, signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
-import { plainAxis, valueAxis } from "./axes";
+import { niceRange, plainAxis, valueAxis } from "./axes";
 import type { Ink } from "./definitions";
 import { palette } from "./palette";
-import { niceRange } from "./range";
 import type { Span } from "./spans";
 
 const SMALLEST_DRAG_PX = 4;
@@ -146,4 +146,46 @@ function drawnCurve(curve: StaticCurve): uPlot.Series {
     points: { show: false },
     pxAlign: 0,
   };
+}
+
+/**
+ * A static chart in the host whose ref is returned: made anew for another content, which its owner
+ * keeps; `watch` is called with each and returns what ends it.
+ */
+export function useStaticChart(
+  content: StaticContent,
+  hidden: ReadonlySet<string>,
+  watch?: (chart: StaticChart) => () => void,
+) {
+  const host = useRef<HTMLDivElement>(null);
+  const chart = useRef<StaticChart | null>(null);
+  useEffect(() => {
+    const element = host.current;
+    if (element === null) return;
+    const made = new StaticChart(element, content);
+    chart.current = made;
+    const ends = [
+      effect(() => {
+        void content.span.value;
+        made.showSpan();
+      }),
+      effect(() => {
+        void palette.value;
+        made.plot.redraw(false);
+      }),
+      ...(watch ? [watch(made)] : []),
+    ];
+    const observer = new ResizeObserver(() => {
+      made.resize(element.clientWidth, element.clientHeight);
+    });
+    observer.observe(element);
+    return () => {
+      for (const end of ends) end();
+      observer.disconnect();
+      made.plot.destroy();
+      chart.current = null;
+    };
+  }, [content]);
+  useEffect(() => chart.current?.hide(hidden), [content, hidden]);
+  return host;
 }

@@ -1,8 +1,9 @@
 /** A plot as a drawing: the same curves as vectors, to be kept or turned into a picture. */
+
+import { formatTicks, placeTicks } from "./axes";
 import type { Points } from "./decimation";
 import type { Bound, Trace } from "./definitions";
 import type { Palette } from "./palette";
-import { formatTicks, placeTicks } from "./ticks";
 
 export interface DrawnAxis {
   label: string;

@@ -1,11 +1,12 @@
 import { useEffect, useRef } from "preact/hooks";
+import { session } from "../state/session";
 import { text } from "../text/en";
-import { FONT } from "./axes";
+import { FONT, placeWords, timeStep } from "./axes";
+import { hasZoomed, zoomedEvent, zoomedSpan } from "./eventzoom";
 import { onFrame } from "./frame";
 import { palette } from "./palette";
 import { goLive, isHeld, pan, shownRing, shownSpan, showSpan, zoom } from "./span";
 import type { Span } from "./spans";
-import { placeWords, timeStep } from "./ticks";
 
 const PAN_SHARE = 0.1;
 const ZOOM = 1.25;
@@ -109,4 +110,22 @@ export function TimeAxis() {
       <canvas ref={canvas} />
     </div>
   );
+}
+
+/** What the zoom beside the plots is of. */
+export function ZoomTitle() {
+  void session.value;
+  const event = zoomedEvent.value;
+  const words = event && text.zoom.title(event.time_s.toFixed(2), event.label);
+  const told = words === null ? text.zoom.none : hasZoomed() ? words : text.zoom.gone;
+  return (
+    <p class="zoom-title" title={words ?? undefined}>
+      <span>{told}</span>
+    </p>
+  );
+}
+
+/** The axis of time below the zooms. */
+export function ZoomAxis() {
+  return <canvas class="zoom-axis" ref={useTicks(zoomedSpan)} />;
 }

@@ -1,5 +1,5 @@
 /** Every wish of the user goes through `perform`: it sends, takes over the answer, keeps the refusal. */
-import { signal } from "@preact/signals";
+import { type Signal, signal } from "@preact/signals";
 import { expectRevision, lastSet, readState } from "../api/client";
 import {
   ChangedError,
@@ -92,3 +92,33 @@ export async function perform(
     return false;
   }
 }
+
+// A wish whose refusal is told where a page shows it.
+
+type Attempt = <T>(wish: () => Promise<T>) => Promise<T | null>;
+
+/** Makes what asks by the way: null for what was refused, and what was refused before stays told. */
+export const asking =
+  (problem: Signal<string>): Attempt =>
+  async (wish) => {
+    try {
+      return await wish();
+    } catch (error) {
+      problem.value = tell(error);
+      return null;
+    }
+  };
+
+/** Makes what tells why there is no answer, and with null that there is one after all. */
+export const telling = (problem: Signal<string>) => (error: unknown) => {
+  problem.value = error === null ? "" : tell(error);
+};
+
+/** Makes what carries out wishes: null for one that was refused, with its reason alone told. */
+export const attempting = (problem: Signal<string>): Attempt => {
+  const ask = asking(problem);
+  return (wish) => {
+    problem.value = "";
+    return ask(wish);
+  };
+};

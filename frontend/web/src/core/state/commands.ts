@@ -11,8 +11,7 @@ import {
 } from "../api/client";
 import type { Lane, Law, SessionState } from "../api/types";
 import { perform } from "./actions";
-import { comparedWith } from "./beside";
-import { comparisonsOf, gainsOf, lanesBeside } from "./lanes";
+import { comparedWith, comparisonsOf, gainsOf, lanesBeside } from "./lanes";
 import { lawOf } from "./laws";
 import { hungWeights, nextWeight } from "./load";
 import { session } from "./session";

@@ -1,10 +1,31 @@
-/** Who is in control of the session: everybody, this page, or somebody else. */
+/** The access of this page to the lab, and who is in control of the session. */
 import { computed, signal } from "@preact/signals";
+import { type Access, readAccess } from "../api/access";
 import { giveControlBack, handControlOver, lockControl, takeControl } from "../api/client";
-import { access, isInstructor, isObserver } from "./access";
 import { perform } from "./actions";
 import { nameForControl, personName, rememberPerson } from "./preferences";
 import { isLive, session } from "./session";
+
+/** Null before the lab has told it. */
+export const access = signal<Access | null>(null);
+
+/** How often somebody has come in here, by a secret, a code or a token. */
+export const comings = signal(0);
+
+export const isClass = computed(() => access.value?.door === "class");
+export const isInstructor = computed(() => isClass.value && access.value?.role === "instructor");
+export const isObserver = computed(() => isClass.value && access.value?.role === "observer");
+
+/** Asks the lab; what it told before stays where it does not answer. */
+export async function learnAccess(): Promise<void> {
+  try {
+    access.value = await readAccess();
+  } catch {
+    // The stream says that the lab does not answer.
+  }
+}
+
+// Who is in control of the session: everybody, this page, or somebody else.
 
 /** Also the control that shows why it was refused. */
 export const CONTROL_OF_SESSION = "control";

@@ -1,6 +1,7 @@
 /** The lanes of the session: what runs side by side, and under which names. */
-import { computed } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import type { Gains, Lane, LaneRow, Law, SessionState } from "../api/types";
+import { otherLaw } from "./laws";
 import { session } from "./session";
 
 /** The controllers set beside the session's own; a bench's simulated twin is none of them. */
@@ -91,3 +92,22 @@ export const controllerAt = (lane: readonly Stretch[], timeS: number): Stretch |
 
 /** Names of lane 1, 2, … as they are now. */
 export const laneNames = computed(() => cast.value.map((lane) => presentOf(lane)?.name ?? ""));
+
+// What *Compare* switches on: the controllers that stood beside last, or the first other law.
+
+const last = signal<readonly Lane[]>([]);
+
+/** Without what would be the session's own controller a second time. */
+export function comparedWith(state: SessionState): readonly Lane[] {
+  const { law } = state.configuration;
+  const kept = last.value.filter((lane) => lane.law !== law || hasOwnSettings(lane));
+  const other = otherLaw(law);
+  if (kept.length > 0 || other === undefined) return kept;
+  return [{ law: other }];
+}
+
+export const watchBeside = (): (() => void) =>
+  effect(() => {
+    const { value: state } = session;
+    if (state !== null && comparisonsOf(state).length > 0) last.value = comparisonsOf(state);
+  });

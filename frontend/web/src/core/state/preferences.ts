@@ -1,7 +1,22 @@
 /** What this browser remembers: theme, span of the plots, keys, and who sits before it. */
 import { effect, signal } from "@preact/signals";
 import { text } from "../text/en";
-import { remember, remembered } from "./storage";
+
+export function remembered(key: string): string | null {
+  try {
+    return localStorage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+
+export function remember(key: string, value: string): void {
+  try {
+    localStorage.setItem(key, value);
+  } catch {
+    // Nothing is lost but the memory of a choice.
+  }
+}
 
 export const WINDOWS_S = [5, 10, 20, 60] as const;
 export type WindowS = (typeof WINDOWS_S)[number];

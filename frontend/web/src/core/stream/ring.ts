@@ -1,18 +1,46 @@
-/**
- * The newest samples of a session, one column a channel and lane, in arrays that are never
- * reallocated. Which lanes there are, and in which order, `arrange` is told; whose samples a batch
- * has, the batch says, by the ids of the lanes: a lane takes its past along wherever it stands, has
- * no number where it was not there, and goes with its past.
- *
- * Channels that are derived from others stand beside them.
- *
- * Samples that a slow client was not sent are a gap: the first and the last of them stand in their
- * places as samples without numbers, and nothing between them, so that no reader of the ring joins
- * what lies before to what lies after.
- */
+/** The samples that the page requests, derives and keeps. */
+import type { StreamedName } from "../api/types";
 import type { Batch } from "./decoder";
-import { DERIVED, type DerivedName, derivedFrom } from "./derived";
 import { TimeRing } from "./times";
+
+export const RATE_HZ = 200;
+/** Sent at first; the server holds no more. */
+export const HISTORY_S = 20;
+export const LONGEST_WINDOW_S = 60;
+
+// Channels that the page derives from two that are streamed: `of` less `less`, sample by sample.
+
+export const DERIVED = {
+  /** ė = q̇_d − q̇. */
+  velocity_error_rad_per_s: { of: "velocity_reference_rad_per_s", less: "velocity_rad_per_s" },
+} as const satisfies Record<string, { of: StreamedName; less: StreamedName }>;
+
+export type DerivedName = keyof typeof DERIVED;
+const NAMES = Object.keys(DERIVED) as DerivedName[];
+
+/** What can be derived from these channels. */
+export const derivedFrom = (channels: readonly string[]): DerivedName[] =>
+  NAMES.filter(
+    (name) => channels.includes(DERIVED[name].of) && channels.includes(DERIVED[name].less),
+  );
+
+/** The channels to be streamed for a channel: itself, or those it is derived from. */
+export function sourcesOf(channel: string): string[] {
+  if (!Object.hasOwn(DERIVED, channel)) return [channel];
+  const { of, less } = DERIVED[channel as DerivedName];
+  return [of, less];
+}
+
+// The newest samples of a session, one column a channel and lane, in arrays that are never
+// reallocated. Which lanes there are, and in which order, `arrange` is told; whose samples a batch
+// has, the batch says, by the ids of the lanes: a lane takes its past along wherever it stands, has
+// no number where it was not there, and goes with its past.
+//
+// Channels that are derived from others stand beside them.
+//
+// Samples that a slow client was not sent are a gap: the first and the last of them stand in their
+// places as samples without numbers, and nothing between them, so that no reader of the ring joins
+// what lies before to what lies after.
 
 /** A piece of one column where it lies: sample i is at (start + i) mod the columns' length. */
 export interface Stretch {

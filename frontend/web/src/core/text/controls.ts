@@ -147,3 +147,65 @@ export const controlsText = {
     apply: "Apply torque",
   },
 } as const;
+
+/** The laws to choose from, and the controllers that run beside the session's own. */
+export const lawsText = {
+  laws: {
+    choose: "Choose the law that controls",
+    search: "Search laws",
+    presentSign: "✓",
+    found: (count: number) => (count === 1 ? "1 law" : `${count} laws`),
+    none: "No law has these words.",
+    notInstalled: (name: string) => `${name} (not installed)`,
+    broken: (name: string) => `${name} (does not load)`,
+    groups: {
+      none: "Without ŵ: by feedback, an integral or an extended state",
+      observer: "With the observer's estimate ŵ",
+      own: "With an estimate of their own",
+    },
+  },
+  beside: {
+    list: "Beside it",
+    add: "Add",
+    addHint: "Run one more law beside, or the same one with other settings",
+    full: (most: number) => `${most} run already: remove one first.`,
+    law: (name: string) => `Law of ${name}`,
+    lawHint: "Another law for this actuator, from where it is",
+    set: (name: string) => `Settings of ${name}`,
+    setHint: "What it is set to",
+    remove: (name: string) => `Remove ${name}`,
+    own: "own settings",
+    ownHint: "It has settings of its own. ",
+    sharedHint: "Set as the session's. What is changed here becomes its own.",
+    share: "As the session's",
+    poles: (group: string) => `${group} bandwidth, all poles`,
+    apart: (symbol: string) => `The poles lie apart; ${symbol} sets all of them.`,
+  },
+  lawText: {
+    file: "A Python file",
+    text: "Its text, or paste it here",
+    most: (bytes: number) => `At most ${bytes} bytes.`,
+    tooLong: (bytes: number, most: number) => `It has ${bytes} bytes; at most ${most} are taken.`,
+    unreadable: "This file cannot be read as text.",
+  },
+} as const;
+
+/** From an excitation to a model of one's own. */
+export const identificationText = {
+  identification: {
+    title: "Identification",
+    runName: "Identification",
+    explanation:
+      "Plays 32 s of motion, slow and fast, soft and stiff, and records it. Estimate the" +
+      " parameters from that run with",
+    command: "svsa identify RUN --output mine-design.toml",
+    excite: "Excite and record",
+    exciting: (elapsed: string, all: string) => `Exciting: ${elapsed} of ${all}`,
+    stop: "Break off",
+    file: "Parameter file as the model …",
+    fileHint:
+      "Takes the nominal model, in which controller and observer believe from then on, and the" +
+      " parameters of laws. Gains, observer, the true plant and limits stay as they are.",
+    bench: "A bench takes the file at its start: [design] file in the bench file.",
+  },
+} as const;

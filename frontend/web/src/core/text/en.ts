@@ -1,16 +1,13 @@
 /** Every word of the page, by area. */
-
 import { benchText } from "./bench";
 import { classroomText } from "./classroom";
 import { controlText } from "./control";
-import { controlsText } from "./controls";
+import { controlsText, identificationText, lawsText } from "./controls";
 import { designText } from "./design";
 import { falsifierText } from "./falsifier";
 import { gradesText } from "./grades";
-import { identificationText } from "./identification";
 import { jobsText } from "./jobs";
-import { keysText } from "./keys";
-import { lawsText } from "./laws";
+import { keysText, sceneText, scriptText } from "./lab";
 import { leaderboardText } from "./leaderboard";
 import { learningText } from "./learning";
 import { pageText } from "./page";
@@ -18,8 +15,6 @@ import { plotsText } from "./plots";
 import { rankingText } from "./ranking";
 import { realismText } from "./realism";
 import { runsText } from "./runs";
-import { sceneText } from "./scene";
-import { scriptText } from "./script";
 import { stabilityText } from "./stability";
 import { studiesText } from "./studies";
 import { tuningText } from "./tuning";

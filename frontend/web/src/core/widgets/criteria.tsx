@@ -1,5 +1,5 @@
 /** Points by criterion, with what was told of each. */
-import type { Grade } from "../api/grades";
+import type { Grade } from "../api/course";
 import { text } from "../text/en";
 
 const words = text.grades;

@@ -20,7 +20,7 @@ import {
 import type { Law } from "../../core/api/types";
 import { polling } from "../../core/jobs/poll";
 import { isGoing } from "../../core/jobs/progress";
-import { asking, telling } from "../../core/state/attempt";
+import { asking, telling } from "../../core/state/actions";
 import { goTo, place } from "../../runs/list/place";
 
 const PAPERS_LAW = "ndobc";

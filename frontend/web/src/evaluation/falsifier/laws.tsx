@@ -1,11 +1,11 @@
 import type { LawTrace } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
-import { LawBoxes } from "../../core/jobs/lawboxes";
 import type { Ink } from "../../core/plots/definitions";
 import { dotOf } from "../../core/plots/lawinks";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
+import { LawBoxes } from "../../core/widgets/desk";
 import { keepLaws } from "../../runs/list/place";
 import { besideOf, findingOf, isBusy, laws, scenario, see } from "./falsifier";
 import type { DrawnLaw } from "./picture";

@@ -4,8 +4,12 @@ import type { LawTrace, Scenario, Trace } from "../../core/api/falsifications";
 import type { Ink } from "../../core/plots/definitions";
 import { DASHED, DOTTED, PLAIN } from "../../core/plots/inks";
 import { palette } from "../../core/plots/palette";
-import { type StaticContent, type StaticCurve, spanWithin } from "../../core/plots/staticchart";
-import { useStaticChart } from "../../core/plots/usestaticchart";
+import {
+  type StaticContent,
+  type StaticCurve,
+  spanWithin,
+  useStaticChart,
+} from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 import { BODIES } from "./definition";

@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { ScoreKey } from "../../core/widgets/scorebar";
+import { ScoreKey } from "../../core/widgets/tables";
 import { COLUMNS, versionsOf } from "./columns";
 import { LawCard } from "./law";
 import { Radar } from "./radar";

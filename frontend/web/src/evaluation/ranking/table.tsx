@@ -2,8 +2,7 @@ import type { Row } from "../../core/api/ranking";
 import { dotOf } from "../../core/plots/lawinks";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { ScoreBar } from "../../core/widgets/scorebar";
-import { SortHead } from "../../core/widgets/sorthead";
+import { ScoreBar, SortHead } from "../../core/widgets/tables";
 import { barOf, COLUMNS, type Column, formatValue, isBest } from "./columns";
 import { choose, confirmed, inks, measuring, opening, rows, see, sort } from "./ranking";
 

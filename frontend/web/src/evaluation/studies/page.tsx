@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { type Study, tableOf } from "../../core/api/studies";
 import { isGoing, JobProgress } from "../../core/jobs/progress";
-import { isObserver } from "../../core/state/access";
+import { isObserver } from "../../core/state/control";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Desk } from "../../core/widgets/desk";

@@ -1,10 +1,9 @@
 import { useState } from "preact/hooks";
 import { checkStudy, type StudyPlan, type StudyWish } from "../../core/api/studies";
-import { Boxes } from "../../core/jobs/boxes";
-import { LawBoxes } from "../../core/jobs/lawboxes";
 import { tell } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
+import { Boxes, LawBoxes } from "../../core/widgets/desk";
 import { factorOf } from "./look";
 import { nameColumn } from "./names";
 import { begin, isBusy, list, problem } from "./studies";

@@ -20,7 +20,7 @@ import {
 } from "../../core/api/studies";
 import { polling, unlessRefused } from "../../core/jobs/poll";
 import { isGoing } from "../../core/jobs/progress";
-import { asking, telling } from "../../core/state/attempt";
+import { asking, telling } from "../../core/state/actions";
 import { goTo, keepLook, place } from "../../runs/list/place";
 import { type Brushed, chooseAxes, readBrush, writeBrush } from "./look";
 import { NOTHING, type Rows, unpackRows } from "./rows";

@@ -1,6 +1,6 @@
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { PanelButton } from "../../core/widgets/panelbutton";
+import { PanelButton } from "../../core/widgets/panel";
 import { Problem } from "../../core/widgets/problem";
 import { discard, inUse, isOpen } from "./draft";
 import { steps, undo } from "./history";

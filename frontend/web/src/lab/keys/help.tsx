@@ -3,8 +3,7 @@ import { useId } from "preact/hooks";
 import { bench } from "../../core/state/bench";
 import { areKeysOn, chooseKeys } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
-import { Panel } from "../../core/widgets/panel";
-import { PanelButton } from "../../core/widgets/panelbutton";
+import { Panel, PanelButton } from "../../core/widgets/panel";
 import { isHelpOpen } from "./keys";
 
 const { keys } = text;

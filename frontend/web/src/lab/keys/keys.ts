@@ -13,7 +13,7 @@ import {
 } from "../../core/state/commands";
 import { areKeysOn } from "../../core/state/preferences";
 import { isLive, session } from "../../core/state/session";
-import { closeNewest } from "../../core/widgets/escape";
+import { closeNewest } from "../../core/widgets/panel";
 import { canHold, hold, letGo } from "../../hardware/hold";
 import { place, toggleRuns } from "../../runs/list/place";
 import { pressStop } from "../safety/stop";

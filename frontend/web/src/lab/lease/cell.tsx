@@ -1,6 +1,7 @@
-import { isInstructor, isObserver } from "../../core/state/access";
 import {
   control,
+  isInstructor,
+  isObserver,
   leaveControl,
   mayCommand,
   otherHolder,

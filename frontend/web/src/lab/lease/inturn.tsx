@@ -1,6 +1,13 @@
 import type { SessionState } from "../../core/api/types";
-import { access, isInstructor, isObserver } from "../../core/state/access";
-import { control, handOver, leaveControl, wishControl } from "../../core/state/control";
+import {
+  access,
+  control,
+  handOver,
+  isInstructor,
+  isObserver,
+  leaveControl,
+  wishControl,
+} from "../../core/state/control";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
 

@@ -1,8 +1,7 @@
 import { useId } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
-import { comparedWith } from "../../core/state/beside";
 import { addLane, CONTROL, toggleCompare } from "../../core/state/commands";
-import { lanesBeside } from "../../core/state/lanes";
+import { comparedWith, lanesBeside } from "../../core/state/lanes";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/problem";

@@ -4,7 +4,7 @@ import { perform } from "../../core/state/actions";
 import { lawsBeside } from "../../core/state/lanes";
 import { lawOf, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { PanelButton } from "../../core/widgets/panelbutton";
+import { PanelButton } from "../../core/widgets/panel";
 import { Problem } from "../../core/widgets/problem";
 import { isOpen as isTuning } from "../tuning/tuning";
 import { Compare } from "./compare";

@@ -1,4 +1,4 @@
-import type { Preview } from "../../core/api/references";
+import type { Preview } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { drawCourse } from "./shapes";

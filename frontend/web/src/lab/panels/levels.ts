@@ -1,5 +1,5 @@
 /** Steps as a list: a line each, its time in s and its level in degrees or N·m/rad. */
-import type { Follows, Reference } from "../../core/api/references";
+import type { Follows, Reference } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 

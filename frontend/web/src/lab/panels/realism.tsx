@@ -1,7 +1,7 @@
 import { putEffects } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { PRESETS, type Preset, presetOf } from "../../core/state/effects";
+import { PRESETS, type Preset, presetOf } from "../../core/state/plant";
 import { text } from "../../core/text/en";
 import { Choice } from "../../core/widgets/choice";
 import { Problem } from "../../core/widgets/problem";

@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import type { Follows } from "../../core/api/references";
+import type { Follows } from "../../core/api/design";
 import type { PositionReference, StiffnessReference } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { Choice, type Option } from "../../core/widgets/choice";

@@ -6,7 +6,7 @@ import {
   previewReference,
   type Reference,
   readSeries,
-} from "../../core/api/references";
+} from "../../core/api/design";
 import type { PositionReference, Sent, StiffnessReference } from "../../core/api/types";
 import { explain, perform } from "../../core/state/actions";
 import { session } from "../../core/state/session";

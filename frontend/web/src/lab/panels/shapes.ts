@@ -1,5 +1,5 @@
 /** References with a beginning and an end, from the numbers that people type. */
-import type { Follows, Reference } from "../../core/api/references";
+import type { Follows, Reference } from "../../core/api/design";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 
 export const SHAPES = ["steps", "minimum_jerk", "chirp", "series"] as const;

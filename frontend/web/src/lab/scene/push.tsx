@@ -3,7 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { samples } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { closeOnEscape } from "../../core/widgets/escape";
+import { closeOnEscape } from "../../core/widgets/panel";
 import { Problem } from "../../core/widgets/problem";
 import { heldTorque, keepPush } from "./hold";
 import { angleSeen, pullOf } from "./ray";

@@ -1,6 +1,6 @@
 /** The way into viser's page, which shares this page's origin: its camera, and how much it draws. */
 import { effect, signal } from "@preact/signals";
-import { remember, remembered } from "../../core/state/storage";
+import { remember, remembered } from "../../core/state/preferences";
 import { type CameraName, placeCamera, type View } from "./cameras";
 import { type Camera, placeOf } from "./ray";
 

@@ -1,4 +1,4 @@
-import type { Trial } from "../../core/api/tunings";
+import type { Trial } from "../../core/api/jobs";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { type Axis, Curves } from "../design/curves";

@@ -1,5 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
-import { tunedFileOf } from "../../core/api/tunings";
+import { tunedFileOf } from "../../core/api/jobs";
 import { explain } from "../../core/state/actions";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";

@@ -1,4 +1,4 @@
-import type { Trial, Tuning } from "../../core/api/tunings";
+import type { Trial, Tuning } from "../../core/api/jobs";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
 

@@ -8,7 +8,7 @@ import {
   stopTuning,
   type Trial,
   type Tuning,
-} from "../../core/api/tunings";
+} from "../../core/api/jobs";
 import type { Law } from "../../core/api/types";
 import { polling } from "../../core/jobs/poll";
 import { isGoing } from "../../core/jobs/progress";

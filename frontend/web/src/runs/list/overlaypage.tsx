@@ -3,8 +3,12 @@ import uPlot from "uplot";
 import { readDifference } from "../../core/api/runs";
 import type { RunDifference } from "../../core/api/types";
 import { Legend, useHidden } from "../../core/plots/legend";
-import { type StaticContent, spanWithin, wholeOf } from "../../core/plots/staticchart";
-import { useStaticChart } from "../../core/plots/usestaticchart";
+import {
+  type StaticContent,
+  spanWithin,
+  useStaticChart,
+  wholeOf,
+} from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { DifferenceTable } from "./differencetable";
 import { drawBands, drawOutside, drawWorst } from "./drawnverdict";

@@ -2,7 +2,7 @@ import type { Metrics, RunDifference } from "../../core/api/types";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
 import { text } from "../../core/text/en";
 import { formatError, formatNumber, toDegrees } from "../../core/units";
-import { bestOf } from "../../core/widgets/best";
+import { bestOf } from "../../core/widgets/tables";
 import { areOfOneLength, whyUnlike } from "./alike";
 import { describeMeasured } from "./measured";
 import { nameCurve, type Overlaid } from "./overlaid";

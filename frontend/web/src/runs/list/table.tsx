@@ -1,6 +1,6 @@
 import type { RunSummary } from "../../core/api/types";
 import { text } from "../../core/text/en";
-import { SortHead } from "../../core/widgets/sorthead";
+import { SortHead } from "../../core/widgets/tables";
 import { COLUMNS, type Column, NAME_SORT } from "./columns";
 import { ask, sort } from "./list";
 import { RunRow } from "./row";

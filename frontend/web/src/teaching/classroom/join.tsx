@@ -1,6 +1,6 @@
 import { useId, useState } from "preact/hooks";
 import { comeBack, join, login } from "../../core/api/access";
-import { access } from "../../core/state/access";
+import { access } from "../../core/state/control";
 import { LONGEST_NAME, personName, rememberPerson } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { takeCode } from "./joincode";

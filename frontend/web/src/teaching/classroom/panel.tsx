@@ -13,12 +13,11 @@ import {
   renewReturnCode,
   restorePerson,
 } from "../../core/api/access";
-import { access, isClass, isInstructor, learnAccess } from "../../core/state/access";
 import { explain } from "../../core/state/actions";
+import { access, isClass, isInstructor, learnAccess } from "../../core/state/control";
 import { phase } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Panel } from "../../core/widgets/panel";
-import { PanelButton } from "../../core/widgets/panelbutton";
+import { Panel, PanelButton } from "../../core/widgets/panel";
 import { PlaceLink } from "../../runs/list/placelink";
 import { AuditLog } from "./auditlog";
 import { Code } from "./code";

@@ -1,5 +1,5 @@
 import type { ClassState } from "../../core/api/access";
-import { access, isInstructor } from "../../core/state/access";
+import { access, isInstructor } from "../../core/state/control";
 import { text } from "../../core/text/en";
 
 const words = text.classroom;

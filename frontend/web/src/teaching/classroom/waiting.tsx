@@ -1,5 +1,4 @@
-import { isInstructor } from "../../core/state/access";
-import { handOver, lock, queue } from "../../core/state/control";
+import { handOver, isInstructor, lock, queue } from "../../core/state/control";
 import { text } from "../../core/text/en";
 
 const words = text.classroom;

@@ -1,6 +1,6 @@
 /** What was done is submitted. */
 import { useState } from "preact/hooks";
-import { isClass } from "../../core/state/access";
+import { isClass } from "../../core/state/control";
 import { personName } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { PlaceLink } from "../../runs/list/placelink";

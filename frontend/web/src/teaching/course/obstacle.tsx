@@ -1,10 +1,11 @@
 /** What keeps one from beginning a step here, and the ways out. */
 import type { Step } from "../../core/api/course";
 import { isPrivate } from "../../core/api/request";
-import { isInstructor, isObserver } from "../../core/state/access";
 import { bench } from "../../core/state/bench";
 import {
   hasControl,
+  isInstructor,
+  isObserver,
   leaveControl,
   otherHolder,
   queue,

@@ -1,6 +1,6 @@
 /** The grade of what was submitted, once there is one. */
 import { useEffect, useState } from "preact/hooks";
-import { OWN_PAGE, readOwnGrades, type Submission } from "../../core/api/grades";
+import { OWN_PAGE, readOwnGrades, type Submission } from "../../core/api/course";
 import { explain } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";

@@ -1,8 +1,8 @@
 import { signal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { remember, remembered } from "../../core/state/storage";
+import { remember, remembered } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
-import { closeOnEscape } from "../../core/widgets/escape";
+import { closeOnEscape } from "../../core/widgets/panel";
 
 const STORE = "svsa.tour";
 const GAP_PX = 12;

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Exercise, Step } from "../../core/api/course";
-import { Prose } from "../../core/equations/prose";
+import { Prose } from "../../core/equations/formula";
 import { text } from "../../core/text/en";
 import { place } from "../../runs/list/place";
 import { PlaceLink } from "../../runs/list/placelink";

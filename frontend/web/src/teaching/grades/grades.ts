@@ -1,6 +1,6 @@
 /** The grades of a class, what of them is looked at, and the grading that is under way. */
 import { computed, signal } from "@preact/signals";
-import { gradeClass, readGrades, type Student, type Submission } from "../../core/api/grades";
+import { gradeClass, readGrades, type Student, type Submission } from "../../core/api/course";
 import { followResults } from "../../core/jobs/results";
 
 const results = followResults("grading", readGrades);

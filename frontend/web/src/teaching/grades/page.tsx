@@ -5,7 +5,7 @@ import {
   pageOfStudent,
   type Student,
   type Submission,
-} from "../../core/api/grades";
+} from "../../core/api/course";
 import { isGoing, JobProgress } from "../../core/jobs/progress";
 import { text } from "../../core/text/en";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";

@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { isGoing, JobProgress } from "../../core/jobs/progress";
-import { isClass, isObserver } from "../../core/state/access";
+import { isClass, isObserver } from "../../core/state/control";
 import { personName, rememberPerson } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { findFault, LawText } from "../../core/widgets/lawtext";

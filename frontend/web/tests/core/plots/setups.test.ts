@@ -1,10 +1,11 @@
+import "../../browserless";
 import { describe, expect, it } from "vitest";
+import { placeTicks } from "../../../src/core/plots/axes";
 import { CHANNELS_BY_UNIT } from "../../../src/core/plots/channels";
+import { readPiece, samplesOf } from "../../../src/core/plots/definitions";
 import { shareColours } from "../../../src/core/plots/inks";
-import { readPiece, samplesOf } from "../../../src/core/plots/pieces";
 import { readSetups } from "../../../src/core/plots/setups";
 import { drawSvg } from "../../../src/core/plots/svg";
-import { placeTicks } from "../../../src/core/plots/ticks";
 import { composeContent, hasOneValue, tracesOf } from "../../../src/core/plots/traces";
 import type { Cast, Stretch } from "../../../src/core/state/lanes";
 import { SampleRing } from "../../../src/core/stream/ring";

@@ -130,7 +130,7 @@ it("a tuned lane that was removed is brought back, and what it was before that a
 it("the comparison is switched on again with those that stood beside last", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { session } = await import("../../../src/core/state/session");
-  const { watchBeside } = await import("../../../src/core/state/beside");
+  const { watchBeside } = await import("../../../src/core/state/lanes");
   const { toggleCompare } = await import("../../../src/core/state/commands");
   laws.value = [law("ndobc"), law("fl"), law("fl_integral")];
   watchBeside();

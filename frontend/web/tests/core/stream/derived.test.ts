@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Batch } from "../../../src/core/stream/decoder";
-import { sourcesOf } from "../../../src/core/stream/derived";
-import { SampleRing } from "../../../src/core/stream/ring";
+import { SampleRing, sourcesOf } from "../../../src/core/stream/ring";
 
 describe("a channel that is derived", () => {
   const VELOCITIES = ["velocity_reference_rad_per_s", "velocity_rad_per_s"];

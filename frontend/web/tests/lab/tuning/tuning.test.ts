@@ -1,6 +1,6 @@
 import "../../browserless";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { Trial, Tuning } from "../../../src/core/api/tunings";
+import type { Trial, Tuning } from "../../../src/core/api/jobs";
 
 const { ticksUpTo } = await import("../../../src/lab/tuning/costcurve");
 const { applyBest, bestSoFar, isUnderWay, problem, start, trials, tuning } = await import(

@@ -30,7 +30,7 @@ let drawSpark: typeof import("../../../src/runs/list/spark").drawSpark;
 let findWords: typeof import("../../../src/runs/list/found").findWords;
 let excerpt: typeof import("../../../src/runs/list/found").excerpt;
 let formatSetting: typeof import("../../../src/runs/list/difference").formatSetting;
-let nextSort: typeof import("../../../src/core/widgets/sorthead").nextSort;
+let nextSort: typeof import("../../../src/core/widgets/tables").nextSort;
 let followSaved: typeof import("../../../src/runs/list/saved").followSaved;
 let saved: typeof import("../../../src/runs/list/saved").saved;
 
@@ -43,7 +43,7 @@ beforeAll(async () => {
   ({ drawSpark } = await import("../../../src/runs/list/spark"));
   ({ findWords, excerpt } = await import("../../../src/runs/list/found"));
   ({ formatSetting } = await import("../../../src/runs/list/difference"));
-  ({ nextSort } = await import("../../../src/core/widgets/sorthead"));
+  ({ nextSort } = await import("../../../src/core/widgets/tables"));
   ({ followSaved, saved } = await import("../../../src/runs/list/saved"));
 });
 

@@ -1,11 +1,11 @@
 import "../../browserless";
 import { beforeEach, describe, expect, test, vi } from "vitest";
-import type { Grades, Submission } from "../../../src/core/api/grades";
+import type { Grades, Submission } from "../../../src/core/api/course";
 
 const { columns, gradeAll, grades, job, leave, picked, problem, shown, sumOf, ungraded } =
   await import("../../../src/teaching/grades/grades");
 const { formatPoints } = await import("../../../src/core/widgets/criteria");
-const { pageOfStudent } = await import("../../../src/core/api/grades");
+const { pageOfStudent } = await import("../../../src/core/api/course");
 const { readPlace, writePlace } = await import("../../../src/runs/list/place");
 
 const submitted = (exercise: string, points: number | null, why = ""): Submission =>

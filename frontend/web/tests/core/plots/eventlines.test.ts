@@ -1,5 +1,6 @@
+import "../../browserless";
 import { describe, expect, it } from "vitest";
-import { nameMarks, rankOf } from "../../../src/core/plots/marklabels";
+import { nameMarks, rankOf } from "../../../src/core/plots/eventlines";
 
 const mark = (x: number, kind: string, room = 80) => ({ x, room, rank: rankOf(kind) });
 

@@ -1,5 +1,8 @@
-import { describe, expect, it } from "vitest";
-import { shareOfList } from "../../../src/core/plots/share";
+import "../../browserless";
+import { describe, expect, it, vi } from "vitest";
+import { shareOfList } from "../../../src/core/plots/plots";
+
+vi.mock("uplot", () => ({ default: class {} }));
 
 describe("the share of a plot in the list", () => {
   it.each([

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { bestOf } from "../../../src/core/widgets/best";
+import { bestOf } from "../../../src/core/widgets/tables";
 
 describe("bestOf", () => {
   it.each([

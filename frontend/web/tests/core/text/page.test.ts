@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { adviceOn } from "../../../src/core/text/faults";
+import { adviceOn } from "../../../src/core/text/page";
 
 describe("what to try after a fault", () => {
   const values = { deflection_rad: 0.012, motor2_position_rad: 1.09 };

@@ -1,5 +1,8 @@
-import { describe, expect, it } from "vitest";
-import { piecesOf } from "../../../src/core/plots/roll";
+import "../../browserless";
+import { describe, expect, it, vi } from "vitest";
+import { piecesOf } from "../../../src/core/plots/layer";
+
+vi.mock("uplot", () => ({ default: class {} }));
 
 describe("the roll that a plot's strokes are on", () => {
   const WIDTH = 7;

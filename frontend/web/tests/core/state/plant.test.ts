@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Effects } from "../../../src/core/api/types";
-import { EFFECTS, PRESETS, type Preset, presetOf } from "../../../src/core/state/effects";
+import { EFFECTS, PRESETS, type Preset, presetOf } from "../../../src/core/state/plant";
 
 /** What the server makes of a request: what is left out is off. */
 const answer = (request: object): Effects =>

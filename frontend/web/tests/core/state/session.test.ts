@@ -1,6 +1,7 @@
+import "../../browserless";
 import { expect, it } from "vitest";
 import type { SessionState } from "../../../src/core/api/types";
-import { joinPast, type Progress } from "../../../src/core/state/past";
+import { joinPast, type Progress } from "../../../src/core/state/session";
 
 const stretch = (name: string, end_tick: number | null) => ({ name, end_tick });
 const ended = (start_tick: number, end_tick: number) => ({ start_tick, end_tick });

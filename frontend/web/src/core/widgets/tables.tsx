@@ -1,0 +1,100 @@
+/** Parts of tables that several pages show: the best value, sortable heads, bars of scores. */
+import type { ComponentChildren } from "preact";
+
+const CLEARLY = 0.95;
+const NOTHING = 1e-6;
+
+/** Index of the smallest value where it is clearly smaller than every other; else -1. */
+export function bestOf(values: readonly (number | null | undefined)[]): number {
+  const known = values.map((value) => value ?? Number.NaN);
+  const best = known.indexOf(Math.min(...known));
+  if (best < 0 || !Number.isFinite(known[best])) return -1;
+  const limit = Math.max(known[best] as number, NOTHING);
+  const isClear = known.every((value, index) => index === best || limit < CLEARLY * value);
+  return isClear ? best : -1;
+}
+
+// The head of a column that a table can be ordered by: pressed again it orders the other way.
+
+/** An order is the name of a column, with "-" before it where the greatest is first. */
+export function nextSort(now: string, column: string, isDownFirst: boolean): string {
+  if (now.replace(/^-/, "") !== column) return isDownFirst ? `-${column}` : column;
+  return now.startsWith("-") ? column : `-${column}`;
+}
+
+interface SortHeadProps {
+  column: string;
+  sort: string;
+  hint: string | undefined;
+  isDownFirst: boolean | undefined;
+  onSort: (next: string) => void;
+  class?: string;
+  children: ComponentChildren;
+}
+
+export function SortHead({ column, sort, hint, isDownFirst, onSort, ...rest }: SortHeadProps) {
+  const isSorted = sort.replace(/^-/, "") === column;
+  const isDown = sort.startsWith("-");
+  return (
+    <th
+      scope="col"
+      class={rest.class}
+      aria-sort={isSorted ? (isDown ? "descending" : "ascending") : "none"}
+    >
+      <button
+        type="button"
+        title={hint}
+        onClick={() => onSort(nextSort(sort, column, isDownFirst ?? false))}
+      >
+        {rest.children}
+        <span class="sort-sign" aria-hidden="true">
+          {isSorted ? (isDown ? "▼" : "▲") : ""}
+        </span>
+      </button>
+    </th>
+  );
+}
+
+/** What a score is made of: 0.5 robustness + 0.3 draws + 0.2 accuracy. */
+const WEIGHTS = { robustness: 0.5, draws: 0.3, accuracy: 0.2 } as const;
+export type ScorePart = keyof typeof WEIGHTS;
+export const SCORE_PARTS = Object.keys(WEIGHTS) as readonly ScorePart[];
+
+interface ScoreBarProps {
+  parts: Readonly<Record<ScorePart, number>>;
+  /** Ends of its interval. */
+  interval?: { low: number; high: number };
+}
+
+const percent = (share: number) => `${(100 * share).toFixed(2)}%`;
+
+/** A score from 0 to 1 as a bar of its parts, its interval over it. */
+export function ScoreBar({ parts, interval }: ScoreBarProps) {
+  return (
+    <span class="score-bar" aria-hidden="true">
+      {SCORE_PARTS.map((part) => (
+        <i
+          key={part}
+          class={`is-${part}`}
+          style={{ width: percent(WEIGHTS[part] * parts[part]) }}
+        />
+      ))}
+      {interval && (
+        <b style={{ left: percent(interval.low), width: percent(interval.high - interval.low) }} />
+      )}
+    </span>
+  );
+}
+
+/** Which colour of the bar is which part. */
+export function ScoreKey({ names }: { names: Readonly<Record<ScorePart, string>> }) {
+  return (
+    <>
+      {SCORE_PARTS.map((part) => (
+        <span key={part}>
+          <i class={`score-colour is-${part}`} aria-hidden="true" /> {names[part]}
+        </span>
+      ))}
+    </>
+  );
+}
