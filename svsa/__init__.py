@@ -17,7 +17,7 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
 from svsa.evaluation.reproduction import reproduce
 from svsa.inputs.extras import MissingExtraError
-from svsa.inputs.release import __version__ as __version__
+from svsa.inputs.extras import __version__ as __version__
 from svsa.runs import paper
 from svsa.runs.change import Change
 from svsa.runs.configuration import (

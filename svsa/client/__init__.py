@@ -19,12 +19,17 @@ from svsa.inputs.extras import require_extra
 require_extra("client")
 
 from svsa.client.asynchronous import AsyncLab, AsyncRecording, AsyncSession, connect_async
-from svsa.client.authentication import Acted
-from svsa.client.connection import Connection
+from svsa.client.connection import (
+    AccessError,
+    Acted,
+    Connection,
+    ControlError,
+    LabError,
+    LostAnswerError,
+)
 from svsa.client.lab import Lab, connect
 from svsa.client.loads import AppliedLoad, Loads
 from svsa.client.recording import Recording
-from svsa.client.refusals import AccessError, ControlError, LabError, LostAnswerError
 from svsa.client.runs import RemoteRuns
 from svsa.client.session import RemoteBench, RemoteSession
 from svsa.client.stream import Block, BlockStream

@@ -18,7 +18,7 @@ from contextlib import asynccontextmanager
 from typing import Any, Literal, Self, TypedDict, Unpack
 
 from svsa.actuators.parameters import ActuatorParameters
-from svsa.client.authentication import Acted
+from svsa.client.connection import Acted
 from svsa.client.lab import SHARED, Lab, connect
 from svsa.client.loads import AppliedLoad
 from svsa.client.recording import Recording

@@ -7,12 +7,53 @@ asked by that name whether it was carried out; it is sent again only where it ne
 import ssl
 import time
 import uuid
+from dataclasses import dataclass
 from typing import Any, Self
 from urllib.parse import quote
 
 import httpx
 
-from svsa.client.refusals import LabError, LostAnswerError, build_refusal
+from svsa.errors import ParameterError, StateError, SvsaError, Violation
+
+
+class LabError(SvsaError):
+    """A lab that was not reached, or refused for a reason that has no error of its own."""
+
+
+class AccessError(LabError):
+    """The lab does not let this script in; the message says what it asks for."""
+
+
+class ControlError(StateError):
+    """Somebody else is in control of the session; nothing was changed."""
+
+
+class LostAnswerError(LabError):
+    """The answer was lost on the way; the message says what is known of the request."""
+
+
+_BY_KIND: dict[str, type[SvsaError]] = {"not_now": StateError, "held": ControlError}
+_BY_STATUS = {401: AccessError, 403: AccessError}
+
+
+def build_refusal(status: int, told: Any) -> SvsaError:
+    """The error for an answer of this status; told: its body, a problem (RFC 9457) or anything.
+
+    A refused value is a `ParameterError` with name, value, unit and bound, as of `simulate`.
+    """
+    if not isinstance(told, dict):
+        return _BY_STATUS.get(status, LabError)(f"The lab answered {status}.")
+    detail = str(told.get("detail", f"The lab answered {status}."))
+    if violations := told.get("violations"):
+        return ParameterError(*map(_read_violation, violations))
+    _, _, kind = str(told.get("type")).rpartition(":")
+    return _BY_KIND.get(kind, _BY_STATUS.get(status, LabError))(detail)
+
+
+def _read_violation(told: dict[str, Any]) -> Violation:
+    names = ("name", "value", "unit", "bound", "limits", "finding")
+    return Violation(**{name: told[name] for name in names})
+
 
 API = "/api/v1"
 ANSWER_S = 60.0
@@ -148,3 +189,36 @@ def _read_json(answer: httpx.Response) -> Any:
         return answer.json()
     except ValueError:
         return answer.text
+
+
+@dataclass(frozen=True)
+class Acted:
+    """When a command acted: the tick at whose beginning it holds, and its session time."""
+
+    tick: int
+    time_s: float
+
+
+class SessionDoor:
+    """A session by its name. acted: when the last command acted; None before the first."""
+
+    def __init__(self, connection: Connection, name: str) -> None:
+        self.connection, self.name = connection, name
+        self.acted: Acted | None = None
+
+    @property
+    def path(self) -> str:
+        """Its path below `/api/v1`."""
+        return f"/sessions/{self.name}"
+
+    def read_state(self) -> dict[str, Any]:
+        """All that `GET /sessions/{session}` says of it, at this instant."""
+        return self.connection.read(self.path)
+
+    def call(self, method: str, path: str, body: Any = None) -> dict[str, Any]:
+        """A call below its own path that answers with its state; notes when it acted."""
+        state = self.connection.call(method, self.path + path, body, state_at=self.path)
+        past = [event for event in state["events"] if event["tick"] <= state["tick"]]
+        newest = past[-1] if past else state
+        self.acted = Acted(newest["tick"], newest["time_s"])
+        return state

@@ -2,8 +2,7 @@
 
 import time
 
-from svsa.client.authentication import SessionDoor
-from svsa.client.refusals import ControlError
+from svsa.client.connection import ControlError, SessionDoor
 from svsa.errors import ParameterError, Violation
 
 WAIT_S = 0.5

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
-from svsa.client.authentication import SessionDoor
+from svsa.client.connection import SessionDoor
 from svsa.simulation.plant.loads import Load
 
 _LOAD: TypeAdapter[Load] = TypeAdapter(Load)

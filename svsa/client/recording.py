@@ -3,8 +3,7 @@
 import time
 from typing import Self
 
-from svsa.client.authentication import SessionDoor
-from svsa.client.refusals import LabError
+from svsa.client.connection import LabError, SessionDoor
 from svsa.client.runs import RemoteRuns
 from svsa.runs.result.result import Result
 

@@ -7,8 +7,7 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from svsa.actuators.parameters import ActuatorParameters
-from svsa.client.authentication import SessionDoor
-from svsa.client.connection import Connection
+from svsa.client.connection import Connection, SessionDoor
 from svsa.client.loads import Loads
 from svsa.client.motion import MovingDoor
 from svsa.client.recording import Recording

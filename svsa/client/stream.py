@@ -20,8 +20,7 @@ from websockets.exceptions import (
 )
 from websockets.sync import client as synchronous
 
-from svsa.client.connection import API, CONNECT_S, PAUSE_S, Connection
-from svsa.client.refusals import LabError, build_refusal
+from svsa.client.connection import API, CONNECT_S, PAUSE_S, Connection, LabError, build_refusal
 from svsa.errors import ParameterError, Violation
 from svsa.runs.session.frame import unpack_batch
 

@@ -1,10 +1,7 @@
-"""The parts of the package that are installed only where they are wanted.
-
-The base install is the library. What serves the lab, speaks to a bench or draws pictures needs
-the packages of an extra; without them the call that needs one says which.
-"""
+"""Which optional dependencies and which release of the library are installed."""
 
 import sys
+from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from typing import Literal
 
@@ -49,3 +46,9 @@ def require_extra(extra: Extra) -> None:
 
 def _is_there(module: str) -> bool:
     return sys.modules.get(module) is not None or find_spec(module) is not None
+
+
+try:
+    __version__ = version(DISTRIBUTION)
+except PackageNotFoundError:
+    __version__ = "0+uninstalled"

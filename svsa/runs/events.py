@@ -15,7 +15,7 @@ from svsa.runs.command import (
     SetLaws,
 )
 from svsa.runs.configuration import Configuration
-from svsa.runs.fault_labels import label_fault
+from svsa.runs.fault import label_fault
 from svsa.runs.replay import list_loads
 from svsa.simulation.plant.loads import Load, MassLoad, PaperLoad, PushLoad
 

@@ -20,8 +20,7 @@ from svsa_server.access.roles import Person, Role
 from svsa_server.lti.keys import PlatformKeys, open_key
 from svsa_server.lti.launch import Launch, read_launch
 from svsa_server.lti.links import Link, Links
-from svsa_server.lti.logins import Logins
-from svsa_server.lti.platforms import LtiSettings, Platform, read_lti_file
+from svsa_server.lti.platforms import Logins, LtiSettings, Platform, read_lti_file
 from svsa_server.lti.refusal import LaunchError
 
 ANSWER_S = 10.0

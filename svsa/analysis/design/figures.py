@@ -9,9 +9,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure as Picture
 
 from svsa.analysis.design.attraction import build_map
-from svsa.analysis.design.frequency import compute_disturbance_response
 from svsa.analysis.design.report import Report
-from svsa.analysis.design.sampling import find_fastest_observer
+from svsa.analysis.design.sampled_loop import compute_disturbance_response, find_fastest_observer
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration

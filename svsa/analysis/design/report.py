@@ -14,7 +14,7 @@ from svsa.analysis.design.attraction import (
     order_cells,
 )
 from svsa.analysis.design.iss import RAMPS_NM_PER_S, RampRun, simulate_ramp
-from svsa.analysis.design.sampling import find_fastest_observer
+from svsa.analysis.design.sampled_loop import find_fastest_observer
 from svsa.analysis.design.stability import Stability, assess
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law

@@ -1,5 +1,6 @@
-"""The discrete loop, linearised about rest: one tick as a matrix."""
+"""The discrete loop about rest: its poles, its frequency response, its fastest observer."""
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -9,6 +10,8 @@ from svsa.actuators.dynamics import compute_internal_torque
 from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, Positions, State, Torque
 from svsa.analysis.design.differences import differentiate
 from svsa.control.call import build_call, read_estimate
+from svsa.control.installed import get_law
+from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
 from svsa.simulation.loop.lane import Inputs, LaneState
@@ -122,3 +125,80 @@ def _unpack(z: np.ndarray) -> LaneState:
         tuple(values[19 : 19 + queue]),
         z[19 + queue :].copy(),
     )
+
+
+MIN_HZ = 0.1
+POINTS = 120
+_NYQUIST_SHARE = 0.98
+
+
+class FrequencyResponse(NamedTuple):
+    """e/w2 of the sampled loop about rest. frequency: Hz. magnitude: rad per N·m. phase: rad.
+
+    radius: the largest |z| of the loop's poles, 1; where it is not below 1, nothing settles and the
+    numbers have no meaning.
+    """
+
+    frequency: np.ndarray
+    magnitude: np.ndarray
+    phase: np.ndarray
+    radius: float
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether the loop settles."""
+        return self.radius < 1.0
+
+
+def compute_disturbance_response(
+    configuration: Configuration, sigma: float, points: int = POINTS
+) -> FrequencyResponse:
+    """The error q_d − q under w2 = sin ωt, from 0.1 Hz to half the rate of the loop.
+
+        e/w2 = −q/w2 = −C (e^{jωT} I − A)⁻¹ W
+
+    with the tick's A and W (see `SampledLoop`), so that sampling, delay, lag and estimator count.
+    """
+    loop = linearize_tick(configuration, sigma)
+    period = configuration.sampling.period_s
+    frequency = np.geomspace(MIN_HZ, _NYQUIST_SHARE * 0.5 / period, points)
+    shifts = np.exp(2j * math.pi * period * frequency)
+    unit = np.eye(len(loop.A))
+    q = np.array([np.linalg.solve(shift * unit - loop.A, loop.W)[0] for shift in shifts])
+    return FrequencyResponse(frequency, np.abs(q), np.unwrap(np.angle(-q)), loop.radius)
+
+
+SLOWEST_RAD_PER_S, FASTEST_RAD_PER_S = 1.0, 1000.0
+_STRIDE = 1.3
+_CLOSE = 1e-3
+
+
+def find_fastest_observer(configuration: Configuration, sigma: float) -> float | None:
+    """The bandwidth β, rad/s, below which the sampled loop about rest is stable; 0 where none is.
+
+    The same β on all three channels. configuration: with its sampling, delay and estimator (see
+    `choose_sensing`); counts, noise and friction have no part in it. None where it is still
+    stable at `FASTEST_RAD_PER_S`, and for a law that acts on no observer.
+    """
+    if get_law(configuration.law).estimate != "observer":
+        return None
+
+    def is_stable(beta: float) -> bool:
+        observer = ObserverBandwidth(bandwidth_rad_per_s=(beta, beta, beta))
+        return linearize_tick(configuration.changed(observer=observer), sigma).radius < 1.0
+
+    stable, unstable = SLOWEST_RAD_PER_S, SLOWEST_RAD_PER_S
+    while is_stable(unstable):
+        stable = unstable
+        if stable == FASTEST_RAD_PER_S:
+            return None
+        unstable = min(stable * _STRIDE, FASTEST_RAD_PER_S)
+    if unstable == SLOWEST_RAD_PER_S:
+        return 0.0
+    while unstable - stable > _CLOSE * stable:
+        middle = 0.5 * (stable + unstable)
+        if is_stable(middle):
+            stable = middle
+        else:
+            unstable = middle
+    return stable

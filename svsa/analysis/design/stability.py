@@ -14,8 +14,7 @@ from svsa.analysis.design.iss import (
 )
 from svsa.analysis.design.loop_noise import choose_sensing
 from svsa.analysis.design.robustness import StableRange, find_stable_ranges
-from svsa.analysis.design.sampled_loop import linearize_tick
-from svsa.analysis.design.sampling import find_fastest_observer
+from svsa.analysis.design.sampled_loop import find_fastest_observer, linearize_tick
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError, Violation
 from svsa.runs.configuration import Configuration

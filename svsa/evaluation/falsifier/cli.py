@@ -219,7 +219,7 @@ def _tell_found(found: "Falsified") -> None:
 def _build_table(compared: "list[LawOutcome]") -> Table:
     """What came of each law; the metrics of a run in a fault are those until then."""
     from svsa.evaluation.studies.tables import tell_unit, tell_value
-    from svsa.runs.fault_labels import label_fault
+    from svsa.runs.fault import label_fault
 
     names = {
         "peak_position_error_rad": "peak",

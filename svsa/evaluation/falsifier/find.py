@@ -14,7 +14,7 @@ from svsa.evaluation.falsifier.search import Method, search
 from svsa.evaluation.falsifier.shrink import Shrunk, shrink
 from svsa.evaluation.falsifier.wording import tell_outcome, tell_worst
 from svsa.inputs.checked import check_number
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 
 RUNS, MAX_RUNS = 20_000, 1_000_000
 

@@ -9,7 +9,7 @@ import numpy as np
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.find import Falsified
 from svsa.evaluation.falsifier.search import Method
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.runs.records.header import replace_file
 
 SUFFIX = ".search"

@@ -9,7 +9,7 @@ from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.simpler import BODIES, NUMBERS, tell_number
 from svsa.evaluation.studies.outcome import REFUSED
 from svsa.evaluation.studies.tables import tell_metric, tell_unit, tell_value
-from svsa.runs.fault_labels import label_fault
+from svsa.runs.fault import label_fault
 from svsa.simulation.plant.loads import Load
 
 

@@ -29,7 +29,7 @@ from svsa.evaluation.ranking.score import build_parts, compute_score
 from svsa.evaluation.ranking.seeds import PUBLIC_SEED
 from svsa.evaluation.ranking.sweeps import Sweep, build_sweeps
 from svsa.evaluation.reproduction import compute_table_row
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.runs.paper import STEADY_S
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate

@@ -14,8 +14,7 @@ from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
 from svsa.evaluation.ranking.measure import Tell, build_rig_errors
 from svsa.evaluation.ranking.row import RigErrors
 from svsa.evaluation.workers import choose_start, start_workers
-from svsa.inputs.extras import require_extra
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__, require_extra
 from svsa.runs.paper import DURATION_S, get_figure
 
 POLL_S = 0.2

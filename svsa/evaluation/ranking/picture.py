@@ -15,7 +15,7 @@ from svsa.evaluation.ranking.measure import Entry, run_scenario
 from svsa.evaluation.ranking.results import Results
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.scenarios import RIG_4A, SINE_2HZ, UNLOADING, Scenario, build_link_step
-from svsa.runs.fault_labels import label_fault
+from svsa.runs.fault import label_fault
 from svsa.runs.result.law_style import COLORS, style_law
 
 BAD, GOOD, MARKED = "#c0892b", "#0072B2", "#1b2733"

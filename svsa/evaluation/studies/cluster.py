@@ -26,7 +26,7 @@ from svsa.evaluation.studies.store import Span, StoredStudy, StudyError
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import run_part
 from svsa.evaluation.workers import give_way
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 
 LOCAL = "local"
 """In place of a scheduler's address: a cluster of this machine, for as long as the study runs."""

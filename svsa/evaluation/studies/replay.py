@@ -16,13 +16,13 @@ from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
 from svsa.evaluation.studies.success import Success
 from svsa.evaluation.studies.work import ROW
 from svsa.inputs.checked import check_number
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.runs.blocks import build_blocks, compute_start_ratio
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.catalogue.runs import Catalogue, build_run_id
-from svsa.runs.records.fault import write_fault
 from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.outcome import write_fault
 from svsa.runs.records.writer import write_record
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate

@@ -20,8 +20,8 @@ import pyarrow.parquet as pq
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import build_schema, list_repeating
+from svsa.inputs.extras import __version__
 from svsa.inputs.file_lock import try_lock
-from svsa.inputs.release import __version__
 from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.runs.records.header import replace_file
 

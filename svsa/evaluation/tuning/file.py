@@ -7,7 +7,7 @@ import scipy
 
 from svsa.control.installed import has_own_parameters
 from svsa.evaluation.tuning.tuner import Trial, Tuned
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.runs.configuration import format_design
 
 _NOT_TUNED = "as before the tuning"

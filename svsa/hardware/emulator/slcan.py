@@ -12,8 +12,7 @@ import termios
 import tty
 from typing import Any
 
-from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.emulator.outbox import Outbox
+from svsa.hardware.emulator.frame import Frame, Outbox
 
 OK, BELL = b"\r", b"\a"
 MAX_UNREAD_BYTES = 65_536

@@ -18,8 +18,7 @@ import socket
 import time
 from typing import Any
 
-from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.emulator.outbox import Outbox
+from svsa.hardware.emulator.frame import Frame, Outbox
 
 QUIET_S = 0.2
 MAX_UNREAD_BYTES = 65_536

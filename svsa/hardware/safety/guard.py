@@ -12,7 +12,7 @@ from svsa.hardware.safety.heat import HeldBack, HoldingBack, Winding, describe_h
 from svsa.hardware.safety.standstill import NewCounts, Standstill
 from svsa.hardware.safety.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.numerics.packed import pack
-from svsa.runs.fault_labels import label_fault
+from svsa.runs.fault import label_fault
 
 POSITION_MARGIN_RAD = 0.2
 OVERLOAD = 1.05

@@ -1,14 +1,68 @@
-"""What the loop of a bench has told of itself, and what becomes known of it where it is silent."""
+"""What the loop of a bench reports, its latched fault, and its heat as events of the run."""
 
+from collections.abc import Iterable
 from typing import Any
 
 from svsa.errors import Fault
 from svsa.hardware.homing import STEPS, Axis
+from svsa.hardware.realtime.loss import LOSSES
+from svsa.hardware.safety.heat import describe_heat
 from svsa.hardware.safety.machine import MOVING, BenchStatus
-from svsa.hardware.session.fault_latch import FaultLatch
-from svsa.hardware.session.heat_events import HeatEvents
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.runs.session.journal import Journal
+
+
+class FaultLatch:
+    """Holds the first fault until it is cleared.
+
+    The loop's own, where it has one or comes back with one, is the better reason than its loss.
+    """
+
+    def __init__(self) -> None:
+        self.fault: Fault | None = None
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it holds a fault that the loop has told of itself."""
+        return self.fault is not None and self.fault.code not in LOSSES
+
+    def take_own(self, told: Fault | None) -> bool:
+        """What the loop tells of its fault, None for none; whether another is held now."""
+        if told is None:
+            if self.is_own:
+                self.fault = None
+            return False
+        return not self.is_own and self._hold(told)
+
+    def take_loss(self, loss: Fault) -> bool:
+        """The loop is lost; whether another fault is held now. Its words may come to say more."""
+        is_told = self.fault is not None and self.fault.message == loss.message
+        return not (self.is_own or is_told) and self._hold(loss)
+
+    def _hold(self, fault: Fault) -> bool:
+        is_known = self.fault is not None and self.fault.code == fault.code
+        self.fault = fault
+        return not is_known
+
+
+class HeatEvents:
+    """Which motors were held back when it was last told; of a loop that begins, none."""
+
+    def __init__(self) -> None:
+        self._axes: frozenset[str] = frozenset()
+
+    def log(self, axes: Iterable[str], moving: bool, journal: Journal) -> None:
+        """Log what has changed; a bench at rest asks nothing of its motors, so that none ends.
+
+        axes: which are held back now.
+        """
+        held = frozenset(axes)
+        for axis in sorted(held ^ self._axes):
+            is_on = axis in held
+            if is_on or moving:
+                kind = "held_back" if is_on else "held_back_no_more"
+                journal.tell(kind, describe_heat(axis, is_on))
+        self._axes = held
 
 
 class BenchReport:

@@ -14,7 +14,6 @@ import pyarrow.parquet as pq
 from svsa.errors import Fault
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import START_FILE, BenchStart, dump_start
-from svsa.runs.records.fault import FAULT_FILE, dump_fault
 from svsa.runs.records.former_words import translate_command
 from svsa.runs.records.header import (
     COMMANDS_FILE,
@@ -26,8 +25,8 @@ from svsa.runs.records.header import (
     read_header,
     write_header,
 )
+from svsa.runs.records.outcome import EVENTS_FILE, FAULT_FILE, dump_events, dump_fault
 from svsa.runs.records.stream import HEADER_KEY, build_schema, read_stream
-from svsa.runs.records.told import EVENTS_FILE, dump_events
 
 COMMANDS_KEY = b"svsa.commands"
 FAULT_KEY = b"svsa.fault"

@@ -11,7 +11,6 @@ import pyarrow as pa
 from svsa.errors import Fault
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import BenchStart, read_start
-from svsa.runs.records.fault import read_fault
 from svsa.runs.records.header import (
     PARQUET_FILE,
     STREAM_FILE,
@@ -20,6 +19,7 @@ from svsa.runs.records.header import (
     read_header,
 )
 from svsa.runs.records.lock import claim
+from svsa.runs.records.outcome import read_events, read_fault
 from svsa.runs.records.parquet import (
     ROWS_A_GROUP,
     Commands,
@@ -36,7 +36,6 @@ from svsa.runs.records.stream import (
     read_batch,
     read_stream,
 )
-from svsa.runs.records.told import read_events
 
 ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator[pa.RecordBatch]]
 

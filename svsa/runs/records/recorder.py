@@ -17,10 +17,9 @@ import numpy as np
 from svsa.errors import Fault
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import BenchStart, write_start
-from svsa.runs.records.fault import write_fault
 from svsa.runs.records.header import RecordError, RecordHeader
+from svsa.runs.records.outcome import write_events, write_fault
 from svsa.runs.records.parquet import ROWS_A_GROUP, measure_bytes, write_command
-from svsa.runs.records.told import write_events
 from svsa.runs.records.writer import RecordWriter
 
 FLUSH_PERIOD_S = 0.2

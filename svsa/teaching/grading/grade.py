@@ -6,7 +6,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.ranking.seeds import SUITE_VERSION, derive_seed
 from svsa.hardware.session.replay import verify_bench_record
 from svsa.inputs.checked import Checked, Flag, Number, quantity
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.resimulation import compare_with_simulation

@@ -15,7 +15,7 @@ from svsa.control.installed import list_law_names
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.evaluation.ranking.seeds import SUITE_VERSION, derive_seed
 from svsa.inputs.checked import Checked, Flag, quantity
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.runs.records.header import replace_file
 from svsa.teaching.grading.law_runs import run_installed, run_law

@@ -8,8 +8,8 @@ import pytest
 import svsa
 from svsa.analysis.design.attraction import build_map, compute_share, find_fates, order_cells
 from svsa.analysis.design.closed_loop import linearize_loop
-from svsa.analysis.design.frequency import compute_disturbance_response
 from svsa.analysis.design.response import ONSET_S, simulate_load
+from svsa.analysis.design.sampled_loop import compute_disturbance_response
 from svsa.runs.configuration import Configuration
 
 COARSE = 11

@@ -14,8 +14,7 @@ from svsa.analysis.design.iss import (
     simulate_ramp,
 )
 from svsa.analysis.design.robustness import find_stable_ranges
-from svsa.analysis.design.sampled_loop import linearize_tick
-from svsa.analysis.design.sampling import find_fastest_observer
+from svsa.analysis.design.sampled_loop import find_fastest_observer, linearize_tick
 from svsa.analysis.design.stability import assess
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration

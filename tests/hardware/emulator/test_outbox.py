@@ -3,11 +3,9 @@
 import pytest
 
 from svsa.hardware.emulation import ADVANCE_ID, encode_time
-from svsa.hardware.emulator import outbox
 from svsa.hardware.emulator.emulator import Rig
 from svsa.hardware.emulator.exchange import Exchange
-from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.emulator.outbox import FULL_BYTES, Outbox
+from svsa.hardware.emulator.frame import FULL_BYTES, Frame, Outbox
 
 ROOM = 10
 
@@ -60,7 +58,7 @@ def test_a_long_burst_does_not_wait_for_its_end() -> None:
 
 
 def test_who_reads_nothing_for_long_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(outbox, "MAX_BYTES", 15)
+    monkeypatch.setattr("svsa.hardware.emulator.frame.MAX_BYTES", 15)
     kept = Outbox(Pipe(0).write)
     kept.push(b"0123456789")
     kept.flush()

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from svsa.hardware.emulator import outbox
 from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.emulator.slcan import SlcanServer
 
@@ -120,7 +119,7 @@ def test_the_adapter_stamps_frames_where_it_is_asked_to(terminal):
 
 
 def test_an_adapter_that_nobody_reads_closes_and_opens_fresh(terminal, monkeypatch):
-    monkeypatch.setattr(outbox, "MAX_BYTES", 100_000)
+    monkeypatch.setattr("svsa.hardware.emulator.frame.MAX_BYTES", 100_000)
     terminal.ask(b"O\r")
     for _ in range(20_000):
         terminal.server.send(FRAMES[0], 0.0)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from svsa.hardware.emulator import outbox, socketcand
+from svsa.hardware.emulator import socketcand
 from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.emulator.socketcand import SocketcandServer
 
@@ -193,7 +193,7 @@ def test_a_tag_that_never_ends_is_cut_off(server, unit):
 
 
 def test_a_client_that_does_not_read_is_let_go_and_the_others_are_not(server, monkeypatch):
-    monkeypatch.setattr(outbox, "MAX_BYTES", 100_000)
+    monkeypatch.setattr("svsa.hardware.emulator.frame.MAX_BYTES", 100_000)
     deaf, well = Peer(server).enter(), Peer(server).enter()
     for peer in (deaf, well):
         peer.write(b"< send 123 0 >")

@@ -13,7 +13,7 @@ from svsa.hardware.homing import STEPS
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.safety.faults import FAULTS, Alarm
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
-from svsa.runs.fault_labels import FAULT_LABELS
+from svsa.runs.fault import FAULT_LABELS
 from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
 
 BENCH = read_bench(RIG_BENCH)

@@ -3,7 +3,7 @@
 import pytest
 
 from svsa.errors import Fault
-from svsa.hardware.session.fault_latch import FaultLatch
+from svsa.hardware.session.report import FaultLatch
 
 
 def build_fault(code: str, message: str = "") -> Fault:

@@ -10,16 +10,16 @@ from mcap.reader import make_reader
 from scipy.io import loadmat
 
 import svsa
-from svsa.hardware.session.heat_events import HeatEvents
+from svsa.hardware.session.report import HeatEvents
 from svsa.runs.command import build_command
 from svsa.runs.events import Event, list_events
 from svsa.runs.paper import get_figure
 from svsa.runs.records.export.formats import export
 from svsa.runs.records.header import RecordError
+from svsa.runs.records.outcome import EVENTS_FILE
 from svsa.runs.records.parquet import unpack_parquet
 from svsa.runs.records.reader import Record, open_record
 from svsa.runs.records.resimulation import read_origin
-from svsa.runs.records.told import EVENTS_FILE
 from svsa.runs.session.simulated import SimulatedSession
 
 from .records import build_header

@@ -7,11 +7,11 @@ import pytest
 
 import svsa
 from svsa.errors import Fault
-from svsa.runs.fault_labels import label_fault
+from svsa.runs.fault import label_fault
 from svsa.runs.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
-from svsa.runs.records.fault import FAULT_FILE
 from svsa.runs.records.header import RecordError
+from svsa.runs.records.outcome import FAULT_FILE
 from svsa.runs.records.reader import open_record
 from svsa.runs.session.simulated import SimulatedSession
 

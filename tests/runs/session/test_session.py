@@ -6,7 +6,7 @@ import pytest
 import svsa
 from svsa.runs import events
 from svsa.runs.command import ApplyLoad, SetLaw
-from svsa.runs.fault_labels import label_fault
+from svsa.runs.fault import label_fault
 from svsa.runs.session.clock import LONGEST_BACKLOG_S
 
 from .sessions import PULSE, build_session, list_events, read_samples

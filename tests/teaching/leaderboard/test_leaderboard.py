@@ -14,7 +14,7 @@ from svsa.evaluation.ranking.measure import measure_law
 from svsa.evaluation.ranking.scenarios import SINGLE
 from svsa.evaluation.ranking.seeds import PUBLIC_SEED
 from svsa.evaluation.ranking.sweeps import SEED, build_sweeps
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.teaching.grading.law_runs import LawRun, run_installed
 from svsa.teaching.isolation import confinement
 from svsa.teaching.isolation.probe import check_isolation

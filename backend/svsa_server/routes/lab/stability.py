@@ -9,11 +9,14 @@ import numpy as np
 from fastapi import Body, Request
 
 from svsa.analysis.design.attraction import Cell, Fate, build_map, find_fates, order_cells
-from svsa.analysis.design.frequency import FrequencyResponse, compute_disturbance_response
 from svsa.analysis.design.loop_noise import choose_sensing
 from svsa.analysis.design.response import LoadResponse, simulate_load
 from svsa.analysis.design.robustness import MAX_RATIO, MIN_RATIO
-from svsa.analysis.design.sampled_loop import linearize_tick
+from svsa.analysis.design.sampled_loop import (
+    FrequencyResponse,
+    compute_disturbance_response,
+    linearize_tick,
+)
 from svsa.analysis.design.stability import Stability, assess
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from fastapi import Body, Header, Query
 
 from svsa.errors import Fault
-from svsa.runs.fault_labels import label_fault
+from svsa.runs.fault import label_fault
 from svsa.runs.records.catalogue.entry import (
     LONGEST_SEARCH,
     MAX_PAGE_SIZE,

@@ -14,7 +14,7 @@ from typing import IO, Any, NamedTuple
 import msgspec
 from mcap.writer import Writer
 
-from svsa.inputs.release import __version__
+from svsa.inputs.extras import __version__
 from svsa.runs.records.export.mcap_schemas import COMMAND, EVENT, JOINT_STATES, build_sample_schema
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.reader import Record
