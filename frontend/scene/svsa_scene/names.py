@@ -1,9 +1,9 @@
 """Labels of the scene: each at its part, where its line begins.
 
-The page lays them out on the picture, clear of each other (`frontend/web/src/lab/scene/labels.ts`);
-in a viewer without the page they stand at the parts themselves. The names of the parts are hidden
-until a viewer asks: every browser shows them for itself alone (`scene/viewer.ts` knows their
-nodes).
+The page lays them out on the picture, clear of each other
+(`frontend/web/src/lab/scene/labels.tsx`); in a viewer without the page they stand at the parts
+themselves. The names of the parts are hidden until a viewer asks: every browser shows them for
+itself alone (`frontend/web/src/lab/scene/viewer.ts` knows their nodes).
 """
 
 from typing import NamedTuple
