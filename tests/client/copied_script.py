@@ -47,7 +47,7 @@ def write_copied_script(origin: dict, lab: str, folder: Path) -> Path:
     node = shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
     assert node, "Node comes with the build requirements"
     bundler = PAGE / "node_modules" / "rolldown" / "bin" / "cli.mjs"
-    source = PAGE / "src" / "script" / "experiment.ts"
+    source = PAGE / "src" / "lab" / "script" / "experiment.ts"
     bundle = [node, str(bundler), str(source), "--format", "esm", "--dir", str(folder)]
     subprocess.run(bundle, check=True, capture_output=True, timeout=LONGEST_S)
     (folder / "origin.json").write_text(json.dumps(origin), encoding="utf-8")

@@ -113,7 +113,7 @@ def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_no
     told, said, estimated = [], [], []
     for tick in range(TICKS):
         lane = run.lanes[0]
-        y = read_sensors(run.blocks[0].bench, lane.x, tick)
+        y = read_sensors(run.blocks[0].effects, lane.x, tick)
         said.append((y.theta1 + y.phi, y.theta1, y.theta2))
         estimated.append((lane.known.q, lane.known.theta1, lane.known.theta2))
         run.advance(np.empty((1, 1, len(CHANNELS))))

@@ -103,7 +103,7 @@ def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession
     processes, journal = session.loop.processes, session.journal
     assert isinstance(processes, Processes)
     told = [one["kind"] for one in processes.told if isinstance(one, dict) and "kind" in one]
-    assert sorted(told) == ["law", "position", "comparisons"]
+    assert sorted(told) == ["comparisons", "law", "position"]
     assert sorted(command.kind for command in journal.commands) == sorted(told)
     before = len(journal.events)
     session.change(settings[-1])

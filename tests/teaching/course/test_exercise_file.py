@@ -135,7 +135,7 @@ def test_a_wrong_file_is_refused_with_file_line_and_reason(case):
 def test_an_exercise_without_front_matter_or_end_is_refused():
     with pytest.raises(ParameterError, match="TOML between two lines"):
         read("# Only text")
-    with pytest.raises(ParameterError, match="submission, at the end"):
+    with pytest.raises(ParameterError, match="submit, at the end"):
         read(EXERCISE.replace('kind = "submit"', 'kind = "read"'))
 
 
